@@ -47,6 +47,8 @@ def script(source, target):
 
 def macro():
     mesh = GetActiveSource()
+    if not mesh:
+        raise RuntimeError("Select a volume mesh in the Pipeline Browser, and run the macro again.")
     boundary, morph = follow(mesh, Moving="Inside Region", Surroundings="Fade")
     view = GetActiveViewOrCreate("RenderView")
     for source in (morph, OutputPort(morph, "Bad cells")):

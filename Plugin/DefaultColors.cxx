@@ -11,8 +11,8 @@
 void MeshMorphingSetDefaultColors()
 {
   // The file is a list of one preset. ParaView takes an array's default colors from its settings,
-  // which have the same keys under the array's name. The range must not follow the data, and the
-  // colors must not be binned; otherwise the break would not stay at 0.
+  // which have the same keys under the array's name. The range must not follow the data
+  // (see ColorRange.h), and the colors must not be binned, or the break would not stay at 0.
   const std::string list = ScaledJacobianPreset;
   const std::size_t first = list.find('{'), last = list.rfind('}');
   const std::string settings =

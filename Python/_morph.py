@@ -134,13 +134,13 @@ def morph(grid, displaced, method="FEMWARP", *, ids=None, allow_inverted=False, 
         Smoothing or InversionFree.
     ids: n point ids of the grid, 0-based, for an array of displaced points. Other boundary nodes
         stay, unless HoldUnnamedBoundary=False.
-    allow_inverted: return a mesh that has inverted or collapsed cells, or that came only part of
-        the way, in place of raising MorphError.
+    allow_inverted: return a mesh with cells that the morph has inverted or collapsed, or that came
+        only part of the way, in place of raising MorphError.
     options: properties of the method's filter, by their VTK names: Validity="Repair",
         Tolerance=1e-8, NumberOfThreads=1. Text chooses a value by its name.
 
     Returns the morphed mesh, an object of the grid's class, with the cell array ScaledJacobian.
-    Raises MorphError where the morph fails, or leaves inverted cells; TypeError and ValueError for
+    Raises MorphError where the morph fails, or inverts cells; TypeError and ValueError for
     arguments of the wrong kind. What the filter warns of is a MorphWarning.
     """
     if not isinstance(grid, (vtkUnstructuredGrid, vtkDataObjectTree)):
@@ -166,7 +166,7 @@ def morph(grid, displaced, method="FEMWARP", *, ids=None, allow_inverted=False, 
     bad = vtk_to_numpy(cells).copy() if cells else numpy.empty(0, dtype=numpy.int64)
     errors, warned = messages["ErrorEvent"], messages["WarningEvent"]
     has_result = status not in ("Failed", "Cancelled", "None")
-    if not has_result or not (allow_inverted or (status in _VALID and len(bad) == 0)):
+    if not has_result or not (allow_inverted or status in _VALID):
         text = " ".join(errors or warned) or f"{len(bad)} cells are inverted or collapsed."
         raise MorphError(text, status, bad, result)
     for text in errors + warned:

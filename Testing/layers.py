@@ -28,7 +28,7 @@ LIBRARIES = {
     "ParaView": r"(vtkSM([^P]|P[a-z]|PV)|vtkPV|vtkSI|pq)",
     "hypre": r"(HYPRE|_hypre)",
     "nanoflann": r"nanoflann",
-    "netCDF": r"netcdf\.h$",
+    "netCDF": r"netcdf(_mem)?\.h$",
     "zlib": r"zlib\.h$",
     "VTK": r"vtk",
 }

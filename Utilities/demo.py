@@ -9,8 +9,8 @@ Run by Utilities/demo.sh, which builds the plugin first, or by hand (a picture n
 
 Writes into the output directory, for each mesh, <name>_before.vtu and FEMWARP's <name>_after.vtu
 and <name>.pvd, the series over pseudo-time t = 0 ... 1 for ParaView's time controls; and
-bore-femwarp.png. With --picture-each also bore-<method>.png for the other methods. Prints a table
-of quality and times."""
+bore-femwarp.png. With --picture-each also bore-<method>.png for the other methods. Prints tables of
+quality and times: first FEMWARP's, then those of the other methods."""
 
 import argparse
 import os
@@ -150,17 +150,17 @@ def print_rows(model, all_series):
     """Quality at rest, and at t = 1 with the seconds of one step, for each method."""
 
     def row(title, grid, *seconds):
-        first = grid is all_series[0].grids[0]
+        rest = grid is all_series[0].grids[0]
         print(COLUMNS.format(
-            model.cell_name if first else "",
-            f"{grid.GetNumberOfPoints():,}" if first else "",
-            f"{grid.GetNumberOfCells():,}" if first else "",
+            model.cell_name if rest else "",
+            f"{grid.GetNumberOfPoints():,}" if rest else "",
+            f"{grid.GetNumberOfCells():,}" if rest else "",
             title,
             f"{number(grid, 'MinScaledJacobian'):.4f}",
             f"{number(grid, 'MeanScaledJacobian'):.4f}",
             int(number(grid, "InvertedCells")),
             *(f"{value:.4f}" for value in seconds),
-            *([""] * (2 - len(seconds)))))
+            *([""] * (2 - len(seconds)))), flush=True)
 
     row("initial shape", all_series[0].grids[0])
     for series in all_series:
@@ -208,33 +208,42 @@ def main():
     output.mkdir(parents=True, exist_ok=True)
 
     times = [step / arguments.steps for step in range(arguments.steps + 1)]
-    all_panels = {method.file_name: [] for method in METHODS}
-    print_head()
     bore = Models.get("bore")
-    for name, cell_name, make in (
-        ("bore_hex", "Hexahedra", bore.hex_mesh),
-        ("bore_tet", "Tetrahedra", bore.tet_mesh),
-    ):
-        model = Bore(name, cell_name, make())
-        all_series = [morph_series(model, method, times) for method in METHODS]
-        write_series(name, all_series[0], times, output)
-        print_rows(model, all_series)
-        for series in all_series:
-            all_panels[series.method.file_name].extend(panels(model, series))
-    print()
+    models = [Bore("bore_hex", "Hexahedra", bore.hex_mesh()),
+              Bore("bore_tet", "Tetrahedra", bore.tet_mesh())]
 
-    pictured = [] if arguments.no_picture else METHODS if arguments.picture_each else [FEMWARP]
-    for method in pictured:
-        save_picture(
-            output / f"bore-{method.file_name}.png",
-            f"{method.name} morphs the bore from its initial to its final shape "
-            "(front half cut away)",
-            all_panels[method.file_name])
-    print(f"Written to {output}:")
+    def morph(methods):
+        """Morphs both meshes and prints a table; returns the panels of a picture by method."""
+        all_panels = {method.file_name: [] for method in methods}
+        print_head()
+        for model in models:
+            all_series = [morph_series(model, method, times) for method in methods]
+            print_rows(model, all_series)
+            for series in all_series:
+                all_panels[series.method.file_name].extend(panels(model, series))
+                if series.method is FEMWARP:
+                    write_series(model.name, series, times, output)
+        return all_panels
+
+    def picture(method, all_panels):
+        path = output / f"bore-{method.file_name}.png"
+        save_picture(path, f"{method.name} morphs the bore from its initial to its final shape "
+                     "(front half cut away)", all_panels[method.file_name])
+        print(f"\nThe picture: {path}", flush=True)
+
+    first = morph([FEMWARP])
+    if not arguments.no_picture:
+        picture(FEMWARP, first)
+    others = [method for method in METHODS if method is not FEMWARP]
+    all_panels = morph(others)
+    if arguments.picture_each and not arguments.no_picture:
+        for method in others:
+            picture(method, all_panels)
+    print(f"\nWritten to {output}:")
     print("  bore_hex.pvd, bore_tet.pvd          FEMWARP in time: open in ParaView and press play")
     print("  bore_*_before.vtu, bore_*_after.vtu its first and its last mesh")
-    for method in pictured:
-        print(f"  {f'bore-{method.file_name}.png':36}the picture")
+    if not arguments.no_picture:
+        print("  bore-*.png                          pictures")
 
 
 if __name__ == "__main__":

@@ -4,12 +4,16 @@ set -euo pipefail
 
 usage() {
   cat <<END
-Usage: install-packages.sh [--benchmark] [--developer] [--site] [--other-debian]
+Usage: install-packages.sh [--use | --demo] [--solvers] [--benchmark] [--developer] [--site]
+                           [--other-debian]
 Installs the Debian packages that MeshMorphing is built and tested with, as root or through sudo.
 Does nothing where they are all installed. Exits with 77 where the registry does not answer.
+  --use         only what it takes to build and to use it: compiler, ParaView, libraries
+  --demo        that, and what demo.sh needs (Gmsh, Xvfb)
+  --solvers     also OpenFOAM and CalculiX (400 MB), which read and solve what morph-mesh writes
   --benchmark   also what benchmarks need: solvers to compare with (SuiteSparse, OpenBLAS), and
                 xdotool
-  --developer   also what format.sh, lint.sh, same-bits.sh, check-documentation.sh and
+  --developer   also ccache, and what format.sh, lint.sh, check-documentation.sh and
                 design_picture.py need (clang, clang-format, clang-tidy, doxygen, graphviz)
   --site        also what site.sh needs (mkdocs, doxygen)
   --other-debian  also what other-debian.sh needs (mmdebstrap)
@@ -19,43 +23,53 @@ END
 
 # What paraview-dev's CMake files ask for is more than the package itself depends on.
 packages=(
-  cmake g++ ninja-build ccache git dpkg-dev file python3-numpy
+  cmake g++ ninja-build python3-numpy
   paraview paraview-dev python3-paraview libcgal-dev libeigen3-dev libnanoflann-dev
   libutfcpp-dev libopenmpi-dev openmpi-bin libhypre-dev libhdf5-openmpi-dev libhdf5-dev
   libtheora-dev libogg-dev libnetcdf-dev libdouble-conversion-dev libexpat1-dev libfreetype-dev
   libgl2ps-dev libglew-dev libjpeg-dev liblz4-dev liblzma-dev libxml2-dev libpng-dev libtiff-dev
   zlib1g-dev libpython3-dev libgl-dev libx11-dev libxcursor-dev libxt-dev libgdal-dev libavcodec-dev
-  libavformat-dev libavutil-dev libswscale-dev libboost-dev python3-mpi4py
-  libcgns-dev cgns-convert netcdf-bin
-  libgtest-dev gmsh python3-gmsh python3-meshio python3-matplotlib python3-scipy
-  xvfb xauth imagemagick libxtst6)
+  libavformat-dev libavutil-dev libswscale-dev libboost-dev python3-mpi4py libcgns-dev)
+demo=(gmsh python3-gmsh xvfb xauth)
+tests=(git dpkg-dev file gdb cgns-convert netcdf-bin libgtest-dev python3-meshio python3-matplotlib
+  python3-scipy imagemagick libxtst6)
+solvers=(openfoam calculix-ccx)
 release=$(. /etc/os-release && echo "${ID:-} ${VERSION_ID:-${VERSION_CODENAME:-}}")
 qt6=(qt6-base-dev qt6-svg-dev qt6-5compat-dev qt6-tools-dev)
 case "$release" in
   "debian 12")
     packages+=(
-      calculix-ccx openfoam qtbase5-dev qttools5-dev qttools5-dev-tools qtxmlpatterns5-dev-tools
+      qtbase5-dev qttools5-dev qttools5-dev-tools qtxmlpatterns5-dev-tools
       libqt5svg5-dev libqt5opengl5-dev libqt5x11extras5-dev libqt5xmlpatterns5-dev) ;;
-  "debian 13") # It has no CalculiX. xmlpatterns, for the plugin's help pages, ended with Qt 5.
-    packages+=("${qt6[@]}" mount qtxmlpatterns5-dev-tools) ;;
+  "debian 13") # xmlpatterns, for the plugin's help pages, ended with Qt 5.
+    solvers=() # It has no CalculiX.
+    packages+=("${qt6[@]}" qtxmlpatterns5-dev-tools)
+    tests+=(mount) ;;
   *) # The paraview-dev of Debian's unstable suite stands on the system's VTK.
-    packages+=("${qt6[@]}" mount calculix-ccx libvtk9-dev libvtk9-qt-dev xsltproc)
+    solvers=(calculix-ccx)
+    packages+=("${qt6[@]}" libvtk9-dev libvtk9-qt-dev xsltproc)
+    tests+=(mount)
     if [ "${release% *}" != debian ] || [ -n "${release//[!0-9]/}" ]; then
       echo "install-packages.sh: written for Debian, this is '$release'. Going on; package names" \
         "may differ." >&2
     fi ;;
 esac
 
+basis=("${demo[@]}" "${tests[@]}")
 for option in "$@"; do
   case "$option" in
     -h | --help) usage; exit 0 ;;
+    --use) basis=() ;;
+    --demo) basis=("${demo[@]}") ;;
+    --solvers) packages+=(${solvers[@]+"${solvers[@]}"}) ;;
     --benchmark) packages+=(libsuitesparse-dev libopenblas-dev xdotool) ;;
-    --developer) packages+=(clang clang-format clang-tidy doxygen graphviz) ;;
+    --developer) packages+=(ccache clang clang-format clang-tidy doxygen graphviz) ;;
     --site) packages+=(mkdocs doxygen) ;;
     --other-debian) packages+=(mmdebstrap uidmap) ;;
     *) usage >&2; exit 2 ;;
   esac
 done
+packages+=(${basis[@]+"${basis[@]}"})
 
 if ! command -v apt-get > /dev/null; then
   echo "install-packages.sh: no apt-get here. Install what these Debian packages hold:" \

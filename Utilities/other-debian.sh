@@ -5,16 +5,15 @@ here=$(cd "$(dirname "$0")/.." && pwd)
 
 usage() {
   cat <<END
-Usage: other-debian.sh SUITE [test|demo|package|shell|root] [OPTION...]
+Usage: other-debian.sh SUITE [test|demo|package|shell] [OPTION...]
        other-debian.sh SUITE --clean
 Tries MeshMorphing in another Debian (SUITE: trixie or sid) without a machine of its own. Makes a
 root file system in build/SUITE with mmdebstrap, from the registry that this machine uses, copies
 the project's sources into it, and runs there
-  test    Utilities/test.sh (default; without the sanitizers and the Debian package)
+  test    Utilities/test.sh (default)
   demo    Utilities/demo.sh
   package Utilities/package.sh; then the package is installed, tried and removed
   shell   bash, in the copy of the project
-  root    nothing: the packages for test are installed, and that is all
 with the options that follow. The root file system and its builds, some gigabytes, are kept for the
 next run; --clean removes them. Needs root, or mmdebstrap's unshare mode.
 Exits with 77 where the registry does not answer, or where no root file system can be made.
@@ -37,7 +36,7 @@ if [ "${1:-}" = --clean ]; then
 fi
 command=${1:-test}
 if [ $# -gt 0 ]; then shift; fi
-case "$command" in test | demo | package | shell | root) ;; *) usage >&2; exit 2 ;; esac
+case "$command" in test | demo | package | shell) ;; *) usage >&2; exit 2 ;; esac
 unavailable() { echo "other-debian.sh: $suite is not available: $1" >&2; exit 77; }
 
 # The registry of this machine's own Debian holds the other suites too.
@@ -133,7 +132,7 @@ installing() {
 if [ ! -e "$root/etc/debian_version" ]; then make_root; fi
 copy_sources
 case "$command" in
-  test) installing Utilities/test.sh --no-asan --no-package "$@" ;;
+  test) installing Utilities/test.sh "$@" ;;
   demo) installing Utilities/demo.sh "$@" ;;
   package)
     # shellcheck disable=SC2016 # expanded inside
@@ -146,6 +145,5 @@ case "$command" in
       exit "$result"
     ' bash "$@"
     ;;
-  root) installing Utilities/install-packages.sh ;;
   shell) if [ $# -gt 0 ]; then inside "$@"; else inside bash; fi ;;
 esac

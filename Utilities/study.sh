@@ -17,4 +17,4 @@ END
 }
 
 . "$here/run-built.sh"
-run_built "$here/study.py" "$@"
+run_built "" "$here/study.py" "$@"

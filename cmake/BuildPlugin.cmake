@@ -29,3 +29,9 @@ paraview_plugin_build(
   ADD_INSTALL_RPATHS   OFF
   LIBRARY_DESTINATION  "${CMAKE_INSTALL_LIBDIR}"
   LIBRARY_SUBDIRECTORY "${PARAVIEW_PLUGIN_SUBDIR}")
+# ParaView's wrappers of the classes, of which each includes little more than its class.
+foreach (wrappers IN ITEMS vtkMeshMorphingFiltersMorphingCS vtkMeshMorphingFiltersIOCS)
+  if (TARGET ${wrappers})
+    set_target_properties(${wrappers} PROPERTIES UNITY_BUILD "${MESHMORPHING_UNITY_BUILD}")
+  endif ()
+endforeach ()

@@ -51,13 +51,41 @@ AffineParts::AffineParts(const DistributedMesh& mesh, const std::vector<Index>& 
   {
     this->centre_[c] /= std::max(1., this->count_[c]);
   }
-  this->spread_.assign(sums.size(), Eigen::Matrix3d::Zero());
+  std::vector<Eigen::Matrix3d> spread(sums.size(), Eigen::Matrix3d::Zero());
   for (const Coupled& pair : this->coupled_)
   {
     const Eigen::RowVector3d arm = rest.row(prescribed[pair.node]) - this->centre_[pair.component];
-    this->spread_[pair.component] += arm.transpose() * arm;
+    spread[pair.component] += arm.transpose() * arm;
   }
-  sumAll(mesh.ranks(), this->spread_);
+  sumAll(mesh.ranks(), spread);
+  std::vector<PrincipalDirections> directions;
+  for (std::size_t c = 0; c < spread.size(); ++c)
+  {
+    directions.emplace_back(spread[c], this->count_[c]);
+  }
+  // Of each component, the largest leverages of its coupled nodes, and those of its rows.
+  std::vector<double> largest(6 * spread.size(), 0);
+  const auto add = [&](Index node, Index c, Index first)
+  {
+    Eigen::Map<Eigen::RowVector3d> most(largest.data() + 6 * c + first);
+    most = most.cwiseMax(directions[c].leverages(rest.row(node) - this->centre_[c]));
+  };
+  for (const Coupled& pair : this->coupled_)
+  {
+    add(prescribed[pair.node], pair.component, 0);
+  }
+  for (std::size_t i = 0; i < rows.size(); ++i)
+  {
+    add(rows[i], this->ofRow_[i], 3);
+  }
+  mesh.ranks().maximum(largest.data(), largest.size());
+  for (std::size_t c = 0; c < spread.size(); ++c)
+  {
+    const Eigen::Map<const Eigen::RowVector3d> within(largest.data() + 6 * c),
+      reach(within.data() + 3);
+    directions[c].limit(within, reach);
+    this->inverse_.push_back(directions[c].inverse());
+  }
 }
 
 /// Numbers the components: the label of one is the minimum id of its nodes.
@@ -210,7 +238,7 @@ std::vector<AffineFit> AffineParts::fits(
   std::vector<AffineFit> result;
   for (std::size_t c = 0; c < mean.size(); ++c)
   {
-    result.emplace_back(this->centre_[c], mean[c], this->spread_[c], stretch[c]);
+    result.emplace_back(this->centre_[c], mean[c], this->inverse_[c], stretch[c]);
   }
   return result;
 }
@@ -227,11 +255,9 @@ void AffineParts::addTranspose(
   }
   sumAll(mesh.ranks(), force);
   sumAll(mesh.ranks(), moment);
-  // The pseudo-inverse of the spread times the moment is the gradient of a fit to it.
   for (std::size_t c = 0; c < moment.size(); ++c)
   {
-    moment[c] = AffineFit(this->centre_[c], Eigen::RowVector3d::Zero(), this->spread_[c], moment[c])
-                  .gradient();
+    moment[c] = this->inverse_[c] * moment[c];
   }
   for (const Coupled& pair : this->coupled_)
   {

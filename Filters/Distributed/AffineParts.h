@@ -63,6 +63,6 @@ private:
   std::vector<Coupled> coupled_;
   std::vector<double> count_; ///< of coupled nodes, for each component
   std::vector<Eigen::RowVector3d> centre_;
-  std::vector<Eigen::Matrix3d> spread_;
+  std::vector<Eigen::Matrix3d> inverse_; ///< see PrincipalDirections
 };
 }

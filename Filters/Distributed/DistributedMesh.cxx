@@ -5,6 +5,7 @@
 #include "Mesh/FacesOfCells.h"
 #include "Mesh/Polyhedra.h"
 #include "Mesh/ShapeVolumes.h"
+#include "Mesh/SharedCorners.h"
 #include "Support/Error.h"
 
 #include <algorithm>
@@ -465,7 +466,17 @@ void DistributedMesh::findBodies(Monitor& monitor)
 void DistributedMesh::findOuter(Monitor& monitor)
 {
   BoundaryFaces all;
-  this->ranks_->together([&] { all = boundaryFaces(this->mesh_, monitor); });
+  this->ranks_->together(
+    [&]
+    {
+      all = boundaryFaces(this->mesh_, monitor);
+      this->repeated_ = morph::repeatedCells(this->mesh_, monitor);
+      this->touching_ = morph::touchingNodes(this->mesh_, all);
+    });
+  const auto keepOwn = [](std::vector<Index>& ids, const auto& isOther)
+  { ids.erase(std::remove_if(ids.begin(), ids.end(), isOther), ids.end()); };
+  keepOwn(this->repeated_, [this](Index cell) { return this->isGhost_[cell] != 0; });
+  keepOwn(this->touching_, [this](Index node) { return !this->owns(node); });
   std::vector<std::uint8_t> isOwn(this->isGhost_.size());
   std::transform(this->isGhost_.begin(), this->isGhost_.end(), isOwn.begin(),
     [](std::uint8_t ghost) { return ghost == 0; });

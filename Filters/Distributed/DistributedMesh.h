@@ -74,6 +74,12 @@ public:
   /// The nodes of this rank's cells that lie on the outer boundary of the whole mesh, with
   /// `between`; its faces are not those.
   const BoundaryFaces& outerNodes() const { return this->outerNodes_; }
+  /// This rank's cells that are there twice in the whole mesh, and its nodes where bodies touch, by
+  /// local numbers; see SharedCorners.h.
+  ///@{
+  const std::vector<Index>& repeatedCells() const { return this->repeated_; }
+  const std::vector<Index>& touchingNodes() const { return this->touching_; }
+  ///@}
   /// The diagonal of the bounding box of the nodes that volume cells use.
   double size() const { return this->size_; }
   /// Volume cells of all ranks.
@@ -104,6 +110,7 @@ private:
   std::vector<std::int8_t> orientation_;
   Index mirrored_ = 0;
   BoundaryFaces outerFaces_, outerNodes_;
+  std::vector<Index> repeated_, touching_;
   double size_ = 0;
   Index volumeCells_ = 0;
   std::size_t bytesSent_ = 0;

@@ -198,7 +198,11 @@ struct HypreSolver::Handles
   }
 };
 
-HypreSolver::HypreSolver() = default;
+HypreSolver::HypreSolver(const Ranks& ranks, Kind kind)
+  : ranks_(ranks)
+  , kind_(kind)
+{
+}
 HypreSolver::~HypreSolver() = default;
 
 std::int64_t HypreSolver::mostUnknowns()
@@ -218,10 +222,11 @@ std::int64_t HypreSolver::countUnknowns(const Ranks& ranks, std::int64_t rows)
   return unknowns;
 }
 
-void HypreSolver::prepare(const Ranks& ranks, Kind kind, const CsrMatrix& own,
-  const CsrMatrix& ghosts, const std::vector<std::int64_t>& ghostNumbers)
+void HypreSolver::prepare(LinearEquations&& equations, Monitor&)
 {
   startHypre();
+  const Ranks& ranks = this->ranks_;
+  const CsrMatrix &own = equations.matrix, &ghosts = equations.ghosts;
   const Index rows = own.rows();
   this->rows_ = rows;
   this->first_ = ranks.sumBefore(rows);
@@ -232,7 +237,7 @@ void HypreSolver::prepare(const Ranks& ranks, Kind kind, const CsrMatrix& own,
     return;
   }
   Handles& handles = *this->handles_;
-  handles.kind = kind;
+  handles.kind = this->kind_;
   const auto first = static_cast<HYPRE_BigInt>(this->first_);
   const auto last = static_cast<HYPRE_BigInt>(this->first_ + rows - 1);
   HYPRE_IJMatrixCreate(ranks.communicator(), first, last, first, last, &handles.ij);
@@ -258,7 +263,7 @@ void HypreSolver::prepare(const Ranks& ranks, Kind kind, const CsrMatrix& own,
     }
     for (CsrMatrix::InnerIterator entry(ghosts, i); entry; ++entry)
     {
-      columns.push_back(static_cast<HYPRE_BigInt>(ghostNumbers[entry.col()]));
+      columns.push_back(static_cast<HYPRE_BigInt>(equations.ghostNumbers[entry.col()]));
       values.push_back(entry.value());
     }
     HYPRE_Int size = static_cast<HYPRE_Int>(columns.size());
@@ -281,8 +286,9 @@ void HypreSolver::prepare(const Ranks& ranks, Kind kind, const CsrMatrix& own,
 }
 
 SolveReport HypreSolver::solve(
-  const Ranks& ranks, const Points& rhs, Points& x, double tolerance, int maxIterations) const
+  const Points& rhs, Points& x, double tolerance, int maxIterations, Monitor&) const
 {
+  const Ranks& ranks = this->ranks_;
   SolveReport report;
   if (this->unknowns_ == 0)
   {
@@ -327,16 +333,16 @@ SolveReport HypreSolver::solve(
 }
 
 template <typename Action>
-Points HypreSolver::byColumns(const Ranks& ranks, const Points& columns, const Action& action) const
+void HypreSolver::byColumns(const Points& columns, Points& results, const Action& action) const
 {
-  Points result = Points::Zero(columns.rows(), 3);
+  const Index rows = columns.rows();
+  results.setZero(rows, 3);
   if (this->unknowns_ == 0)
   {
-    return result;
+    return;
   }
-  const Index rows = columns.rows();
-  Vector from(ranks.communicator(), this->first_, rows),
-    to(ranks.communicator(), this->first_, rows);
+  const MPI_Comm communicator = this->ranks_.communicator();
+  Vector from(communicator, this->first_, rows), to(communicator, this->first_, rows);
   std::vector<double> column(rows);
   for (int j = 0; j < 3; ++j)
   {
@@ -348,36 +354,36 @@ Points HypreSolver::byColumns(const Ranks& ranks, const Points& columns, const A
     action(pFrom, pTo);
     this->seconds_.solve += secondsSince(start);
     to.get(column);
-    result.col(j) = Eigen::Map<const Eigen::VectorXd>(column.data(), rows);
+    results.col(j) = Eigen::Map<const Eigen::VectorXd>(column.data(), rows);
   }
-  return result;
 }
 
-Points HypreSolver::product(const Ranks& ranks, const Points& x) const
+void HypreSolver::product(const Points& from, Points& to, Monitor&) const
 {
-  return this->byColumns(ranks, x,
-    [this](HYPRE_ParVector from, HYPRE_ParVector to)
-    { HYPRE_ParCSRMatrixMatvec(1, this->handles_->matrix, from, 0, to); });
+  this->byColumns(from, to,
+    [this](HYPRE_ParVector x, HYPRE_ParVector y)
+    { HYPRE_ParCSRMatrixMatvec(1, this->handles_->matrix, x, 0, y); });
 }
 
-Points HypreSolver::precondition(const Ranks& ranks, const Points& residual) const
+void HypreSolver::precondition(const Points& from, Points& to, Monitor&) const
 {
-  return this->byColumns(ranks, residual,
-    [this](HYPRE_ParVector from, HYPRE_ParVector to)
+  this->byColumns(from, to,
+    [this](HYPRE_ParVector x, HYPRE_ParVector y)
     {
-      HYPRE_BoomerAMGSolve(this->handles_->multigrid, this->handles_->matrix, from, to);
+      HYPRE_BoomerAMGSolve(this->handles_->multigrid, this->handles_->matrix, x, y);
       HYPRE_ClearAllErrors(); // one cycle does not converge
     });
 }
 
-std::unique_ptr<HypreSolver> HypreSolver::transposed(const Ranks& ranks) const
+std::unique_ptr<HypreSolver> HypreSolver::transposed(Monitor& monitor) const
 {
+  const Ranks& ranks = this->ranks_;
   struct Entry
   {
     std::int64_t row, column;
     double value;
   };
-  auto result = std::make_unique<HypreSolver>();
+  auto result = std::make_unique<HypreSolver>(ranks, Kind::General);
   const Index rows = this->rows_;
   // The first row of each rank, which says whose a column is.
   const std::vector<std::int64_t> first = ranks.gather(std::vector<std::int64_t>{ this->first_ });
@@ -432,10 +438,11 @@ std::unique_ptr<HypreSolver> HypreSolver::transposed(const Ranks& ranks) const
       }
     }
   }
-  CsrMatrix matrix(rows, rows), outside(rows, static_cast<Index>(ghosts.size()));
-  matrix.setFromTriplets(own.begin(), own.end());
-  outside.setFromTriplets(others.begin(), others.end());
-  result->prepare(ranks, Kind::General, matrix, outside, ghosts);
+  LinearEquations equations = { CsrMatrix(rows, rows), {},
+    CsrMatrix(rows, static_cast<Index>(ghosts.size())), ghosts };
+  equations.matrix.setFromTriplets(own.begin(), own.end());
+  equations.ghosts.setFromTriplets(others.begin(), others.end());
+  result->prepare(std::move(equations), monitor);
   return result;
 }
 }

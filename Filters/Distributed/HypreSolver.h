@@ -3,8 +3,7 @@
 
 #include "Distributed/Ranks.h"
 
-#include "Solvers/CsrMatrix.h"
-#include "Solvers/SolveReport.h"
+#include "Solvers/LinearSolver.h"
 
 #include <cstdint>
 #include <memory>
@@ -15,7 +14,7 @@ namespace morph::distributed
 /// Solves A X = B with rows distributed over ranks, by hypre: conjugate gradients for a symmetric
 /// positive definite matrix, BiCGSTAB for any other, both preconditioned by one V-cycle of
 /// BoomerAMG. Source: Henson and Yang, Applied Numerical Mathematics 41 (2002) 155-177.
-class HypreSolver
+class HypreSolver : public LinearSolver
 {
 public:
   enum class Kind
@@ -24,30 +23,24 @@ public:
     General
   };
 
-  HypreSolver();
-  ~HypreSolver();
+  /// `ranks` must outlive this object.
+  HypreSolver(const Ranks& ranks, Kind kind);
+  ~HypreSolver() override;
 
-  /// Copies the matrix and sets up the preconditioner. `own`: #rows x #rows, the columns of this
-  /// rank's unknowns; `ghosts`: #rows x #ghosts, those of other ranks' unknowns, whose global
-  /// numbers are `ghostNumbers`. The rows of all ranks are numbered rank by rank. Throws Error on
-  /// all ranks where there are more unknowns than hypre's integers hold. Collective.
-  void prepare(const Ranks& ranks, Kind kind, const CsrMatrix& own, const CsrMatrix& ghosts,
-    const std::vector<std::int64_t>& ghostNumbers);
-
-  /// Solves for three right-hand sides, #rows x 3, from the guess `x`, until each residual is below
-  /// `tolerance` times |b| (Euclidean norms). Throws Error on all ranks where `maxIterations` are
-  /// too few. A right-hand side of zeros gives zeros. Collective.
-  SolveReport solve(
-    const Ranks& ranks, const Points& rhs, Points& x, double tolerance, int maxIterations) const;
-
-  /// Returns A x, #rows x 3. Collective.
-  Points product(const Ranks& ranks, const Points& x) const;
-  /// Returns what one V-cycle makes of each column of residuals, #rows x 3. Collective.
-  Points precondition(const Ranks& ranks, const Points& residual) const;
+  /// Sets up the preconditioner. The rows of all ranks are numbered rank by rank. Throws Error on
+  /// all ranks where there are more unknowns than hypre's integers hold.
+  void prepare(LinearEquations&& equations, Monitor& monitor) override;
+  /// Each column's residual is then below `tolerance` times |b| (Euclidean norms). Throws Error on
+  /// all ranks where `maxIterations` are too few. A right-hand side of zeros gives zeros.
+  SolveReport solve(const Points& b, Points& x, double tolerance, int maxIterations,
+    Monitor& monitor) const override;
+  void product(const Points& from, Points& to, Monitor& monitor) const override;
+  /// One V-cycle for each column.
+  void precondition(const Points& from, Points& to, Monitor& monitor) const override;
 
   /// Returns a solver of the transposed matrix, prepared. Collective. Cost: messages of the
   /// entries in other ranks' columns, and prepare().
-  std::unique_ptr<HypreSolver> transposed(const Ranks& ranks) const;
+  std::unique_ptr<HypreSolver> transposed(Monitor& monitor) const;
 
   /// Wall-clock seconds in hypre since construction, for benchmarks.
   struct Seconds
@@ -68,8 +61,10 @@ private:
   struct Handles;
   /// Calls action(column, result), vectors of hypre, for each column.
   template <typename Action>
-  Points byColumns(const Ranks& ranks, const Points& columns, const Action& action) const;
+  void byColumns(const Points& columns, Points& results, const Action& action) const;
 
+  const Ranks& ranks_;
+  Kind kind_;
   std::unique_ptr<Handles> handles_;
   mutable Seconds seconds_;
   std::int64_t rows_ = 0, first_ = 0, unknowns_ = 0;

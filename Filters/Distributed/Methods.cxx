@@ -11,7 +11,6 @@
 #include "LinearMethods/SimplexLinear.h"
 #include "LinearMethods/SimplexNaturalNeighbor.h"
 #include "LinearMethods/WeightedResidual.h"
-#include "Morpher/CellStiffness.h"
 
 #include <utility>
 
@@ -19,11 +18,10 @@ namespace morph::distributed
 {
 std::unique_ptr<Method> makeMethod(std::unique_ptr<Morpher> serial)
 {
-  const auto* stiff = dynamic_cast<const StiffMorpher*>(serial.get());
-  if (dynamic_cast<const morph::FemWarp*>(serial.get()))
+  if (const auto* warp = dynamic_cast<const morph::FemWarp*>(serial.get()))
   {
     auto method = std::make_unique<FemWarp>();
-    method->setStiffness(stiff->stiffness());
+    method->setStiffness(warp->stiffness());
     method->takeEvaluateOptions(*serial);
     return method;
   }
@@ -31,7 +29,6 @@ std::unique_ptr<Method> makeMethod(std::unique_ptr<Morpher> serial)
   {
     auto method = std::make_unique<LogBarrierWarp>(
       warp->outsideHull() == morph::LogBarrierWarp::OutsideHull::Relax);
-    method->setStiffness(stiff->stiffness());
     method->takeEvaluateOptions(*serial);
     return method;
   }

@@ -224,7 +224,8 @@ public:
 
 /// Sends each patch to its rank, which is that of its number among `all` labels in turn.
 std::vector<Patch> gatherPatches(const DistributedMesh& mesh, const Points& reference,
-  const Labels& labels, const std::vector<std::int64_t>& all, const Points& moved, double& bytes)
+  const InvertedBefore& before, const Labels& labels, const std::vector<std::int64_t>& all,
+  const Points& moved, double& bytes)
 {
   const Ranks& ranks = mesh.ranks();
   std::vector<std::vector<PatchNode>> nodes(ranks.count());
@@ -234,7 +235,7 @@ std::vector<Patch> gatherPatches(const DistributedMesh& mesh, const Points& refe
     [&](Index cell)
     {
       const std::int64_t label = labels.ofCell(cell);
-      if (label == None)
+      if (label == None || before.positivePlaces(cell))
       {
         return;
       }
@@ -292,8 +293,8 @@ std::vector<Patch> gatherPatches(const DistributedMesh& mesh, const Points& refe
 }
 
 PatchReport repairPatches(const DistributedMesh& mesh, const Points& reference,
-  const NodePartition& partition, const std::vector<Index>& seeds, const PatchLimits& limits,
-  Points& moved, Monitor& monitor)
+  const NodePartition& partition, const std::vector<Index>& seeds, const InvertedBefore& before,
+  const PatchLimits& limits, Points& moved, Monitor& monitor)
 {
   const Ranks& ranks = mesh.ranks();
   PatchReport report;
@@ -326,7 +327,7 @@ PatchReport repairPatches(const DistributedMesh& mesh, const Points& reference,
   report.patches = static_cast<Index>(all.size());
 
   const std::vector<Patch> patches =
-    gatherPatches(mesh, reference, labels, all, moved, report.bytes);
+    gatherPatches(mesh, reference, before, labels, all, moved, report.bytes);
   std::vector<PlacedNode> placed, unknown;
   ranks.together(
     [&]
@@ -369,7 +370,7 @@ PatchReport repairPatches(const DistributedMesh& mesh, const Points& reference,
 }
 
 RepairReport repairInverted(const DistributedMesh& mesh, const Points& reference,
-  const NodePartition& partition, Points& moved, Monitor& monitor)
+  const NodePartition& partition, const InvertedBefore& before, Points& moved, Monitor& monitor)
 {
   const Ranks& ranks = mesh.ranks();
   std::vector<std::uint8_t> skip = mesh.isGhost();
@@ -384,7 +385,8 @@ RepairReport repairInverted(const DistributedMesh& mesh, const Points& reference
       [&]
       {
         monitor.check();
-        bad = invertedCells(measureQuality(mesh.mesh(), points, mesh.orientation(), skip, monitor));
+        bad = before.added(points,
+          invertedCells(measureQuality(mesh.mesh(), points, mesh.orientation(), skip, monitor)));
       });
     return ranks.sum(static_cast<Index>(bad.size()));
   };
@@ -401,7 +403,7 @@ RepairReport repairInverted(const DistributedMesh& mesh, const Points& reference
     limits.rings = rings;
     Points repaired = moved;
     const PatchReport report =
-      repairPatches(mesh, reference, partition, bad, limits, repaired, monitor);
+      repairPatches(mesh, reference, partition, bad, before, limits, repaired, monitor);
     if (report.isTooLarge)
     {
       result.tooLarge = report.cells;

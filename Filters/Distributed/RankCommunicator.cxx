@@ -260,6 +260,12 @@ void RankCommunicator::sum(double* values, int count) const
   this->mesh_.ranks().sum(values, count);
 }
 
+void RankCommunicator::maximum(double* values, int count) const
+{
+  this->votes_->sum(0);
+  this->mesh_.ranks().maximum(values, count);
+}
+
 double RankCommunicator::minimum(double value) const
 {
   this->votes_->sum(0);

@@ -28,6 +28,8 @@ public:
   double minimum(double value) const override;
   void sum(double* values, int count) const override;
   using Communicator::sum;
+  void maximum(double* values, int count) const override;
+  using Communicator::maximum;
   void spread(std::vector<Index>& nodes) const override;
   /// Cost: two messages for each neighbor of a rank, of 8 bytes a node that both have.
   std::unique_ptr<CopiedRows> rows(const std::vector<Index>& nodes) const override;

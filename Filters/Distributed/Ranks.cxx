@@ -23,13 +23,14 @@ Value reduce(MPI_Comm communicator, Value value, MPI_Datatype type, MPI_Op opera
 }
 
 template <typename Value>
-void sumAll(MPI_Comm communicator, Value* values, std::size_t size, MPI_Datatype type)
+void reduceAll(
+  MPI_Comm communicator, Value* values, std::size_t size, MPI_Datatype type, MPI_Op operation)
 {
   constexpr std::size_t Most = std::size_t(1) << 30; // MPI counts in int
   for (std::size_t first = 0; first < size; first += Most)
   {
     MPI_Allreduce(MPI_IN_PLACE, values + first, static_cast<int>(std::min(Most, size - first)),
-      type, MPI_SUM, communicator);
+      type, operation, communicator);
   }
 }
 }
@@ -79,12 +80,17 @@ void Ranks::together(const std::function<void()>& work) const
 
 void Ranks::sum(double* values, std::size_t size) const
 {
-  sumAll(this->communicator_, values, size, MPI_DOUBLE);
+  reduceAll(this->communicator_, values, size, MPI_DOUBLE, MPI_SUM);
 }
 
 void Ranks::sum(Index* values, std::size_t size) const
 {
-  sumAll(this->communicator_, values, size, MPI_INT64_T);
+  reduceAll(this->communicator_, values, size, MPI_INT64_T, MPI_SUM);
+}
+
+void Ranks::maximum(double* values, std::size_t size) const
+{
+  reduceAll(this->communicator_, values, size, MPI_DOUBLE, MPI_MAX);
 }
 
 Index Ranks::sum(Index value) const

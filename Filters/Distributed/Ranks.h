@@ -33,6 +33,7 @@ public:
   ///@{
   void sum(double* values, std::size_t size) const;
   void sum(Index* values, std::size_t size) const;
+  void maximum(double* values, std::size_t size) const;
   Index sum(Index value) const;
   double sum(double value) const;
   double minimum(double value) const;

@@ -20,9 +20,5 @@ public:
   /// Error on all ranks. Collective.
   std::vector<NodeSliding::Round> slide(const std::vector<Index>& sliding,
     const NodeSliding::Surfaces& surfaces, int rounds, Points& moved, Monitor& monitor) const;
-
-private:
-  void solve(const Points& b, const RowConstraints& constraints, const Communicator& communicator,
-    Points& x, Monitor& monitor) const;
 };
 }

@@ -10,6 +10,7 @@
 #include "Support/Error.h"
 
 #include <algorithm>
+#include <cmath>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -94,10 +95,44 @@ void SystemMethod::doPrepare(Monitor& monitor)
   this->coupling_ = rows.coupling.middleCols(0, held);
   this->parts_ =
     AffineParts(mesh, this->ownFree(), rows.interior, rows.coupling, prescribed, ghosts);
-  const CsrMatrix others = rows.coupling.middleCols(held, static_cast<Index>(ghosts.size()));
+  LinearEquations equations;
+  equations.ghosts = rows.coupling.middleCols(held, static_cast<Index>(ghosts.size()));
+  equations.matrix.swap(rows.interior);
+  equations.ghostNumbers = std::move(ghostNumbers);
   monitor.progress(0.5);
   ranks.together([&] { monitor.check(); });
-  this->solver_.prepare(ranks, this->kind_, rows.interior, others, ghostNumbers);
+  this->solver_ = std::make_unique<HypreSolver>(ranks, this->kind_);
+  this->solver_->prepare(std::move(equations), monitor);
+}
+
+SolveReport SystemMethod::solveEach(
+  const HypreSolver& solver, Points rhs, Points& x, Monitor& monitor) const
+{
+  const Ranks& ranks = this->mesh().ranks();
+  const std::vector<Index>& part = this->parts_.ofRow();
+  std::vector<double> size(this->parts_.count(), 0);
+  for (Index i = 0; i < rhs.rows(); ++i)
+  {
+    size[part[i]] += rhs.row(i).squaredNorm();
+  }
+  ranks.sum(size.data(), size.size());
+  for (double& value : size)
+  {
+    value = size.size() > 1 && value > 0 && std::isfinite(value) ? std::sqrt(value) : 1;
+  }
+  for (Index i = 0; i < rhs.rows(); ++i)
+  {
+    rhs.row(i) /= size[part[i]];
+    x.row(i) /= size[part[i]];
+  }
+  const double count = std::max(1., static_cast<double>(size.size()));
+  const SolveReport solved =
+    solver.solve(rhs, x, this->tolerance_ / std::sqrt(count), MaxIterations, monitor);
+  for (Index i = 0; i < rhs.rows(); ++i)
+  {
+    x.row(i) *= size[part[i]];
+  }
+  return solved;
 }
 
 EvaluateReport SystemMethod::report(const SolveReport& solved, Monitor& monitor) const
@@ -151,7 +186,7 @@ EvaluateReport SystemMethod::displace(
   {
     free.setZero();
   }
-  const SolveReport solved = this->solver_.solve(ranks, rhs, free, this->tolerance_, MaxIterations);
+  const SolveReport solved = this->solveEach(*this->solver_, std::move(rhs), free, monitor);
   if (!this->isUniform_)
   {
     free += fitted;
@@ -167,12 +202,12 @@ EvaluateReport SystemMethod::displaceTranspose(
   const Ranks& ranks = mesh.ranks();
   if (this->kind_ == HypreSolver::Kind::General && !this->transposed_)
   {
-    this->transposed_ = this->solver_.transposed(ranks);
+    this->transposed_ = this->solver_->transposed(monitor);
   }
-  const HypreSolver& solver = this->transposed_ ? *this->transposed_ : this->solver_;
+  const HypreSolver& solver = this->transposed_ ? *this->transposed_ : *this->solver_;
   ranks.together([&] { monitor.check(); });
   Points solution = Points::Zero(free.rows(), 3);
-  const SolveReport solved = solver.solve(ranks, free, solution, this->tolerance_, MaxIterations);
+  const SolveReport solved = this->solveEach(solver, free, solution, monitor);
   prescribed -= this->coupling_.transpose() * solution;
   if (!this->isUniform_)
   {
@@ -211,8 +246,8 @@ SystemMethod::Rows FemWarp::assemble(
     [&]
     {
       system = femWarpSystem(mesh.mesh(), this->ownFree(), columns, factors, monitor);
-      joinRows(std::move(system.interior), rows.interior, monitor);
-      rows.coupling.swap(system.coupling); // Eigen 3.4 would copy on a move
+      rows.interior.swap(system.interior); // Eigen 3.4 would copy on a move
+      rows.coupling.swap(system.coupling);
       if (system.hasBadCells)
       {
         bad = badCells(mesh.mesh(), mesh.orientation(), system.cellSign, monitor);
@@ -246,7 +281,7 @@ void LogBarrierWarp::takeEvaluateOptions(const Morpher& serial)
 }
 
 SystemMethod::Rows LogBarrierWarp::assemble(
-  const std::vector<Index>& columns, const std::vector<double>& factors, Monitor& monitor)
+  const std::vector<Index>& columns, const std::vector<double>& /*factors*/, Monitor& monitor)
 {
   const DistributedMesh& mesh = this->mesh();
   const Ranks& ranks = mesh.ranks();
@@ -255,10 +290,9 @@ SystemMethod::Rows LogBarrierWarp::assemble(
   ranks.together(
     [&]
     {
-      system =
-        logBarrierSystem(mesh.mesh(), this->ownFree(), columns, this->relax_, factors, monitor);
-      joinRows(std::move(system.interior), rows.interior, monitor);
-      rows.coupling.swap(system.coupling); // Eigen 3.4 would copy on a move
+      system = logBarrierSystem(mesh.mesh(), this->ownFree(), columns, this->relax_, monitor);
+      rows.interior.swap(system.interior); // Eigen 3.4 would copy on a move
+      rows.coupling.swap(system.coupling);
     });
   const std::vector<Index> outside = gatherIds(ranks, mesh.idsOfNodes(system.outside));
   const std::vector<Index> empty = gatherIds(ranks, mesh.idsOfNodes(system.empty));
@@ -282,7 +316,7 @@ SystemMethod::Rows LogBarrierWarp::assemble(
     system.stiffness };
   ranks.sum(counts, 4);
   this->counts_ = { { "OutsideHullNodes", counts[0] }, { "TwoRingNodes", counts[1] },
-    { "AffineNodes", counts[2] }, { "StiffnessNodes", counts[3] }, { "FallBackIterations", 0 } };
+    { "AffineNodes", counts[2] }, { "StiffnessNodes", counts[3] } };
   if (counts[0] > 0 && ranks.rank() == 0)
   {
     monitor.warn("Free nodes outside the hull of their neighbors: node ids " + listIds(outside) +

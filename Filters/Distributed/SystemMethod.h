@@ -21,8 +21,8 @@ public:
   /// Sets the relative residual at which the solver stops, per coordinate. Range (0, 1), default
   /// 1e-10.
   void setTolerance(double tolerance);
-  const HypreSolver& solver() const { return this->solver_; }
-  /// See morph::StiffMorpher; the values are those of the cells of this rank's piece.
+  const HypreSolver& solver() const { return *this->solver_; }
+  /// Of FEMWARP; see morph::StiffMorpher. The values are those of the cells of this rank's piece.
   void setStiffness(CellStiffness stiffness) { this->stiffness_ = std::move(stiffness); }
   const CellStiffness& stiffness() const { return this->stiffness_; }
 
@@ -52,6 +52,9 @@ protected:
     const Points& free, Points& prescribed, Monitor& monitor) const final;
 
 private:
+  /// Solves each body to its own size, in which it is given to the solver, whose norms are over all
+  /// rows. `x`: the first guess, then the solution.
+  SolveReport solveEach(const HypreSolver& solver, Points rhs, Points& x, Monitor& monitor) const;
   EvaluateReport report(const SolveReport& solved, Monitor& monitor) const;
 
   HypreSolver::Kind kind_;
@@ -60,7 +63,7 @@ private:
   bool isUniform_ = true;
   CsrMatrix coupling_; ///< #ownFree x #prescribed
   AffineParts parts_;
-  HypreSolver solver_;
+  std::unique_ptr<HypreSolver> solver_;
   mutable std::unique_ptr<HypreSolver> transposed_; ///< of a General solver, once it is asked for
 };
 

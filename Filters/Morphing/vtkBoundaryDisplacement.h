@@ -221,12 +221,7 @@ public:
     MOTION_RADIUS = 5,
     MOTION_TARGET = 6,
     MOTION_HANDLES = 7,
-    MOTION_LATTICE = 8,
-    // The old names, until version 0.2.
-    TRANSFORM = MOTION_TRANSFORM,
-    VECTOR = MOTION_VECTOR,
-    ALONG_NORMALS = MOTION_ALONG_NORMALS,
-    ARRAY = MOTION_ARRAY
+    MOTION_LATTICE = 8
   };
   ///@{
   /**
@@ -257,13 +252,6 @@ public:
    * The target of the last execution in triangles, as aligned; null without MOTION_TARGET.
    */
   vtkPolyData* GetFittedTarget();
-
-  /// The old names of vtkDisplacementAlgorithm::SurfaceMethods, until version 0.2.
-  enum OldSurfaceMethods
-  {
-    WEIGHTED_RESIDUAL = SURFACE_METHOD_WEIGHTED_RESIDUAL,
-    SMOOTHING = SURFACE_METHOD_SMOOTHING
-  };
 
   enum UnattachedMotions
   {

@@ -267,7 +267,7 @@ void vtkCompareMorphMethods::Configure(vtkMorphAlgorithm* filter) const
   filter->SetMatchTolerance(this->MatchTolerance);
   filter->SetHoldUnnamedBoundary(this->HoldUnnamedBoundary);
   filter->SetNumberOfThreads(this->NumberOfThreads);
-  if (auto* stiff = vtkStiffnessMorph::SafeDownCast(filter))
+  if (auto* stiff = vtkFEMWarpMorph::SafeDownCast(filter))
   {
     stiff->SetStiffness(this->Stiffness);
     stiff->SetStiffnessExponent(this->StiffnessExponent);

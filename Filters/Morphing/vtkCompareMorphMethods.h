@@ -140,8 +140,7 @@ public:
 
   ///@{
   /**
-   * The stiffness of the cells for FEMWARP and LBWARP: see vtkStiffnessMorph. Defaults
-   * STIFFNESS_UNIFORM, 1.
+   * The stiffness of the cells for FEMWARP: see vtkFEMWarpMorph. Defaults STIFFNESS_UNIFORM, 1.
    */
   vtkSetClampMacro(Stiffness, int, 0, 2);
   vtkGetMacro(Stiffness, int);

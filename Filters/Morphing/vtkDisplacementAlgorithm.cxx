@@ -295,6 +295,8 @@ void vtkDisplacementAlgorithm::CopyDisplacement(vtkDisplacementAlgorithm* from)
   this->SetAlignTarget(from->AlignTarget);
   this->SetTargetReach(from->TargetReach);
   this->SetTargetAngle(from->TargetAngle);
+  this->SetProjectAlong(from->ProjectAlong);
+  this->SetProjectVector(from->ProjectVector);
   this->SetSelectedHandles(from->SelectedHandles);
   this->SetHandleRadius(from->HandleRadius);
   this->SetLatticeBasis(from->LatticeBasis);
@@ -352,6 +354,8 @@ void vtkDisplacementAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "AlignTarget: " << this->AlignTarget << "\n";
   os << indent << "TargetReach: " << this->TargetReach << "\n";
   os << indent << "TargetAngle: " << this->TargetAngle << "\n";
+  os << indent << "ProjectAlong: " << this->ProjectAlong << "\n";
+  numbers("ProjectVector", this->ProjectVector, 3);
   // A std::vector of arrays of numbers has them without gaps.
   numbers("Handles", own.Handles.empty() ? nullptr : own.Handles.front().data(),
     7 * this->GetNumberOfHandles());
@@ -390,6 +394,7 @@ morphSetNumberMacro(vtkDisplacementAlgorithm, FalloffRadius, 0.0, 10.0);
 morphSetNumberMacro(vtkDisplacementAlgorithm, FeatureAngle, 0.0, 180.0);
 morphSetNumberMacro(vtkDisplacementAlgorithm, CornerAngle, 0.0, 180.0);
 morphSetVectorMacro(vtkDisplacementAlgorithm, Vector);
+morphSetVectorMacro(vtkDisplacementAlgorithm, ProjectVector);
 morphSetVectorMacro(vtkDisplacementAlgorithm, Translation);
 morphSetVectorMacro(vtkDisplacementAlgorithm, Rotation);
 morphSetVectorMacro(vtkDisplacementAlgorithm, Scale);

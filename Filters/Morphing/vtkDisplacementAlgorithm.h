@@ -103,9 +103,11 @@ public:
   ///@{
   /**
    * The motion of all rigid zones, times ScaleFactor. Null: each zone takes the rigid motion that
-   * fits, by least squares, its nodes on the mesh's boundary as they move. Where these are none, or
-   * on a line, it fits the zone's edge as FEMWARP would move it, for which this filter solves once.
-   * Default: null.
+   * fits, by least squares, its nodes that move. Where these are none, or on a line, those that are
+   * held count, too; then all of its nodes on the mesh's boundary. Where these are none, or on a
+   * line, it fits the zone's edge as FEMWARP would move it, for which this filter solves once. A
+   * warning says how far what moves, is held or slides is then from where it should be. Default:
+   * null.
    */
   void SetRigidTransform(vtkAbstractTransform* transform);
   vtkAbstractTransform* GetRigidTransform();
@@ -181,8 +183,8 @@ public:
 
   ///@{
   /**
-   * Name of a point array of the input with three components, in the unit of the points. Empty or
-   * "None": none. Default: none.
+   * Name of a point array of the input with three components, in the unit of the points. Nodes are
+   * free where it is NaN, or vtkValidPointMask 0. Empty or "None": none. Default: none.
    */
   vtkSetStringMacro(DisplacementArray);
   vtkGetStringMacro(DisplacementArray);
@@ -265,6 +267,38 @@ public:
    */
   virtual void SetTargetAngle(double value);
   vtkGetMacro(TargetAngle, double);
+  ///@}
+
+  enum ProjectionDirections
+  {
+    PROJECT_CLOSEST = 0,
+    PROJECT_X = 1,
+    PROJECT_Y = 2,
+    PROJECT_Z = 3,
+    PROJECT_NORMAL = 4,
+    PROJECT_VECTOR = 5
+  };
+  ///@{
+  /**
+   * Where nodes go on the target: to the closest point, or along a direction, either way, to the
+   * nearest place there. The direction is an axis, the node's normal (area-weighted over the faces
+   * that move) or ProjectVector, whose length has no effect. Along a direction neither vertices nor
+   * curves look for the target's. A node that misses the target follows the others (a vertex
+   * stays), with a warning. Terrain and free surfaces need an axis. Nodes that are on sliding
+   * surfaces, too, go to places on both. Defaults PROJECT_CLOSEST and 0 0 1; a vector of no length
+   * is an error.
+   */
+  vtkSetClampMacro(ProjectAlong, int, PROJECT_CLOSEST, PROJECT_VECTOR);
+  vtkGetMacro(ProjectAlong, int);
+  void SetProjectAlongToClosest() { this->SetProjectAlong(PROJECT_CLOSEST); }
+  void SetProjectAlongToX() { this->SetProjectAlong(PROJECT_X); }
+  void SetProjectAlongToY() { this->SetProjectAlong(PROJECT_Y); }
+  void SetProjectAlongToZ() { this->SetProjectAlong(PROJECT_Z); }
+  void SetProjectAlongToNormal() { this->SetProjectAlong(PROJECT_NORMAL); }
+  void SetProjectAlongToVector() { this->SetProjectAlong(PROJECT_VECTOR); }
+  virtual void SetProjectVector(double x, double y, double z);
+  virtual void SetProjectVector(const double vector[3]);
+  vtkGetVector3Macro(ProjectVector, double);
   ///@}
 
   ///@{
@@ -375,11 +409,7 @@ public:
     SURROUNDINGS_STAY = 0,
     SURROUNDINGS_FOLLOW = 1,
     SURROUNDINGS_FADE = 2,
-    SURROUNDINGS_FOLLOW_ALL = 3,
-    // The old names, until version 0.2.
-    STAY = SURROUNDINGS_STAY,
-    FOLLOW = SURROUNDINGS_FOLLOW,
-    FADE = SURROUNDINGS_FADE
+    SURROUNDINGS_FOLLOW_ALL = 3
   };
 
   ///@{
@@ -533,6 +563,8 @@ protected:
   bool AlignTarget = false;
   double TargetReach = 0.2;
   double TargetAngle = 60;
+  int ProjectAlong = PROJECT_CLOSEST;
+  double ProjectVector[3] = { 0, 0, 1 };
   bool SelectedHandles = false;
   double HandleRadius = 0;
   int LatticeBasis = LATTICE_BERNSTEIN;

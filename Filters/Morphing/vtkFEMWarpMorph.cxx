@@ -2,29 +2,168 @@
 #include "vtkFEMWarpMorph.h"
 
 #include "LinearMethods/FemWarp.h"
+#include "Private/Data/Surface.h"
+#include "Private/Pipeline/Input.h"
 #include "Private/Pipeline/Property.h"
+#include "Support/Error.h"
 
+#include <vtkCellData.h>
+#include <vtkDataArray.h>
 #include <vtkObjectFactory.h>
+#include <vtkPointData.h>
+#include <vtkPointSet.h>
+#include <vtkUnstructuredGrid.h>
 
 #include <sstream>
+#include <utility>
+
+namespace filters = morph::filters;
+
+/// The stiffness of the last inputs. Its version changes with the content.
+class vtkFEMWarpMorph::vtkTaken
+{
+public:
+  morph::CellStiffness Stiffness;
+  vtkIdType Version = 0;
+};
+
+namespace
+{
+using Indices = std::vector<morph::Index>;
+
+/// An array of one number a point or cell.
+vtkDataArray* require(
+  vtkDataSetAttributes* data, const std::string& name, vtkIdType count, const char* property)
+{
+  vtkDataArray* array = data->GetArray(name.c_str());
+  if (!array || array->GetNumberOfTuples() != count || array->GetNumberOfComponents() != 1)
+  {
+    throw morph::Error(
+      std::string(property) + " names '" + name + "', which is " +
+      (array ? "not as long as the mesh, or has more than one component."
+             : (std::string(property) == "WallArray" ? "no point array of the mesh."
+                                                     : "no cell array of the mesh.")));
+  }
+  return array;
+}
+
+/// The nodes that a displaced boundary moves, as its filter says; none where it does not. On MPI
+/// ranks these are global ids, of any number.
+Indices movingNodes(vtkDataObject* boundary)
+{
+  Indices moving;
+  auto* points = vtkPointSet::SafeDownCast(boundary);
+  vtkDataArray* ids = points ? points->GetPointData()->GetArray(filters::Surface::IdName) : nullptr;
+  vtkDataArray* roles = points ? points->GetPointData()->GetArray("Role") : nullptr;
+  for (vtkIdType i = 0; ids && roles && i < roles->GetNumberOfTuples(); ++i)
+  {
+    const double id = ids->GetComponent(i, 0);
+    if (roles->GetComponent(i, 0) == 1 && id >= 0)
+    {
+      moving.push_back(static_cast<morph::Index>(id));
+    }
+  }
+  return moving;
+}
+
+void multiply(vtkDataArray* by, vtkIdType cells, std::vector<double>& values)
+{
+  if (by->GetNumberOfTuples() != cells || by->GetNumberOfComponents() != 1)
+  {
+    throw morph::Error("The values of the stiffness are not as many as the mesh has cells.");
+  }
+  values.resize(cells, 1);
+  for (vtkIdType c = 0; c < cells; ++c)
+  {
+    values[c] *= by->GetComponent(c, 0);
+  }
+}
+}
 
 vtkStandardNewMacro(vtkFEMWarpMorph);
 
-morphSetNumberMacro(vtkFEMWarpMorph, Tolerance, 1e-15, 0.999)
+morphSetNumberMacro(vtkFEMWarpMorph, Tolerance, 1e-15, 0.999);
+morphSetNumberMacro(vtkFEMWarpMorph, StiffnessExponent, 0.0, 4.0);
 
-  vtkFEMWarpMorph::vtkFEMWarpMorph() = default;
-vtkFEMWarpMorph::~vtkFEMWarpMorph() = default;
+vtkFEMWarpMorph::vtkFEMWarpMorph()
+  : Taken(new vtkTaken)
+{
+}
+
+vtkFEMWarpMorph::~vtkFEMWarpMorph()
+{
+  this->SetStiffnessArray(nullptr);
+  this->SetWallArray(nullptr);
+}
+
+void vtkFEMWarpMorph::SetStiffnessValues(vtkDataArray* values)
+{
+  if (this->StiffnessValues != values)
+  {
+    this->StiffnessValues = values;
+    this->Modified();
+  }
+}
+
+void vtkFEMWarpMorph::TakeInputs(vtkUnstructuredGrid* rest, vtkDataObject* boundary)
+{
+  morph::CellStiffness next;
+  next.kind = static_cast<morph::CellStiffness::Kind>(this->Stiffness);
+  next.exponent = this->StiffnessExponent;
+  const vtkIdType cells = rest->GetNumberOfCells(), nodes = rest->GetNumberOfPoints();
+  const std::string name = filters::Input::ArrayName(this->StiffnessArray);
+  if (cells > 0 && !name.empty()) // a rank without cells has no arrays
+  {
+    multiply(require(rest->GetCellData(), name, cells, "StiffnessArray"), cells, next.values);
+  }
+  if (this->StiffnessValues)
+  {
+    multiply(this->StiffnessValues, cells, next.values);
+  }
+  if (this->Stiffness == STIFFNESS_WALL_DISTANCE)
+  {
+    const std::string walls = filters::Input::ArrayName(this->WallArray);
+    if (walls.empty())
+    {
+      next.walls = movingNodes(boundary);
+    }
+    else
+    {
+      next.areWallsGlobal = false;
+      next.noWalls = "WallArray names '" + walls + "', which is zero at all nodes.";
+    }
+    if (!walls.empty() && cells > 0)
+    {
+      vtkDataArray* marks = require(rest->GetPointData(), walls, nodes, "WallArray");
+      for (vtkIdType i = 0; i < nodes; ++i)
+      {
+        if (marks->GetComponent(i, 0) < 0 || marks->GetComponent(i, 0) > 0)
+        {
+          next.walls.push_back(i);
+        }
+      }
+    }
+  }
+  vtkTaken& taken = *this->Taken;
+  if (next.kind != taken.Stiffness.kind || next.exponent != taken.Stiffness.exponent ||
+      next.walls != taken.Stiffness.walls || next.noWalls != taken.Stiffness.noWalls ||
+      next.values != taken.Stiffness.values)
+  {
+    taken.Stiffness = std::move(next);
+    ++taken.Version;
+  }
+}
 
 std::unique_ptr<morph::Morpher> vtkFEMWarpMorph::CreateMorpher()
 {
   auto morpher = std::make_unique<morph::FemWarp>();
-  this->GiveStiffness(*morpher);
+  morpher->setStiffness(this->Taken->Stiffness);
   return morpher;
 }
 
 std::string vtkFEMWarpMorph::PrepareOptions()
 {
-  return this->StiffnessOptions();
+  return "stiffness " + std::to_string(this->Taken->Version);
 }
 
 void vtkFEMWarpMorph::SetEvaluateOptions(morph::Morpher& morpher)
@@ -43,5 +182,11 @@ std::string vtkFEMWarpMorph::EvaluateOptions()
 void vtkFEMWarpMorph::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
+  const auto text = [](const char* name) { return name ? name : "(none)"; };
   os << indent << "Tolerance: " << this->Tolerance << "\n";
+  os << indent << "Stiffness: " << this->Stiffness << "\n";
+  os << indent << "StiffnessExponent: " << this->StiffnessExponent << "\n";
+  os << indent << "StiffnessArray: " << text(this->StiffnessArray) << "\n";
+  os << indent << "WallArray: " << text(this->WallArray) << "\n";
+  os << indent << "StiffnessValues: " << this->StiffnessValues.Get() << "\n";
 }

@@ -21,13 +21,12 @@ std::unique_ptr<morph::Morpher> vtkLBWarpMorph::CreateMorpher()
   morpher->setOutsideHull(this->OutsideHull == OUTSIDE_HULL_RELAX
                             ? morph::LogBarrierWarp::OutsideHull::Relax
                             : morph::LogBarrierWarp::OutsideHull::Error);
-  this->GiveStiffness(*morpher);
   return morpher;
 }
 
 std::string vtkLBWarpMorph::PrepareOptions()
 {
-  return (this->OutsideHull == OUTSIDE_HULL_RELAX ? "Relax " : "Error ") + this->StiffnessOptions();
+  return std::to_string(this->OutsideHull);
 }
 
 void vtkLBWarpMorph::SetEvaluateOptions(morph::Morpher& morpher)

@@ -22,19 +22,19 @@
  * Salinger, T. S. Coffey, "A comparison of mesh morphing methods for 3D shape optimization", Proc.
  * 20th Int. Meshing Roundtable (2011) 293-311.
  *
- * @sa vtkStiffnessMorph vtkMorphAlgorithm vtkFEMWarpMorph vtkExtractMorphBoundary
+ * @sa vtkMorphAlgorithm vtkFEMWarpMorph vtkExtractMorphBoundary
  */
 #ifndef vtkLBWarpMorph_h
 #define vtkLBWarpMorph_h
 
 #include "vtkMeshMorphingFiltersMorphingModule.h" // for export macro
-#include "vtkStiffnessMorph.h"
+#include "vtkMorphAlgorithm.h"
 
-class VTKMESHMORPHINGFILTERSMORPHING_EXPORT vtkLBWarpMorph : public vtkStiffnessMorph
+class VTKMESHMORPHINGFILTERSMORPHING_EXPORT vtkLBWarpMorph : public vtkMorphAlgorithm
 {
 public:
   static vtkLBWarpMorph* New();
-  vtkTypeMacro(vtkLBWarpMorph, vtkStiffnessMorph);
+  vtkTypeMacro(vtkLBWarpMorph, vtkMorphAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   ///@{
@@ -49,10 +49,7 @@ public:
   enum OutsideHullType
   {
     OUTSIDE_HULL_ERROR = 0,
-    OUTSIDE_HULL_RELAX = 1,
-    // The old names, until version 0.2.
-    ERROR_OUTSIDE_HULL = OUTSIDE_HULL_ERROR,
-    RELAX_OUTSIDE_HULL = OUTSIDE_HULL_RELAX
+    OUTSIDE_HULL_RELAX = 1
   };
 
   ///@{

@@ -287,9 +287,9 @@ std::string vtkMorphAlgorithm::vtkInternals::Morph(vtkUnstructuredGrid* grid,
   vtkPointSet* displaced = filters::Input::RequireBoundary(boundary);
   this->Session.SetGrid(grid, monitor);
   this->Session.SetFeatureLines(this->Filter->FeatureLines);
-  this->Session.ReportMirroredBodies(monitor);
   const double fraction = this->Steps.Any() ? this->Steps.Fraction(this->Step) : 1;
   const filters::Session::Options options = this->Options(grid, displaced);
+  this->Session.ReportMesh(options, monitor);
   std::shared_ptr<filters::StepResult> single; // a series keeps its steps
   std::shared_ptr<const filters::StepResult> result;
   if (this->IsSeries())

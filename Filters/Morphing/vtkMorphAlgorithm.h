@@ -40,16 +40,17 @@
  * against it. Interior nodes may be prescribed too. A node may be named more than once if the
  * targets agree within MatchTolerance; the first one counts.
  *
- * Target positions are the points of port 1 or, if DisplacementArray is set, the undeformed
- * position plus that vector.
+ * Targets are the points of port 1; what differs by their rounding alone stays. With a
+ * DisplacementArray they are the nodes plus it. NaN, or vtkValidPointMask 0, frees a node.
  *
  * Output 0 has the point vectors `MorphDisplacement`; the cell array `ScaledJacobian` (active
  * scalars; see vtkScaledJacobian), computed on the points as written; and the field data
  * MinScaledJacobian, MeanScaledJacobian, WorstMeanScaledJacobian, BoundaryMinimum, InvertedCells,
- * DegenerateCells, WorstCellId, BoundaryInvertedCells, MirroredBodies, PrepareSeconds,
- * EvaluateSeconds, SolverIterations, MorphStatus and LargestValidStep. The same numbers have
- * getters after an execution. Mid-side, face and body nodes of quadratic cells that are not
- * prescribed keep their place in the cell. Cells of lower dimension pass through.
+ * DegenerateCells, InvertedBefore, NewInvertedCells, WorstCellId, BoundaryInvertedCells,
+ * MirroredBodies, PrepareSeconds, EvaluateSeconds, SolverIterations, MorphStatus and
+ * LargestValidStep. The same numbers have getters after an execution. Mid-side, face and body nodes
+ * of quadratic cells that are not prescribed keep their place in the cell. Cells of lower dimension
+ * pass through. Normals do not.
  *
  * Output 1 holds the inverted and degenerate cells of output 0 (ScaledJacobian of 0 or less) with
  * their points and arrays. The cell array `MorphCellId` and the point array `MorphPointId` are
@@ -234,12 +235,14 @@ public:
     VALIDITY_REPORT = 1,
     VALIDITY_SUB_STEP = 2,
     VALIDITY_REPAIR = 3,
-    VALIDITY_REFUSE = 4
+    VALIDITY_REFUSE = 4,
+    VALIDITY_REPAIR_ALL = 5
   };
 
   ///@{
   /**
-   * What to do where the method leaves inverted or degenerate cells.
+   * What to do where the method makes inverted or degenerate cells. Those that were so before, and
+   * are no worse, count apart (GetInvertedBefore()), with a warning but for None and RepairAll.
    * None: nothing; InvertedCells counts them.
    * Report: a warning names the ten worst of them.
    * SubStep: halve the motion, and continue from the last valid mesh, for which the method is
@@ -247,19 +250,21 @@ public:
    * Repair: minimise the energy of vtkInversionFreeMorph, starting from the method's mesh; if that
    * fails, sub-steps of vtkInversionFreeMorph.
    * Refuse: an error that names them, and the undeformed mesh.
+   * RepairAll: as Repair, also for cells that were inverted or degenerate before.
    *
-   * The last three refuse at once a boundary that inverts cells by itself, at corners whose nodes
-   * are all prescribed; the error names these cells. If SubStep and Repair find no valid mesh for
-   * the whole motion, there is an error, but the output is the valid mesh of the largest step that
-   * was reached; see MorphStatus. Default Report.
+   * All but the first two refuse at once a boundary that inverts cells by itself, at corners whose
+   * nodes are all prescribed; the error names these cells. SubStep, Repair and RepairAll may find
+   * no valid mesh for the whole motion. There is an error then, but the output is the valid mesh of
+   * the largest step that was reached; see MorphStatus. Default Report.
    */
-  vtkSetClampMacro(Validity, int, VALIDITY_NONE, VALIDITY_REFUSE);
+  vtkSetClampMacro(Validity, int, VALIDITY_NONE, VALIDITY_REPAIR_ALL);
   vtkGetMacro(Validity, int);
   void SetValidityToNone() { this->SetValidity(VALIDITY_NONE); }
   void SetValidityToReport() { this->SetValidity(VALIDITY_REPORT); }
   void SetValidityToSubStep() { this->SetValidity(VALIDITY_SUB_STEP); }
   void SetValidityToRepair() { this->SetValidity(VALIDITY_REPAIR); }
   void SetValidityToRefuse() { this->SetValidity(VALIDITY_REFUSE); }
+  void SetValidityToRepairAll() { this->SetValidity(VALIDITY_REPAIR_ALL); }
   ///@}
 
   enum QualityType
@@ -272,8 +277,8 @@ public:
    * The cells that are measured: all, or those behind the outer faces alone, which is faster while
    * a boundary is dragged. With the latter output 0 has neither ScaledJacobian nor certificates,
    * output 1 is empty, MorphStatus is "Unmeasured", no cell is reported, and of the measures there
-   * is SurfaceInvertedCells alone. Where Validity is SubStep, Repair or Refuse all cells are
-   * measured always. Default QUALITY_ALL.
+   * is SurfaceInvertedCells alone. Where Validity is neither None nor Report all cells are measured
+   * always. Default QUALITY_ALL.
    */
   vtkSetClampMacro(Quality, int, QUALITY_ALL, QUALITY_SURFACE);
   vtkGetMacro(Quality, int);
@@ -410,6 +415,16 @@ public:
   vtkIdType GetWorstCellId() const { return this->GetInteger("WorstCellId"); }
   ///@}
 
+  ///@{
+  /**
+   * The cells that were inverted or degenerate before the last execution, and those that it has
+   * made so: all that were valid before, and of the others those that are worse. A cell is worse
+   * where a place that was positive, a corner for instance, is 0 or negative. -1 without a result.
+   */
+  vtkIdType GetInvertedBefore() const { return this->GetInteger("InvertedBefore"); }
+  vtkIdType GetNewInvertedCells() const { return this->GetInteger("NewInvertedCells"); }
+  ///@}
+
   /**
    * The minimum scaled Jacobian of the last execution's output at corners whose nodes are all
    * prescribed. The boundary alone sets it. NaN where there is no such corner or no result. Field
@@ -454,8 +469,9 @@ public:
 
   ///@{
   /**
-   * How the last execution ended. "Valid"; "Inverted", with inverted cells; "SubStepped" or
-   * "Repaired", valid with the help of Validity; "Partial", valid for a part of the motion;
+   * How the last execution ended. "Valid", where the motion has inverted no cell; "Inverted",
+   * where it has; "SubStepped" or "Repaired", valid with the help of Validity; "Partial", valid for
+   * a part of the motion;
    * "Cancelled" or, after an error, "Failed", with the undeformed mesh; "None" before an execution.
    * Field data MorphStatus.
    */

@@ -7,6 +7,7 @@
 #include "BoundaryMorphing/SurfaceMorph.h"
 #include "BoundaryMorphing/SurfaceSmoothing.h"
 #include "Mesh/Topology.h"
+#include "Private/Data/Directions.h"
 #include "Private/Data/Geometry.h"
 #include "Private/Data/GridMesh.h"
 #include "Private/Data/Output.h"
@@ -175,6 +176,7 @@ void writeMotion(const morph::Points& rest, const morph::Points& moved,
   vtkNew<vtkPoints> points;
   points->SetData(makeArray("Points", rowsOf(moved, nodes), isFloat));
   output->SetPoints(points);
+  filters::Directions::RemoveNormals(output);
   output->GetPointData()->AddArray(
     makeArray("MorphDisplacement", rowsOf(moved, nodes) - rowsOf(rest, nodes), isFloat));
   output->GetPointData()->SetActiveVectors("MorphDisplacement");
@@ -385,8 +387,9 @@ void vtkMorphBoundary::vtkInternals::Run(
   if (task.Target)
   {
     monitor.SetRange(0.3, 0.4);
-    place = std::make_unique<filters::Target>(task.Target, this->Filter->FeatureAngle,
+    place = std::make_unique<filters::Target>(task.Target, mesh.points, this->Filter->FeatureAngle,
       this->Filter->ProjectionAngle, this->Filter->ProjectionDistance * task.Size, monitor);
+    place->WarnOfRounding(task.Size, monitor);
     onCurves = morph::projectCurves(geometry, *place, motion, monitor);
   }
   monitor.SetRange(0.4, 0.7);

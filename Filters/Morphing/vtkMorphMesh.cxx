@@ -342,6 +342,8 @@ morphResultMacro(WorstMeanScaledJacobian, double, Number);
 morphResultMacro(BoundaryMinimum, double, Number);
 morphResultMacro(InvertedCells, vtkIdType, Integer);
 morphResultMacro(DegenerateCells, vtkIdType, Integer);
+morphResultMacro(InvertedBefore, vtkIdType, Integer);
+morphResultMacro(NewInvertedCells, vtkIdType, Integer);
 morphResultMacro(WorstCellId, vtkIdType, Integer);
 morphResultMacro(SurfaceInvertedCells, vtkIdType, Integer);
 morphResultMacro(BoundaryInvertedCells, vtkIdType, Integer);

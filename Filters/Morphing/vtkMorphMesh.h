@@ -142,8 +142,8 @@ public:
   /**
    * Zones that give way more than the rest, by the name of a point array, a cell array or a block.
    * ZoneRegionType and ZoneSelectionType may be ZONE_SOFT, too. The stiffness of soft cells is
-   * multiplied by SoftStiffness; with methods other than FEMWARP and LBWARP, soft zones are an
-   * error. Default: none.
+   * multiplied by SoftStiffness; with methods other than FEMWARP, soft zones are an error. Default:
+   * none.
    */
   void SetSoftZoneStatus(const char* name, int status);
   void AddSoftZone(const char* name) { this->SetSoftZoneStatus(name, 1); }
@@ -160,8 +160,8 @@ public:
 
   ///@{
   /**
-   * The stiffness of the cells for FEMWARP and LBWARP: see vtkStiffnessMorph. Other methods have
-   * none, and a warning says so. Defaults STIFFNESS_UNIFORM, 1, none, none.
+   * The stiffness of the cells for FEMWARP: see vtkFEMWarpMorph. Other methods have none, and a
+   * warning says so. Defaults STIFFNESS_UNIFORM, 1, none, none.
    */
   vtkSetClampMacro(Stiffness, int, 0, 2);
   vtkGetMacro(Stiffness, int);
@@ -286,7 +286,7 @@ public:
    * What to do where the method leaves inverted cells: vtkMorphAlgorithm::VALIDITY_NONE and so on.
    * Default VALIDITY_REPAIR.
    */
-  vtkSetClampMacro(Validity, int, 0, 4);
+  vtkSetClampMacro(Validity, int, 0, 5);
   vtkGetMacro(Validity, int);
   ///@}
 
@@ -357,6 +357,8 @@ public:
   double GetBoundaryMinimum() const;
   vtkIdType GetInvertedCells() const;
   vtkIdType GetDegenerateCells() const;
+  vtkIdType GetInvertedBefore() const;
+  vtkIdType GetNewInvertedCells() const;
   vtkIdType GetWorstCellId() const;
   vtkIdType GetSurfaceInvertedCells() const;
   vtkIdType GetBoundaryInvertedCells() const;

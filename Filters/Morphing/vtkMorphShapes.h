@@ -276,6 +276,8 @@ public:
   double GetMeanScaledJacobian() const { return this->GetNumber("MeanScaledJacobian"); }
   vtkIdType GetInvertedCells() const { return this->GetInteger("InvertedCells"); }
   vtkIdType GetDegenerateCells() const { return this->GetInteger("DegenerateCells"); }
+  vtkIdType GetInvertedBefore() const { return this->GetInteger("InvertedBefore"); }
+  vtkIdType GetNewInvertedCells() const { return this->GetInteger("NewInvertedCells"); }
   vtkIdType GetWorstCellId() const { return this->GetInteger("WorstCellId"); }
   vtkIdType GetMirroredBodies() const { return this->GetInteger("MirroredBodies"); }
   vtkIdType GetPrescribedPoints() const { return this->GetInteger("PrescribedPoints"); }

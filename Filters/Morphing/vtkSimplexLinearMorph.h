@@ -10,8 +10,8 @@
  * and bodies need not be connected.
  *
  * Where the mesh is not convex, tetrahedra span its holes, slots and gaps and couple the walls that
- * face each other there: BridgingTetrahedra counts those with nodes in them. Where the motion
- * inverts tetrahedra, which FoldedTetrahedra counts, cells in them are inverted.
+ * face each other there. Where the motion inverts tetrahedra, which FoldedTetrahedra counts, cells
+ * in them are inverted.
  *
  * On structured meshes many sets of boundary nodes lie on one sphere, and the tessellation is not
  * unique. The convex cell of such a set is then divided from the mean of its corners. So neither
@@ -42,13 +42,11 @@ public:
   ///@{
   /**
    * As of the last execution: tetrahedra with nodes in them that have no positive volume after the
-   * motion; those with an edge that leaves the mesh; and nodes outside the prescribed nodes' convex
-   * hull by more than rounding, which are extrapolated. The last are those of them that follow the
-   * affine fit to the nearest prescribed nodes, since a tetrahedron would give them a weight above
-   * 10. In the output's field data too.
+   * motion; and nodes outside the prescribed nodes' convex hull by more than rounding, which are
+   * extrapolated. The last are those of them that follow the affine fit to the nearest prescribed
+   * nodes, since a tetrahedron would give them a weight above 10. In the output's field data too.
    */
   vtkIdType GetFoldedTetrahedra() { return this->GetCount("FoldedTetrahedra"); }
-  vtkIdType GetBridgingTetrahedra() { return this->GetCount("BridgingTetrahedra"); }
   vtkIdType GetExtrapolatedNodes() { return this->GetCount("ExtrapolatedNodes"); }
   vtkIdType GetAffineNodes() { return this->GetCount("AffineNodes"); }
   ///@}

@@ -11,17 +11,13 @@
 vtkStandardNewMacro(vtkSimplexNaturalNeighborMorph);
 
 morphSetNumberMacro(vtkSimplexNaturalNeighborMorph, MemoryLimit, 0.0, 1e12)
-  morphSetNumberMacro(vtkSimplexNaturalNeighborMorph, Coarsening, 0.0, 1.0)
 
-    vtkSimplexNaturalNeighborMorph::vtkSimplexNaturalNeighborMorph() = default;
+  vtkSimplexNaturalNeighborMorph::vtkSimplexNaturalNeighborMorph() = default;
 vtkSimplexNaturalNeighborMorph::~vtkSimplexNaturalNeighborMorph() = default;
 
 std::unique_ptr<morph::Morpher> vtkSimplexNaturalNeighborMorph::CreateMorpher()
 {
-  using Kind = morph::SimplexNaturalNeighbor::Coordinates;
   auto morpher = std::make_unique<morph::SimplexNaturalNeighbor>();
-  morpher->setCoordinates(this->Coordinates == COORDINATES_LAPLACE ? Kind::Laplace : Kind::Sibson);
-  morpher->setCoarsening(this->Coarsening);
   morpher->setMemoryLimit(static_cast<std::size_t>(1e6 * this->MemoryLimit));
   return morpher;
 }
@@ -30,14 +26,12 @@ std::string vtkSimplexNaturalNeighborMorph::PrepareOptions()
 {
   std::ostringstream text;
   text.precision(17);
-  text << this->Coordinates << " " << this->MemoryLimit << " " << this->Coarsening;
+  text << this->MemoryLimit;
   return text.str();
 }
 
 void vtkSimplexNaturalNeighborMorph::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "Coordinates: " << this->Coordinates << "\n";
   os << indent << "MemoryLimit: " << this->MemoryLimit << "\n";
-  os << indent << "Coarsening: " << this->Coarsening << "\n";
 }

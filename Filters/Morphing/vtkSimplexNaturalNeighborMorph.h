@@ -4,15 +4,15 @@
  * @brief   morphs a mesh by natural-neighbor interpolation between its boundary nodes
  *
  * Each interior node follows its natural neighbors among the prescribed nodes: the nodes whose
- * Voronoi cells its own would border on. Weights are Sibson's or Laplace's coordinates (equation
- * (8) of Staten et al.). Affine motions of the boundary are reproduced exactly. The mesh's cells
- * are not used. The coordinates depend on the Voronoi diagram, which is unique: structured meshes
- * move symmetrically, and rotating a mesh changes nothing. They vary smoothly with the node's
- * position. In quality the method is near vtkSimplexLinearMorph, at many times the cost.
+ * Voronoi cells its own would border on. Weights are Sibson's coordinates (equation (8) of Staten
+ * et al.). Affine motions of the boundary are reproduced exactly. The mesh's cells are not used.
+ * The coordinates depend on the Voronoi diagram, which is unique: structured meshes move
+ * symmetrically, and rotating a mesh changes nothing. They vary smoothly with the node's position.
+ * In quality the method is near vtkSimplexLinearMorph, at many times the cost.
  *
  * A node within a cube whose surface has 15,000 nodes has about 1000 natural neighbors. Weights are
  * kept where they fit into MemoryLimit; otherwise they are recomputed for each motion, and a
- * warning is raised. Coarsening bounds the number of neighbors.
+ * warning is raised.
  *
  * It is an error if all prescribed nodes lie in one plane.
  *
@@ -37,28 +37,6 @@ public:
   vtkTypeMacro(vtkSimplexNaturalNeighborMorph, vtkMorphAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  enum CoordinatesType
-  {
-    COORDINATES_SIBSON = 0,
-    COORDINATES_LAPLACE = 1,
-    // The old names, until version 0.2.
-    SIBSON = COORDINATES_SIBSON,
-    LAPLACE = COORDINATES_LAPLACE
-  };
-
-  ///@{
-  /**
-   * The coordinates that weight the natural neighbors. Sibson: the volume that the node's Voronoi
-   * cell takes from the neighbor's. Laplace: the area of the face between both cells over the
-   * neighbor's distance; somewhat less smooth. Changing it prepares again. Default
-   * COORDINATES_SIBSON.
-   */
-  vtkSetClampMacro(Coordinates, int, COORDINATES_SIBSON, COORDINATES_LAPLACE);
-  vtkGetMacro(Coordinates, int);
-  void SetCoordinatesToSibson() { this->SetCoordinates(COORDINATES_SIBSON); }
-  void SetCoordinatesToLaplace() { this->SetCoordinates(COORDINATES_LAPLACE); }
-  ///@}
-
   ///@{
   /**
    * The memory for the weights in megabytes (10^6 bytes), 12 bytes each; the result does not depend
@@ -66,18 +44,6 @@ public:
    */
   virtual void SetMemoryLimit(double value);
   vtkGetMacro(MemoryLimit, double);
-  ///@}
-
-  ///@{
-  /**
-   * The spacing of the boundary nodes that a node follows, over its distance from the nearest one.
-   * 0: all of them. Otherwise nodes far from the boundary follow a subset of it, which bounds the
-   * number of their neighbors on large meshes. Affine motions stay exact. A motion of single
-   * boundary nodes reaches only the nodes near them, and a rotated mesh may get another subset.
-   * Changing it prepares again. Default 0, range [0, 1]; 1 is the fastest, 0.5 is nearer to 0.
-   */
-  virtual void SetCoarsening(double value);
-  vtkGetMacro(Coarsening, double);
   ///@}
 
   ///@{
@@ -103,9 +69,7 @@ private:
   vtkSimplexNaturalNeighborMorph(const vtkSimplexNaturalNeighborMorph&) = delete;
   void operator=(const vtkSimplexNaturalNeighborMorph&) = delete;
 
-  int Coordinates = COORDINATES_SIBSON;
   double MemoryLimit = 4000;
-  double Coarsening = 0;
 };
 
 #endif

@@ -52,10 +52,7 @@ public:
   enum TargetShapeType
   {
     TARGET_SHAPE_INITIAL = 0,
-    TARGET_SHAPE_IDEAL = 1,
-    // The old names, until version 0.2.
-    INITIAL = TARGET_SHAPE_INITIAL,
-    IDEAL = TARGET_SHAPE_IDEAL
+    TARGET_SHAPE_IDEAL = 1
   };
 
   ///@{

@@ -14,18 +14,16 @@ std::unique_ptr<morph::Morpher> vtkWeightedResidualMorph::CreateMorpher()
 {
   auto morpher = std::make_unique<morph::WeightedResidual>();
   morpher->setNumberOfNeighbors(this->NumberOfNeighbors);
-  morpher->setAdaptiveNeighbors(this->AdaptiveNeighbors);
   return morpher;
 }
 
 std::string vtkWeightedResidualMorph::PrepareOptions()
 {
-  return std::to_string(this->NumberOfNeighbors) + (this->AdaptiveNeighbors ? " adaptive" : "");
+  return std::to_string(this->NumberOfNeighbors);
 }
 
 void vtkWeightedResidualMorph::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "NumberOfNeighbors: " << this->NumberOfNeighbors << "\n";
-  os << indent << "AdaptiveNeighbors: " << this->AdaptiveNeighbors << "\n";
 }

@@ -10,8 +10,7 @@
  * volume mesh will do.
  *
  * The motion jumps where one neighbor replaces another. On fine meshes the nodes on either side of
- * the middle follow different walls: cells there are the first to invert. AdaptiveNeighbors lets
- * nodes follow the walls on all sides.
+ * the middle follow different walls: cells there are the first to invert.
  *
  * Prescribed nodes that all lie in one plane are fitted with the minimum change: nodes off the
  * plane keep their distance from it. A fit that mirrors the mesh gives a warning.
@@ -40,22 +39,11 @@ public:
   ///@{
   /**
    * The number of nearest prescribed nodes that an interior node follows; all where there are
-   * fewer. With AdaptiveNeighbors the number to start from. Changing it prepares again. Default 80,
-   * the paper's for volumes; range [1, VTK_INT_MAX].
+   * fewer. Those as far as the last of them count, too. Changing it prepares again. Default 80, the
+   * paper's for volumes; range [1, VTK_INT_MAX].
    */
   vtkSetClampMacro(NumberOfNeighbors, int, 1, VTK_INT_MAX);
   vtkGetMacro(NumberOfNeighbors, int);
-  ///@}
-
-  ///@{
-  /**
-   * Whether a node's number of neighbors is doubled until the node lies in their convex hull. Time
-   * and memory grow with the size of the boundary: 20 times those of 80 neighbors on a cube of
-   * 50 x 50 x 50 cells. Changing it prepares again. Default off, as in the paper.
-   */
-  vtkSetMacro(AdaptiveNeighbors, bool);
-  vtkGetMacro(AdaptiveNeighbors, bool);
-  vtkBooleanMacro(AdaptiveNeighbors, bool);
   ///@}
 
 protected:
@@ -70,7 +58,6 @@ private:
   void operator=(const vtkWeightedResidualMorph&) = delete;
 
   int NumberOfNeighbors = 80;
-  bool AdaptiveNeighbors = false;
 };
 
 #endif

@@ -49,10 +49,10 @@ const char* const ExitStatus = "\n"
                                "Exit status: 0 the result is written; 1 an error, nothing is "
                                "written and an old file stays;\n"
                                "2 the command line is wrong;\n"
-                               "3 the result is written, but has inverted or collapsed cells and "
-                               "--require-valid was given, or\n"
-                               "--validity SubStep or Repair came only part of the way: the "
-                               "output does not fit the boundary.\n";
+                               "3 the result is written, but the motion has inverted or "
+                               "collapsed cells and --require-valid was\n"
+                               "given, or --validity SubStep, Repair or RepairAll came only part "
+                               "of the way: the output does not\nfit the boundary.\n";
 
 double number(const std::string& option, const std::string& text)
 {
@@ -155,6 +155,17 @@ std::string surfaceMethod(const std::string& text)
   return text;
 }
 
+void setProjection(const std::string& text, Motion& motion)
+{
+  const std::string names[] = { "x", "y", "z", "normal" };
+  const auto found = std::find(std::begin(names), std::end(names), text);
+  motion.projectAlong = 1 + static_cast<int>(found - std::begin(names));
+  if (found == std::end(names))
+  {
+    motion.projectVector = numbers<3>("--project-along", text);
+  }
+}
+
 /// Throws UsageError where the options of the motion contradict each other.
 void checkMotion(const Arguments& arguments)
 {
@@ -165,9 +176,8 @@ void checkMotion(const Arguments& arguments)
       "--displacements cannot be combined with --move, --target, --handles or --lattice.");
   }
   const Motion none;
-  const bool hasNumbers = motion.translation != none.translation ||
-                          motion.rotation != none.rotation || motion.scale != none.scale;
-  if (motion.moving.empty() && (hasNumbers || motion.radius != 0))
+  const bool hasNumbers = motion.isPlaced() || motion.radius;
+  if (motion.moving.empty() && hasNumbers)
   {
     throw UsageError("--translate, --rotate, --scale and --radius need --move.");
   }
@@ -194,7 +204,7 @@ void checkMotion(const Arguments& arguments)
     throw UsageError(
       "--freeze, --rigid and --keep-layers need --move, --target, --handles or --lattice.");
   }
-  if (!motion.target.empty() && (hasNumbers || motion.radius != 0))
+  if (!motion.target.empty() && hasNumbers)
   {
     throw UsageError(
       "--target cannot be combined with --translate, --rotate, --scale or --radius.");
@@ -203,11 +213,15 @@ void checkMotion(const Arguments& arguments)
   {
     throw UsageError("--align needs --target.");
   }
-  if (hasNumbers && motion.radius != 0)
+  if (motion.projectAlong != 0 && motion.target.empty())
+  {
+    throw UsageError("--project-along needs --target.");
+  }
+  if (motion.isPlaced() && motion.radius)
   {
     throw UsageError("--radius cannot be combined with --translate, --rotate or --scale.");
   }
-  if (motion.byControlPoints() && (hasNumbers || motion.radius != 0 || !motion.target.empty() ||
+  if (motion.byControlPoints() && (hasNumbers || !motion.target.empty() ||
                                     (!motion.handles.empty() && !motion.lattice.empty())))
   {
     throw UsageError("Only one of --handles, --lattice, --target, --radius, and --translate, "
@@ -218,8 +232,7 @@ void checkMotion(const Arguments& arguments)
   {
     throw UsageError("--lattice-size, --lattice-box and --b-splines need --lattice.");
   }
-  if (!motion.moving.empty() && !hasNumbers && motion.radius == 0 && motion.target.empty() &&
-      !motion.byControlPoints())
+  if (!motion.moving.empty() && !hasNumbers && motion.target.empty() && !motion.byControlPoints())
   {
     throw UsageError("--move needs --translate, --rotate, --scale, --radius, --target, --handles "
                      "or --lattice.");
@@ -331,10 +344,10 @@ std::vector<Option> optionsOf(Arguments& result)
     { "--post-smooth", nullptr, "smooth the method's result, before --validity checks it",
       flag(result.postSmooth) },
     { "--validity", "<name>",
-      "what to do about inverted cells, by default Report:\nNone, Report (warn), SubStep, Repair, "
-      "Refuse (an error)",
+      "what to do about cells that the motion inverts, by default\nReport: None, Report (warn), "
+      "SubStep, Repair, Refuse (an error);\nRepairAll repairs those that were inverted before, too",
       text(result.validity) },
-    { "--require-valid", nullptr, "exit status 3 if a cell is inverted or collapsed",
+    { "--require-valid", nullptr, "exit status 3 if the motion inverts or collapses a cell",
       flag(result.requireValid) },
     { "--threads", "<number>", "threads to compute with; by default 0, all cores",
       [&](const std::string& value) { result.threads = threadCount(value); } },
@@ -388,6 +401,9 @@ std::vector<Option> optionsOf(Arguments& result)
       text(result.motion.target) },
     { "--align", nullptr, "rotate and shift the target onto what moves first",
       flag(result.motion.align) },
+    { "--project-along", "<direction>",
+      "x, y, z, normal or dx,dy,dz: how nodes go to the target; by default to the closest point",
+      [&](const std::string& value) { setProjection(value, result.motion); } },
     { "--handles", "<csv>",
       "points that take what moves along smoothly (without --move, everything): columns x, y, z, "
       "dx, "

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -17,21 +18,24 @@ struct Motion
   int keepLayers = 0;
   int slideRounds = 0;
   std::string surfaceMethod; ///< how surfaces follow; empty: by weighted residual
-  std::array<double, 3> translation = { 0, 0, 0 };
-  std::array<double, 3> rotation = { 0, 0, 0 }; ///< degrees about x, y and z
-  std::array<double, 3> scale = { 1, 1, 1 };
+  /// Of a placement; empty: not given. A motion of zero is a motion.
+  std::optional<std::array<double, 3>> translation, scale;
+  std::optional<std::array<double, 3>> rotation; ///< degrees about x, y and z
   std::array<double, 3> center = { 0, 0, 0 };
   bool hasCenter = false;            ///< else the centre of what moves
-  double radius = 0;                 ///< change of the radius of cylinders
+  std::optional<double> radius;      ///< change of the radius of cylinders
   std::string target, displacements; ///< files; empty: none
   bool align = false;                ///< the target first
-  std::string handles, lattice;      ///< files of control points; empty: none
+  int projectAlong = 0;              ///< as of vtkDisplacementAlgorithm
+  std::array<double, 3> projectVector = { 0, 0, 1 };
+  std::string handles, lattice; ///< files of control points; empty: none
   std::array<int, 3> latticeSize = { 3, 3, 3 };
   std::array<double, 6> latticeBox = {}; ///< as VTK's bounds
   bool hasLatticeBox = false;            ///< else the box around what moves
   bool bSplines = false;                 ///< of the lattice, else Bernstein
   bool nodeNumbers = false;
 
+  bool isPlaced() const { return this->translation || this->rotation || this->scale; }
   bool byControlPoints() const { return !this->handles.empty() || !this->lattice.empty(); }
   /// Whether vtkBoundaryDisplacement makes it.
   bool isMade() const

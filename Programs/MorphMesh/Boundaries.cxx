@@ -172,22 +172,33 @@ vtkSmartPointer<vtkAlgorithm> makeDisplacement(
     filter->SetMotionToTarget();
     filter->SetTargetData(readTarget(motion.target));
     filter->SetAlignTarget(motion.align);
+    filter->SetProjectAlong(motion.projectAlong);
+    filter->SetProjectVector(motion.projectVector.data());
   }
   else if (motion.byControlPoints())
   {
     setControlPoints(filter, motion);
   }
-  else if (motion.radius != 0)
+  else if (motion.radius)
   {
     filter->SetMotionToRadius();
-    filter->SetRadiusChange(motion.radius);
+    filter->SetRadiusChange(*motion.radius);
   }
   else
   {
     filter->SetMotionToPlacement();
-    filter->SetTranslation(motion.translation.data());
-    filter->SetRotation(motion.rotation.data());
-    filter->SetScale(motion.scale.data());
+    if (motion.translation)
+    {
+      filter->SetTranslation(motion.translation->data());
+    }
+    if (motion.rotation)
+    {
+      filter->SetRotation(motion.rotation->data());
+    }
+    if (motion.scale)
+    {
+      filter->SetScale(motion.scale->data());
+    }
     filter->SetAutoCenter(!motion.hasCenter);
     filter->SetCenter(motion.center.data());
   }

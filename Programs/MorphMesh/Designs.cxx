@@ -109,7 +109,8 @@ public:
     {
       this->header_ += ",\"" + shape + "\"";
     }
-    this->header_ += ",MinScaledJacobian,MeanScaledJacobian,InvertedCells,DegenerateCells";
+    this->header_ +=
+      ",MinScaledJacobian,MeanScaledJacobian,InvertedCells,DegenerateCells,NewInvertedCells";
     std::error_code error;
     fs::create_directories(this->folder_, error);
     if (!fs::is_directory(this->folder_))
@@ -238,13 +239,13 @@ std::string makeDesign(vtkMorphShapes* filter, const std::vector<double>& weight
   return Folder::key(design, weights) + number(filter->GetMinScaledJacobian()) + "," +
          number(filter->GetMeanScaledJacobian()) + "," +
          std::to_string(filter->GetInvertedCells()) + "," +
-         std::to_string(filter->GetDegenerateCells());
+         std::to_string(filter->GetDegenerateCells()) + "," +
+         std::to_string(filter->GetNewInvertedCells());
 }
 
 bool hasBadCells(const std::string& line)
 {
-  const std::vector<std::string> fields = splitLine(line);
-  return fields[fields.size() - 2] != "0" || fields.back() != "0";
+  return splitLine(line).back() != "0";
 }
 }
 

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Files.h"
 
+#include "FileCheck.h"
 #include "Messages.h"
 #include "Pieces.h"
-#include "ReadApart.h"
-#include "ReadingGuard.h"
 
 #include "Files/ReplaceFile.h"
 
@@ -21,7 +20,6 @@
 #include <vtkNew.h>
 #include <vtkOBJReader.h>
 #include <vtkPLYReader.h>
-#include <vtkPolyData.h>
 #include <vtkSTLReader.h>
 #include <vtkSolverFileReader.h>
 #include <vtkSolverFileWriter.h>
@@ -33,15 +31,9 @@
 #include <vtksys/SystemTools.hxx>
 
 #include <algorithm>
-#include <cstdint>
-#include <filesystem>
-#include <fstream>
 #include <initializer_list>
 #include <iostream>
-#include <iterator>
-#include <memory>
 #include <new>
-#include <system_error>
 #include <vector>
 
 namespace morph_mesh
@@ -120,29 +112,6 @@ vtkSmartPointer<vtkUnstructuredGrid> merged(vtkCompositeDataSet* blocks)
   return append->GetOutput();
 }
 
-/// Of the file and, for a parallel one, of the pieces that it names.
-std::uintmax_t bytesToRead(const std::string& path)
-{
-  namespace fs = std::filesystem;
-  std::error_code error;
-  std::uintmax_t result = fs::file_size(path, error);
-  if (extensionOf(path) == ".pvtp")
-  {
-    std::ifstream file(path);
-    const std::string text(
-      (std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
-    const std::string start = "Source=\"";
-    for (std::size_t at = text.find(start); at != std::string::npos; at = text.find(start, at))
-    {
-      at += start.size();
-      const std::string piece = text.substr(at, text.find('"', at) - at);
-      const std::uintmax_t bytes = fs::file_size(fs::path(path).parent_path() / piece, error);
-      result += error ? 0 : bytes; // the reader names a piece that is missing
-    }
-  }
-  return result;
-}
-
 /// The first of the errors, which is the cause of the others.
 void requireNoErrors(
   const std::string& path, const Messages& messages, const ConsoleMessages& inner)
@@ -167,12 +136,11 @@ void printWarnings(const std::string& path, const std::vector<std::string>& warn
   }
 }
 
-vtkSmartPointer<vtkDataObject> readGuarded(
-  const std::string& path, std::vector<std::string>& warnings)
+vtkSmartPointer<vtkDataObject> readByVtk(const std::string& path)
 {
-  const ReadingGuard guard(path, bytesToRead(path));
-  ConsoleMessages inner;
   const vtkSmartPointer<vtkAlgorithm> reader = makeReader(path);
+  requireWholeFile(path);
+  ConsoleMessages inner;
   Messages messages(reader);
   try
   {
@@ -184,8 +152,8 @@ vtkSmartPointer<vtkDataObject> readGuarded(
       data = merged(blocks);
       requireNoErrors(path, messages, inner);
     }
-    warnings = inner.warnings;
-    warnings.insert(warnings.end(), messages.warnings().begin(), messages.warnings().end());
+    printWarnings(path, inner.warnings);
+    printWarnings(path, messages.warnings());
     return data;
   }
   catch (const std::bad_alloc&)
@@ -197,11 +165,9 @@ vtkSmartPointer<vtkDataObject> readGuarded(
   }
 }
 
-/// The format's name, not the extension alone, tells that VTK has no reader for it. `guarded`: a
-/// library of others reads it, which a damaged file may crash.
-vtkSmartPointer<vtkDataObject> readSolverFile(const std::string& path, bool guarded)
+/// The format's name, not the extension alone, tells that VTK has no reader for it.
+vtkSmartPointer<vtkDataObject> readSolverFile(const std::string& path)
 {
-  const auto guard = guarded ? std::make_unique<ReadingGuard>(path, bytesToRead(path)) : nullptr;
   vtkNew<vtkSolverFileReader> reader;
   reader->SetFileName(path.c_str());
   Messages messages(reader);
@@ -265,30 +231,9 @@ vtkSmartPointer<vtkDataObject> readFile(const std::string& path)
   // VTK has no reader of CGNS here: the error names the library that is missing.
   if (vtkSolverFileReader::CanReadFile(path.c_str()) || extensionOf(path) == ".cgns")
   {
-    return readSolverFile(path, isReadByLibrary(path));
+    return readSolverFile(path);
   }
-  // Some readers say nothing of a file that is not there.
-  if (!vtksys::SystemTools::FileExists(path, true))
-  {
-    throw Failure("Cannot read " + path + ": there is no such file.");
-  }
-  std::vector<std::string> warnings;
-  // What these readers do to memory, a crash need not show. VTK hands no more than 2 GB over.
-  constexpr std::uintmax_t most = std::uintmax_t(1) << 29;
-  const bool apart = isOneOf(extensionOf(path), { ".ply", ".stl", ".obj" });
-  if (apart && std::filesystem::file_size(path) <= most)
-  {
-    return readApart(path,
-      [&]() -> vtkSmartPointer<vtkPolyData>
-      {
-        const vtkSmartPointer<vtkDataObject> surface = readGuarded(path, warnings);
-        printWarnings(path, warnings);
-        return vtkPolyData::SafeDownCast(surface);
-      });
-  }
-  vtkSmartPointer<vtkDataObject> data = readGuarded(path, warnings);
-  printWarnings(path, warnings);
-  return data;
+  return readByVtk(path);
 }
 
 template <typename Writer>

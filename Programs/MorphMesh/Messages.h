@@ -15,11 +15,6 @@ struct Failure : std::runtime_error
   using std::runtime_error::runtime_error;
 };
 
-/// As Failure, but its message has been printed already.
-struct Reported : std::exception
-{
-};
-
 /// Sends VTK's unobserved messages (of a parser inside a reader, for instance) to standard error,
 /// in this program's form, or to the current ConsoleMessages.
 void installConsole();

@@ -58,26 +58,9 @@ Option tolerance()
     setter<Filter>([](Filter* filter, double value) { filter->SetTolerance(value); }) };
 }
 
-/// The options of the methods that have a stiffness, and the tolerance.
-template <typename Filter>
-std::vector<Option> stiffOptions()
-{
-  return { tolerance<Filter>(),
-    { "Stiffness", { "Uniform", "InverseVolume", "WallDistance" }, 0, 2,
-      setter<Filter>([](Filter* f, double v) { f->SetStiffness(static_cast<int>(v)); }) },
-    { "StiffnessExponent", {}, 0, 4,
-      setter<Filter>([](Filter* f, double v) { f->SetStiffnessExponent(v); }) } };
-}
-
-/// As `options`, with one more.
-std::vector<Option> with(std::vector<Option> options, Option one)
-{
-  options.push_back(std::move(one));
-  return options;
-}
-
 const std::vector<Method>& methods()
 {
+  using Fem = vtkFEMWarpMorph;
   using Free = vtkInversionFreeMorph;
   using LBWarp = vtkLBWarpMorph;
   using Natural = vtkSimplexNaturalNeighborMorph;
@@ -85,14 +68,19 @@ const std::vector<Method>& methods()
   using Smoothing = vtkSmoothingMorph;
   using Residual = vtkWeightedResidualMorph;
   static const std::vector<Method> all = {
-    { "FEMWARP", make<vtkFEMWarpMorph>, stiffOptions<vtkFEMWarpMorph>() },
+    { "FEMWARP", make<Fem>,
+      { tolerance<Fem>(),
+        { "Stiffness", { "Uniform", "InverseVolume", "WallDistance" }, 0, 2,
+          setter<Fem>([](Fem* f, double v) { f->SetStiffness(static_cast<int>(v)); }) },
+        { "StiffnessExponent", {}, 0, 4,
+          setter<Fem>([](Fem* f, double v) { f->SetStiffnessExponent(v); }) } } },
     { "InversionFree", make<Free>,
       { { "Effort", { "Quick", "Default", "Thorough" }, 0, 2,
         setter<Free>([](Free* f, double v) { f->SetEffort(static_cast<int>(v)); }) } } },
     { "LBWARP", make<LBWarp>,
-      with(stiffOptions<LBWarp>(),
+      { tolerance<LBWarp>(),
         { "OutsideHull", { "Error", "Relax" }, 0, 1,
-          setter<LBWarp>([](LBWarp* f, double v) { f->SetOutsideHull(static_cast<int>(v)); }) }) },
+          setter<LBWarp>([](LBWarp* f, double v) { f->SetOutsideHull(static_cast<int>(v)); }) } } },
     { "RadialBasis", make<Radial>,
       { { "Kernel", { "Triharmonic", "ThinPlate", "WendlandC2" }, 0, 2,
           setter<Radial>([](Radial* f, double v) { f->SetKernel(static_cast<int>(v)); }) },
@@ -103,12 +91,8 @@ const std::vector<Method>& methods()
             [](Radial* f, double v) { f->SetNumberOfCenters(static_cast<int>(v)); }) } } },
     { "SimplexLinear", make<vtkSimplexLinearMorph>, {} },
     { "SimplexNaturalNeighbor", make<Natural>,
-      { { "Coordinates", { "Sibson", "Laplace" }, 0, 1,
-          setter<Natural>([](Natural* f, double v) { f->SetCoordinates(static_cast<int>(v)); }) },
-        { "Coarsening", {}, 0, 1,
-          setter<Natural>([](Natural* f, double v) { f->SetCoarsening(v); }) },
-        { "MemoryLimit", {}, 0, 1e12,
-          setter<Natural>([](Natural* f, double v) { f->SetMemoryLimit(v); }) } } },
+      { { "MemoryLimit", {}, 0, 1e12,
+        setter<Natural>([](Natural* f, double v) { f->SetMemoryLimit(v); }) } } },
     { "Smoothing", make<Smoothing>,
       { { "TargetShape", { "Initial", "Ideal" }, 0, 1,
           setter<Smoothing>(
@@ -122,10 +106,8 @@ const std::vector<Method>& methods()
           setter<Smoothing>([](Smoothing* f, double v) { f->SetStopMove(v); }) } } },
     { "WeightedResidual", make<Residual>,
       { { "NumberOfNeighbors", {}, 1, VTK_INT_MAX,
-          setter<Residual>(
-            [](Residual* f, double v) { f->SetNumberOfNeighbors(static_cast<int>(v)); }) },
-        { "AdaptiveNeighbors", { "Off", "On" }, 0, 1,
-          setter<Residual>([](Residual* f, double v) { f->SetAdaptiveNeighbors(v != 0); }) } } },
+        setter<Residual>(
+          [](Residual* f, double v) { f->SetNumberOfNeighbors(static_cast<int>(v)); }) } } },
   };
   return all;
 }
@@ -248,7 +230,8 @@ void setShapesMethod(vtkMorphShapes* filter, const std::string& name,
 
 void setValidity(vtkMorphAlgorithm* method, const std::string& name)
 {
-  const Option validity = { "--validity", { "None", "Report", "SubStep", "Repair", "Refuse" }, 0, 4,
+  const Option validity = { "--validity",
+    { "None", "Report", "SubStep", "Repair", "Refuse", "RepairAll" }, 0, 5,
     setter<vtkMorphAlgorithm>(
       [](vtkMorphAlgorithm* f, double v) { f->SetValidity(static_cast<int>(v)); }) };
   validity.set(method, valueOf(validity, name));

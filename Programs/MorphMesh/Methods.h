@@ -25,8 +25,8 @@ void setOption(vtkMorphAlgorithm* method, const std::string& name, const std::st
 void setShapesMethod(vtkMorphShapes* filter, const std::string& name,
   const std::vector<std::pair<std::string, std::string>>& options);
 
-/// Sets the treatment of inverted cells: None, Report, SubStep, Repair, Refuse. Throws UsageError
-/// for another name.
+/// Sets the treatment of inverted cells: None, Report, SubStep, Repair, Refuse, RepairAll. Throws
+/// UsageError for another name.
 void setValidity(vtkMorphAlgorithm* method, const std::string& name);
 
 /// For the help text.

@@ -184,7 +184,7 @@ int morphPart(const Ranks& ranks, vtkMorphAlgorithm* filter, vtkUnstructuredGrid
   {
     printReport(before, filter);
   }
-  const bool valid = filter->GetInvertedCells() == 0 && filter->GetDegenerateCells() == 0;
+  const bool valid = filter->GetNewInvertedCells() == 0;
   return errors > 0 || (arguments.requireValid && !valid) ? 3 : 0;
 }
 }

@@ -8,7 +8,9 @@
 #include "Files/ReplaceFile.h"
 
 #include <vtkAppendFilter.h>
+#include <vtkCellData.h>
 #include <vtkNew.h>
+#include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkStructuredGrid.h>
@@ -287,6 +289,7 @@ double writePieces(vtkUnstructuredGrid* moved, const std::string& original, cons
   const PointsByPlace places(merged);
   std::vector<io::NewFile> files;
   vtkIdType strangers = 0;
+  bool hasNormals = false;
   double rounding = 0;
   for (std::size_t i = 0; i < names.from.size(); ++i)
   {
@@ -305,6 +308,8 @@ double writePieces(vtkUnstructuredGrid* moved, const std::string& original, cons
       const auto points =
         movedPoints(piece, places, moved, piece->GetPoints()->GetDataType(), strangers, rounding);
       piece->SetPoints(points);
+      hasNormals =
+        hasNormals || piece->GetPointData()->GetNormals() || piece->GetCellData()->GetNormals();
       file.content = contentOf(piece, target);
     }
     else
@@ -333,6 +338,12 @@ double writePieces(vtkUnstructuredGrid* moved, const std::string& original, cons
   {
     std::cerr << "morph-mesh: warning: " << original << ": " << strangers
               << " points of its pieces are no nodes of the volume mesh, and stay.\n";
+  }
+  if (hasNormals)
+  {
+    // A list of pieces names their arrays, so that they stay.
+    std::cerr << "morph-mesh: warning: " << path
+              << ": the normals of its pieces are those of the undeformed mesh. Make them again.\n";
   }
   io::replaceFiles(files, io::Signals::RemoveTemporaries);
   return rounding;

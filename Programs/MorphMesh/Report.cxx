@@ -7,6 +7,7 @@
 
 #include <iomanip>
 #include <iostream>
+#include <string>
 
 namespace morph_mesh
 {
@@ -31,6 +32,7 @@ void printReport(vtkScaledJacobian* before, vtkMorphAlgorithm* after)
   row("mean scaled Jacobian", before->GetMeanScaledJacobian(), after->GetMeanScaledJacobian());
   row("inverted cells", before->GetInvertedCells(), after->GetInvertedCells());
   row("collapsed cells", before->GetDegenerateCells(), after->GetDegenerateCells());
+  row("inverted by the motion", std::string(), std::to_string(after->GetNewInvertedCells()));
   row("worst cell", before->GetWorstCellId(), after->GetWorstCellId());
   std::cout << "prepared in " << after->GetPrepareSeconds() << " s, evaluated in "
             << after->GetEvaluateSeconds() << " s, " << after->GetSolverIterations()

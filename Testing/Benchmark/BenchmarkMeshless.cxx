@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The meshless methods against CGAL, the memory's bandwidth and the size of the mesh, in one run.
+// The meshless methods against CGAL and the size of the mesh, in one run.
 #include "CommandLine.h"
 #include "MeshlessFigures.h"
 

@@ -7,8 +7,8 @@
 int main(int argc, char** argv)
 {
   return benchmark::commandLine(argc, argv, "benchmark-scale",
-    "Measures each stage on twisted cubes of hexahedra: seconds, parallel efficiency, share and\n"
-    "memory traffic; and FEMWARP's system by hypre's BoomerAMG with conjugate gradients.\n"
+    "Measures each stage on twisted cubes of hexahedra: seconds, parallel efficiency, and share;\n"
+    "and FEMWARP's system by hypre's BoomerAMG with conjugate gradients.\n"
     "SIDES: cells a side, as in: benchmark-scale 50 100 200\n",
     "", benchmark::measureScaleFigures, "SIDES");
 }

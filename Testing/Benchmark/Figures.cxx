@@ -46,7 +46,7 @@ public:
 private:
   /// The bytes of a set that no cache holds.
   double beyondCaches() const;
-  void bandwidth(const Problem& problem, const MethodTimes& times, double workingSet);
+  void bandwidth(const Problem& problem, double workingSet);
 };
 
 void Run::peakMemory(const Problem& problem)
@@ -77,14 +77,12 @@ double Run::beyondCaches() const
                               : std::min(std::max(4 * lastLevelCacheBytes(), 1e9), 0.5 * available);
 }
 
-/// Bounds a step by its traffic, from memory and from where its working set is.
-void Run::bandwidth(const Problem& problem, const MethodTimes& times, double workingSet)
+/// The bandwidth that bounds a step, of memory and of where its working set is.
+void Run::bandwidth(const Problem& problem, double workingSet)
 {
   say("memory bandwidth");
   const auto monitor = makeMonitor(this->cores_);
   const double large = this->beyondCaches();
-  const double warm = median(times.warm);
-  this->add(problem, "bytes moved by a warm step, estimated", times.bytesMoved, "B");
   for (const bool memory : { true, false })
   {
     const double bytes = memory ? large : workingSet;
@@ -95,8 +93,6 @@ void Run::bandwidth(const Problem& problem, const MethodTimes& times, double wor
       " over " + std::to_string(static_cast<int>(bytes / 1e6)) + " MB" + withThreads(this->cores_);
     this->add(problem, where + ", read" + size, measured.read, "B/s");
     this->add(problem, where + ", triad" + size, measured.triad, "B/s");
-    this->add(problem, "warm / (bytes moved / " + where + ")",
-      warm / (times.bytesMoved / measured.best()), "", memory ? Target::atMost(4) : Target::none());
   }
 }
 
@@ -147,7 +143,7 @@ void Run::cube(const Problem& problem)
     Target::atLeast(15));
   this->add(problem, "warm / CHOLMOD solve", warm / median(cholmodSolve), "", Target::atMost(1));
   const auto kept = static_cast<double>(femWarp->memory());
-  this->bandwidth(problem, all, kept);
+  this->bandwidth(problem, kept);
   this->add(problem, "memory kept a node", perNode(kept, problem), "B", Target::atMost(1000));
 
   this->add(problem, "iterations", all.iterations, "");

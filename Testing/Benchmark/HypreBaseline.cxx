@@ -34,18 +34,17 @@ HypreResult solveByHypre(const LinearSystem& system, double tolerance)
   HypreResult result;
   result.startSeconds = startMpi();
   const morph::distributed::Ranks ranks(MPI_COMM_SELF);
-  morph::CsrMatrix ghosts(system.matrix.rows(), 0);
-  morph::distributed::HypreSolver solver;
+  morph::Monitor monitor;
+  morph::distributed::HypreSolver solver(ranks, morph::distributed::HypreSolver::Kind::Symmetric);
   const Stopwatch setUp;
-  solver.prepare(
-    ranks, morph::distributed::HypreSolver::Kind::Symmetric, system.matrix, ghosts, {});
+  solver.prepare({ system.matrix, {}, morph::CsrMatrix(system.matrix.rows(), 0) }, monitor);
   // The hierarchy is set up with the first solution.
   result.x = morph::Points::Zero(system.rightHandSide.rows(), 3);
   const double copySeconds = setUp.seconds();
   const double before = solver.seconds().setUp;
   const Stopwatch solve;
   result.iterations =
-    solver.solve(ranks, system.rightHandSide, result.x, tolerance, MaxIterations).iterations;
+    solver.solve(system.rightHandSide, result.x, tolerance, MaxIterations, monitor).iterations;
   const double late = solver.seconds().setUp - before;
   result.setUpSeconds = copySeconds + late;
   result.solveSeconds = solve.seconds() - late;

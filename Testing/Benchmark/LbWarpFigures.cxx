@@ -9,7 +9,6 @@
 #include "LinearMethods/LogBarrierSystem.h"
 #include "LinearMethods/LogBarrierWarp.h"
 #include "LinearMethods/NodeWeights.h"
-#include "Solvers/MixedPrecisionMatrix.h"
 
 #include <algorithm>
 #include <utility>
@@ -83,8 +82,7 @@ void Run::weights(const Problem& problem)
   {
     say(problem.name + ", weights, repetition " + std::to_string(i + 1));
     this->settleDown();
-    const std::vector<double> sameStiffness;
-    morph::NodeWeights row(problem.mesh, around, columns, sameStiffness);
+    morph::NodeWeights row(problem.mesh, around, columns);
     steps = 0;
     const ThreadStopwatch rowsWatch;
     for (const morph::Index node : free)
@@ -95,9 +93,7 @@ void Run::weights(const Problem& problem)
     rows.push_back(rowsWatch.seconds());
 
     const ThreadStopwatch systemWatch;
-    morph::LogBarrierSystem made = morph::logBarrierSystem(
-      problem.mesh, free, problem.partition.prescribed, false, {}, *monitor);
-    const morph::MixedPrecisionMatrix joined(std::move(made.interior), *monitor);
+    morph::logBarrierSystem(problem.mesh, free, problem.partition.prescribed, false, *monitor);
     system.push_back(systemWatch.seconds());
 
     // The weights without the search for neighbors, ours and Eigen's, on the same numbers.

@@ -4,7 +4,6 @@
 #include "TwistedBrick.h"
 
 #include "Solvers/CsrMatrix.h"
-#include "Solvers/MixedPrecisionMatrix.h"
 
 namespace benchmark
 {
@@ -21,8 +20,7 @@ morph::Points prescribedDisplacement(const Problem& problem);
 template <typename Method>
 LinearSystem linearSystem(const Method& method, const Problem& problem)
 {
-  return { method.solver().matrix().toCsr(),
-    -(method.coupling() * prescribedDisplacement(problem)) };
+  return { method.solver().matrix(), -(method.coupling() * prescribedDisplacement(problem)) };
 }
 
 /// Displacements of these nodes, #ids x 3, from the moved mesh.

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "MeshlessFigures.h"
 
-#include "Bandwidth.h"
 #include "CgalBaseline.h"
 #include "FigureRun.h"
 #include "RootRate.h"
@@ -46,22 +45,14 @@ private:
     timeConfigured<Method>(
       problem, [](Method&) {}, *makeMonitor(this->cores_), times, moved);
   }
-  double bandwidth() const;
-  void addStreaming(const Problem& problem, const std::string& name, const MethodTimes& times,
-    double bandwidth, double paper);
+  void addStreaming(
+    const Problem& problem, const std::string& name, const MethodTimes& times, double paper);
   void againstSibson(const Problem& problem, const morph::InterpolationSites& sites,
     const CgalBaseline& cgal, const morph::Points& moved, double cold);
 };
 
-double Run::bandwidth() const
-{
-  say("memory bandwidth");
-  return measureBandwidth(this->options_.quick ? 100000000 : 1000000000, *makeMonitor(this->cores_))
-    .best();
-}
-
-void Run::addStreaming(const Problem& problem, const std::string& name, const MethodTimes& times,
-  double bandwidth, double paper)
+void Run::addStreaming(
+  const Problem& problem, const std::string& name, const MethodTimes& times, double paper)
 {
   const std::string tail = withThreads(this->cores_);
   this->add(problem, name + ": prepare" + tail, median(times.prepare), "s");
@@ -72,9 +63,6 @@ void Run::addStreaming(const Problem& problem, const std::string& name, const Me
     this->add(
       problem, name + ": a step on the paper's canister, 136,462 nodes (its Table 4)", paper, "s");
   }
-  this->add(problem, name + ": bytes moved by a warm step, estimated", times.bytesMoved, "B");
-  this->add(problem, name + ": warm / one stream of them through memory",
-    median(times.warm) * bandwidth / times.bytesMoved, "", Target::atMost(3));
 }
 
 /// Two scales: 2,000 centres, and compact kernels on the other sites.
@@ -170,16 +158,15 @@ void Run::cube(const Problem& problem)
       this->time<morph::SimplexNaturalNeighbor>(problem, natural, movedByNatural);
     }
   }
-  const double bandwidth = this->bandwidth();
   this->add(problem, "CGAL's Delaunay tessellation, 1 thread", median(delaunay), "s");
   this->add(problem, "CGAL's point location, 1 thread", median(locate), "s");
   this->add(problem, "simplex-linear: cold / CGAL's tessellation and location",
     median(linear.cold) / (median(delaunay) + median(locate)), "", Target::atMost(1.5));
   this->add(problem, "weighted residual: cold / simplex-linear's cold",
     median(residual.cold) / median(linear.cold), "", Target::atMost(15));
-  this->addStreaming(problem, "simplex-linear", linear, bandwidth, PaperSimplexLinear);
-  this->addStreaming(problem, "weighted residual", residual, bandwidth, PaperWeightedResidual);
-  this->addStreaming(problem, "natural neighbor", natural, bandwidth, PaperNaturalNeighbor);
+  this->addStreaming(problem, "simplex-linear", linear, PaperSimplexLinear);
+  this->addStreaming(problem, "weighted residual", residual, PaperWeightedResidual);
+  this->addStreaming(problem, "natural neighbor", natural, PaperNaturalNeighbor);
   this->againstSibson(problem, sites, *cgal, movedByNatural, median(natural.cold));
 }
 

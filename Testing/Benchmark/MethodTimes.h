@@ -20,7 +20,6 @@ struct MethodTimes
   /// an evaluate after that: the median of several, as when a boundary is dragged
   std::vector<double> warm;
   int iterations = 0;
-  double bytesMoved = 0; ///< by one warm evaluate, as the method estimates
 };
 
 /// One repetition: a fresh Method (a Morpher) after configure(method), prepared and evaluated
@@ -51,7 +50,6 @@ std::unique_ptr<Method> timeConfigured(const Problem& problem, const Configure& 
   }
   times.warm.push_back(median(seconds));
   times.iterations = report.iterations;
-  times.bytesMoved = report.bytesMoved;
   if (moved != first)
   {
     throw std::runtime_error("Two evaluations of the same boundary gave different meshes.");

@@ -11,7 +11,6 @@
 #include "Distributed/SystemMethod.h"
 #include "LinearMethods/FemWarp.h"
 #include "LinearMethods/FemWarpSystem.h"
-#include "Solvers/MixedPrecisionMatrix.h"
 #include "Solvers/SpdSolver.h"
 
 #include <time.h>
@@ -206,10 +205,12 @@ void Run::cube(const Problem& problem)
       const Points displacement =
         problem.target - problem.mesh.points(problem.partition.prescribed, morph::allColumns);
       const Points rhs = -(system.coupling * displacement);
-      morph::MixedPrecisionMatrix matrix(std::move(system.interior), *monitor);
+      morph::LinearEquations equations;
+      equations.matrix.swap(system.interior);
+      equations.coordinates = coordinates;
       const Stopwatch watch;
       morph::SpdSolver own;
-      own.prepare(std::move(matrix), coordinates, *monitor);
+      own.prepare(std::move(equations), *monitor);
       const double setUp = watch.seconds();
       Points x = Points::Zero(rhs.rows(), 3);
       own.solve(rhs, x, Tolerance, 2000, *monitor);

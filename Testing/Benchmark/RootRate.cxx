@@ -3,8 +3,7 @@
 
 #include "Timing.h"
 
-#include "Support/SimdDispatch.h"
-#include "Support/SimdMath.h"
+#include "Support/Simd.h"
 
 #include <algorithm>
 #include <vector>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ScaleFigures.h"
 
-#include "Bandwidth.h"
 #include "FigureRun.h"
 #include "LinearSystem.h"
 #include "Machine.h"
@@ -31,7 +30,6 @@ namespace
 {
 constexpr double Tolerance = 1e-8;
 constexpr double LeastEfficiency = 0.8; // of two threads
-constexpr double MostOfBandwidth = 1.5; // of a warm step's time over the bound
 constexpr int AxisZ = 2;
 
 class Run : public FigureRun
@@ -108,12 +106,6 @@ double Run::method(const Problem& problem, const std::string& name)
   this->add(
     problem, name + ": memory kept a node", static_cast<double>(prepared->memory()) / nodes, "B");
   this->add(problem, name + ": iterations", report.iterations, "");
-  constexpr std::size_t Arrays = std::size_t(1) << 30;
-  const auto monitor = makeMonitor(this->cores_);
-  const Bandwidth bandwidth =
-    measureBandwidth(this->options_.quick ? Arrays >> 6 : Arrays, *monitor);
-  this->add(problem, name + ": warm over the time that its traffic takes",
-    warm / (report.bytesMoved / bandwidth.best()), "", Target::atMost(MostOfBandwidth));
   return prepare + warm;
 }
 
@@ -159,10 +151,11 @@ void Run::againstHypre(const Problem& problem)
     warm.push_back(warmWatch.seconds());
     const LinearSystem system = linearSystem(femWarp, problem);
     const morph::Points coordinates = problem.mesh.points(femWarp.rows(), morph::allColumns);
+    morph::LinearEquations equations = { system.matrix, coordinates };
     this->settleDown();
     const Stopwatch setUpWatch;
     morph::SpdSolver solver;
-    solver.prepare({ system.matrix, *monitor }, coordinates, *monitor);
+    solver.prepare(std::move(equations), *monitor);
     ownSetUp.push_back(setUpWatch.seconds());
     this->settleDown();
     hypre = solveByHypre(system, Tolerance);

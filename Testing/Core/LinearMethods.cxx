@@ -16,13 +16,12 @@ using namespace morph;
 
 namespace
 {
-/// A method whose cells are not equally stiff.
-template <typename Method>
+/// FEMWARP with cells that are not equally stiff.
 std::function<std::unique_ptr<LinearMorpher>()> stiff(CellStiffness::Kind kind, double exponent)
 {
   return [=]
   {
-    auto method = std::make_unique<Method>();
+    auto method = std::make_unique<FemWarp>();
     method->setTolerance(1e-13);
     CellStiffness stiffness;
     stiffness.kind = kind;
@@ -43,8 +42,8 @@ const std::vector<LinearMethod>& linearMethods()
         method->setTolerance(1e-13);
         return method;
       } },
-    { "FemWarpInverseVolume", stiff<FemWarp>(CellStiffness::Kind::InverseVolume, 1) },
-    { "FemWarpWallDistance", stiff<FemWarp>(CellStiffness::Kind::WallDistance, 2) },
+    { "FemWarpInverseVolume", stiff(CellStiffness::Kind::InverseVolume, 1) },
+    { "FemWarpWallDistance", stiff(CellStiffness::Kind::WallDistance, 2) },
     { "LogBarrierWarp",
       []
       {
@@ -52,8 +51,6 @@ const std::vector<LinearMethod>& linearMethods()
         method->setTolerance(1e-13);
         return method;
       } },
-    { "LogBarrierWarpInverseVolume", stiff<LogBarrierWarp>(CellStiffness::Kind::InverseVolume, 1) },
-    { "LogBarrierWarpWallDistance", stiff<LogBarrierWarp>(CellStiffness::Kind::WallDistance, 2) },
     { "RadialBasis", [] { return std::make_unique<RadialBasis>(); } },
     { "RadialBasisCompact",
       []
@@ -76,24 +73,9 @@ const std::vector<LinearMethod>& linearMethods()
         method->setKernel(RadialKernel::Kind::ThinPlate);
         return method;
       } },
-    { "SimplexLaplace",
-      []
-      {
-        auto method = std::make_unique<SimplexNaturalNeighbor>();
-        method->setCoordinates(SimplexNaturalNeighbor::Coordinates::Laplace);
-        return method;
-      } },
     { "SimplexLinear", [] { return std::make_unique<SimplexLinear>(); } },
-    { "SimplexSibson", [] { return std::make_unique<SimplexNaturalNeighbor>(); } },
+    { "SimplexNaturalNeighbor", [] { return std::make_unique<SimplexNaturalNeighbor>(); } },
     { "WeightedResidual", [] { return std::make_unique<WeightedResidual>(); } },
-    { "WeightedResidualAdaptive",
-      []
-      {
-        auto method = std::make_unique<WeightedResidual>();
-        method->setNumberOfNeighbors(20);
-        method->setAdaptiveNeighbors(true);
-        return method;
-      } },
   };
   return methods;
 }

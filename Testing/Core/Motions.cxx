@@ -60,6 +60,29 @@ std::vector<std::pair<std::string, Mesh>> jittered()
   return list;
 }
 
+const std::vector<Eigen::Matrix3d>& symmetries()
+{
+  static const std::vector<Eigen::Matrix3d> list = {
+    (Eigen::Matrix3d() << 0, 1, 0, -1, 0, 0, 0, 0, 1).finished(),
+    (Eigen::Matrix3d() << 0, 0, 1, 0, 1, 0, -1, 0, 0).finished(),
+    (Eigen::Matrix3d() << 1, 0, 0, 0, 0, -1, 0, 1, 0).finished(),
+    (Eigen::Matrix3d() << -1, 0, 0, 0, 1, 0, 0, 0, 1).finished()
+  };
+  return list;
+}
+
+std::vector<Index> images(const Points& points, const Eigen::Matrix3d& symmetry)
+{
+  std::vector<Index> result;
+  for (Index i = 0; i < points.rows(); ++i)
+  {
+    Index image = 0;
+    (points.rowwise() - Row(points.row(i) * symmetry)).rowwise().norm().minCoeff(&image);
+    result.push_back(image);
+  }
+  return result;
+}
+
 std::vector<Index> shuffledNumbers(Index n)
 {
   std::vector<Index> order(n);

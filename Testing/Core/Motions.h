@@ -31,6 +31,10 @@ morph::Points targets(
   const morph::Mesh& mesh, const morph::NodePartition& partition, const Map& map);
 /// meshes::all() at 4 x 4 x 4, their inner nodes jittered.
 std::vector<std::pair<std::string, morph::Mesh>> jittered();
+/// Quarter turns about the axes and a reflection, which take a cube about the origin to itself.
+const std::vector<Eigen::Matrix3d>& symmetries();
+/// Of a symmetric set of points, the one to which `symmetry` takes each.
+std::vector<morph::Index> images(const morph::Points& points, const Eigen::Matrix3d& symmetry);
 /// 0, 1, ... n - 1 in random order.
 std::vector<morph::Index> shuffledNumbers(morph::Index n);
 

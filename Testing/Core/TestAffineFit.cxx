@@ -36,7 +36,7 @@ TEST(AffineFit, IsTheLeastSquaresSolutionOfMinimumNorm)
   {
     const Points rest = flatPoints(40, dimension, random), u = randomPoints(40, random);
     const AffineLeastSquares leastSquares(rest);
-    EXPECT_EQ(leastSquares.rank(), dimension);
+    EXPECT_EQ(leastSquares.directions().rank(), dimension);
     const AffineFit fit = leastSquares.fit(u);
     // Without the means, the gradient is a least-squares problem of its own.
     const Eigen::MatrixXd arms = rest.rowwise() - rest.colwise().mean();

@@ -212,7 +212,7 @@ TEST(SubSteps, EndBeforeAFoldWithoutMorphsInVain)
   limits.forbidden = [&](double time) { return check.at(path(time)).all(); };
   const auto make = [] { return std::make_unique<InversionFree>(); };
   const SubStepResult result = morphIncrementally(
-    bent.mesh, bent.mesh.points, bent.partition, bent.sides, path, make, limits, monitor);
+    bent.mesh, bent.mesh.points, bent.partition, bent.sides, {}, path, make, limits, monitor);
   EXPECT_TRUE(result.isForbidden);
   EXPECT_LE(result.attempts, 2);
   EXPECT_GT(result.reached, 0.3);
@@ -223,7 +223,7 @@ TEST(SubSteps, EndBeforeAFoldWithoutMorphsInVain)
 
   limits.forbidden = nullptr;
   const SubStepResult blind = morphIncrementally(
-    bent.mesh, bent.mesh.points, bent.partition, bent.sides, path,
+    bent.mesh, bent.mesh.points, bent.partition, bent.sides, {}, path,
     [] { return std::make_unique<FemWarp>(); }, limits, monitor);
   EXPECT_LE(blind.reached, result.reached + limits.least);
   EXPECT_LE(blind.failures, limits.failures);

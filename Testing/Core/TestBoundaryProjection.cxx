@@ -25,7 +25,10 @@ struct Formula : ProjectionTarget
   {
     return this->surface(x, normal, y);
   }
-  bool closestOnFeatures(const Row& x, Row& y) const override { return this->features(x, y); }
+  bool closestOnFeatures(Index, const Row& x, Row& y) const override
+  {
+    return this->features(x, y);
+  }
 };
 
 struct Case

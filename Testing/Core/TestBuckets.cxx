@@ -71,20 +71,6 @@ TEST(Buckets, HaveEachRowsNumbersInOrderForAnyNumberOfThreads)
   }
 }
 
-TEST(FirstTouch, ALargeVectorHasItsValues)
-{
-  constexpr std::size_t Size = std::size_t(3) << 20; // 24 MiB: several threads touch its pages
-  meshes::ThreadedMonitor three(3);
-  const std::vector<double> values = morph::largeVector<double>(Size, 2.5, three);
-  EXPECT_EQ(values.size(), Size);
-  EXPECT_EQ(static_cast<std::size_t>(std::count(values.begin(), values.end(), 2.5)), Size);
-
-  std::vector<double> kept(10, 1.);
-  morph::resizeLarge(kept, Size, three);
-  EXPECT_EQ(kept.size(), Size);
-  EXPECT_EQ(std::count(kept.begin(), kept.end(), 0.), static_cast<std::ptrdiff_t>(Size));
-}
-
 TEST(RemoveRepeated, KeepsOneOfEachInARow)
 {
   morph::Adjacency lists;

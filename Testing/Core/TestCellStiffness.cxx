@@ -8,7 +8,6 @@
 #include "Motions.h"
 #include "PolyhedralMeshes.h"
 #include "Quality/MovableQuality.h"
-#include "Solvers/MixedPrecisionMatrix.h"
 #include "Support/Error.h"
 
 #include <Eigen/Dense>
@@ -49,7 +48,6 @@ struct Layer
 };
 
 /// Turns the inner wall by 30 degrees; the outer one stays, and the sides are free.
-template <typename Method>
 Layer turned(Kind kind, double exponent = 1)
 {
   const Mesh mesh = wideRing();
@@ -74,7 +72,7 @@ Layer turned(Kind kind, double exponent = 1)
       return { std::cos(a) * x[0] - std::sin(a) * x[1], std::sin(a) * x[0] + std::cos(a) * x[1],
         x[2] };
     });
-  Method method;
+  FemWarp method;
   method.setStiffness({ kind, exponent, walls, {} });
   meshes::ThreadedMonitor monitor(2);
   method.prepare(mesh, partition, monitor);
@@ -101,16 +99,16 @@ Layer turned(Kind kind, double exponent = 1)
 TEST(CellStiffness, KeepsTheFirstLayersOfARingBetter)
 {
   // Nodes follow the wall without turning at best: a line then leans by the wall's 30 degrees.
-  const Layer uniform = turned<FemWarp>(Kind::Uniform);
+  const Layer uniform = turned(Kind::Uniform);
   EXPECT_NEAR(uniform.lean, 54, 1);
   EXPECT_NEAR(uniform.height, 0.73, 0.01);
-  const Layer volume = turned<FemWarp>(Kind::InverseVolume);
+  const Layer volume = turned(Kind::InverseVolume);
   EXPECT_LT(volume.lean, 31);
   EXPECT_GT(volume.height, 0.86);
-  const Layer distance = turned<FemWarp>(Kind::WallDistance);
+  const Layer distance = turned(Kind::WallDistance);
   EXPECT_LT(distance.lean, 42);
   EXPECT_GT(distance.height, 0.81);
-  const Layer quadratic = turned<FemWarp>(Kind::WallDistance, 2);
+  const Layer quadratic = turned(Kind::WallDistance, 2);
   EXPECT_LT(quadratic.lean, 37);
   EXPECT_GT(quadratic.height, 0.83);
   for (const Layer& each : { uniform, volume, distance, quadratic })
@@ -182,7 +180,7 @@ TEST(CellStiffness, MultipliesTheMatrixOfTheCell)
   uniform.prepare(mesh, partition, monitor);
   soft.prepare(mesh, partition, monitor);
   ASSERT_EQ(uniform.rows(), soft.rows());
-  Eigen::MatrixXd expected = uniform.solver().matrix().toCsr();
+  Eigen::MatrixXd expected = uniform.solver().matrix();
   double corners[8][3], K[triangleSize(8)];
   copyCorners(mesh, cell, *cellShape(mesh.types[cell]), mesh.points, corners[0]);
   elementStiffness(Shape::Hex, corners, K);
@@ -198,7 +196,7 @@ TEST(CellStiffness, MultipliesTheMatrixOfTheCell)
       expected(row(a), row(b)) -= 0.75 * K[triangleIndex(8, a, b)];
     }
   }
-  const Eigen::MatrixXd found = soft.solver().matrix().toCsr();
+  const Eigen::MatrixXd found = soft.solver().matrix();
   EXPECT_LT((found - expected).cwiseAbs().maxCoeff(), 1e-14);
   EXPECT_GT(expected.ldlt().vectorD().minCoeff(), 0);
 }

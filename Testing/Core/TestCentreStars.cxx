@@ -6,7 +6,6 @@
 #include "Mesh/Topology.h"
 #include "Motions.h"
 #include "PolyhedralMeshes.h"
-#include "Solvers/MixedPrecisionMatrix.h"
 #include "Support/Error.h"
 
 #include <gtest/gtest.h>
@@ -106,7 +105,7 @@ TEST(CentreStars, AreTheSolutionWithCentres)
     Cut cut(whole);
     const auto kept = cut.prepared(false), gone = cut.prepared(true);
     EXPECT_LT(gone->rows().size(), kept->rows().size());
-    const Eigen::MatrixXd matrix = gone->solver().matrix().toCsr();
+    const Eigen::MatrixXd matrix = gone->solver().matrix();
     EXPECT_EQ(largest(matrix - matrix.transpose()), 0);
 
     FourFields given(static_cast<Index>(cut.partition.prescribed.size()), 4);

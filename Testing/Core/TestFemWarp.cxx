@@ -8,7 +8,6 @@
 #include "Mesh/Topology.h"
 #include "Motions.h"
 #include "Quality/ScaledJacobian.h"
-#include "Solvers/MixedPrecisionMatrix.h"
 #include "Support/Error.h"
 
 #include <Eigen/Dense>
@@ -132,9 +131,8 @@ TEST(FemWarp, AffineIsExactThroughTheEquationsToo)
     Monitor monitor;
     FemWarp method;
     method.prepare(mesh, partition, monitor);
-    const Points residual =
-      method.solver().matrix().toCsr() * meshes::rows(mesh.points, partition.free) +
-      method.coupling() * meshes::rows(mesh.points, partition.prescribed);
+    const Points residual = method.solver().matrix() * meshes::rows(mesh.points, partition.free) +
+                            method.coupling() * meshes::rows(mesh.points, partition.prescribed);
     EXPECT_LT(residual.cwiseAbs().maxCoeff(), 1e-13) << name;
   }
 }
@@ -155,7 +153,7 @@ TEST(FemWarp, AgreesWithADenseSolve)
     EXPECT_GT(report.iterations, 0) << name;
     EXPECT_LE(report.relativeResidual, 1e-13) << name;
 
-    const Eigen::MatrixXd A = method.solver().matrix().toCsr();
+    const Eigen::MatrixXd A = method.solver().matrix();
     EXPECT_LT((A - A.transpose()).cwiseAbs().maxCoeff(), 1e-14) << name;
     const Points displacement = target - meshes::rows(mesh.points, partition.prescribed);
     const Points expected = direct::solve(A, -(method.coupling() * displacement));
@@ -222,7 +220,7 @@ TEST(FemWarp, ANodeOfManyCellsAgreesWithADenseSolve)
   FemWarp method;
   method.prepare(mesh, partition, monitor);
   int widest = 0;
-  const CsrMatrix interior = method.solver().matrix().toCsr();
+  const CsrMatrix interior = method.solver().matrix();
   for (const CsrMatrix* matrix : { &interior, &method.coupling() })
   {
     for (Index row = 0; row < matrix->rows(); ++row)

@@ -6,7 +6,6 @@
 #include "LinearMethods/FemWarp.h"
 #include "Mesh/Topology.h"
 #include "Motions.h"
-#include "Solvers/MixedPrecisionMatrix.h"
 #include "Support/Error.h"
 #include "Untangling/Smoothing.h"
 
@@ -51,8 +50,8 @@ Outcome morphOuter(const Mesh& mesh, Eigen::RowVector3d (*map)(const Eigen::RowV
   const Points rhs =
     method.coupling() * Points(target - meshes::rows(mesh.points, partition.prescribed));
   const Points left =
-    rhs + method.solver().matrix().toCsr() * Points(meshes::rows(result.moved, method.rows()) -
-                                                    meshes::rows(mesh.points, method.rows()));
+    rhs + method.solver().matrix() * Points(meshes::rows(result.moved, method.rows()) -
+                                            meshes::rows(mesh.points, method.rows()));
   for (int c = 0; c < 3; ++c)
   {
     result.trueResidual = std::max(result.trueResidual, left.col(c).norm() / rhs.col(c).norm());

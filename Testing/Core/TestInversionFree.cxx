@@ -485,7 +485,7 @@ TEST(SubSteps, RestMeshesWithInvertedCellsAreRefused)
               {
                 morph::morphIncrementally(
                   mesh, mesh.points, partition, std::vector<std::int8_t>(mesh.numberOfCells(), 1),
-                  morph::straightPath(mesh.points, partition, target(mesh, motions::affine)),
+                  {}, morph::straightPath(mesh.points, partition, target(mesh, motions::affine)),
                   [] { return std::make_unique<morph::FemWarp>(); }, {}, monitor);
               },
               message),

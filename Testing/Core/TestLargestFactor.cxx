@@ -7,6 +7,8 @@
 #include "Quality/ScaledJacobian.h"
 #include "Quality/ValidRange.h"
 #include "RandomMeshes.h"
+#include "Support/Error.h"
+#include "WatchingMonitor.h"
 
 #include <gtest/gtest.h>
 
@@ -83,6 +85,18 @@ void makeCase(Case& result, const std::string& kind, int number)
   }
 }
 
+/// About the z axis, and by (1, 1, 1).
+void turnAndShift(Case& problem)
+{
+  const Points& x = problem.mesh.points;
+  problem.straight = Points::Ones(x.rows(), 3);
+  problem.first[0] = problem.second[0] = Points::Zero(x.rows(), 3);
+  problem.first[0].col(0) = -x.col(1);
+  problem.first[0].col(1) = x.col(0);
+  problem.second[0].leftCols(2) = -x.leftCols(2);
+  problem.motion = { &x, &problem.straight, { { &problem.first[0], &problem.second[0], .5 } } };
+}
+
 class LargestFactors : public testing::TestWithParam<std::string>
 {
 };
@@ -104,7 +118,7 @@ TEST_P(LargestFactors, AreThoseOfASearch)
     ++made;
     Monitor monitor;
     const LargestFactor found =
-      largestFactor(problem.mesh, problem.motion, problem.orientation, monitor);
+      largestFactor(problem.mesh, problem.motion, problem.orientation, {}, monitor);
     EXPECT_EQ(found.cell >= 0, std::isfinite(found.factor));
     if (isQuadratic)
     {
@@ -132,7 +146,7 @@ TEST_P(LargestFactors, AreThoseOfASearch)
     {
       meshes::ThreadedMonitor threaded(threads);
       const LargestFactor again =
-        largestFactor(problem.mesh, problem.motion, problem.orientation, threaded);
+        largestFactor(problem.mesh, problem.motion, problem.orientation, {}, threaded);
       EXPECT_EQ(again.factor, found.factor);
       EXPECT_EQ(again.cell, found.cell);
     }
@@ -162,11 +176,12 @@ TEST(LargestFactor, OfOneTurnIsThatOfItsRange)
     problem.motion.turns[0].angle = std::abs(problem.motion.turns[0].angle);
     const CombinedMotion::Turn& turn = problem.motion.turns[0];
     Monitor monitor;
-    const double range = validRange(problem.mesh,
-      { &problem.mesh.points, turn.first, turn.second, turn.angle }, problem.orientation, monitor)
-                           .highest;
+    const double range =
+      validRange(problem.mesh, { &problem.mesh.points, turn.first, turn.second, turn.angle },
+        problem.orientation, {}, monitor)
+        .highest;
     const double found =
-      largestFactor(problem.mesh, problem.motion, problem.orientation, monitor).factor;
+      largestFactor(problem.mesh, problem.motion, problem.orientation, {}, monitor).factor;
     if (std::isfinite(range))
     {
       EXPECT_NEAR(found, range, 1e-7) << "case " << number << ", seed " << meshes::seed();
@@ -183,20 +198,41 @@ TEST(LargestFactor, OfARigidTurnWithAShiftHasNoEnd)
 {
   Case problem;
   problem.mesh = meshes::hexes(3, 2, 2);
-  problem.straight = Points::Ones(problem.mesh.points.rows(), 3);
-  problem.first[0] = problem.second[0] = Points::Zero(problem.mesh.points.rows(), 3);
-  problem.first[0].col(0) = -problem.mesh.points.col(1);
-  problem.first[0].col(1) = problem.mesh.points.col(0);
-  problem.second[0].leftCols(2) = -problem.mesh.points.leftCols(2);
-  problem.motion = { &problem.mesh.points, &problem.straight,
-    { { &problem.first[0], &problem.second[0], .5 } } };
+  turnAndShift(problem);
   Monitor monitor;
-  LargestFactor found = largestFactor(problem.mesh, problem.motion, {}, monitor);
+  LargestFactor found = largestFactor(problem.mesh, problem.motion, {}, {}, monitor);
   EXPECT_EQ(found.factor, HUGE_VAL);
   EXPECT_EQ(found.cell, -1);
 
   problem.mesh.points.row(0) << 5, 5, 5; // inverted at 0
-  found = largestFactor(problem.mesh, problem.motion, {}, monitor);
+  found = largestFactor(problem.mesh, problem.motion, {}, {}, monitor);
   EXPECT_TRUE(std::isnan(found.factor));
   EXPECT_EQ(found.cell, 0);
+}
+
+TEST(LargestFactor, OfFlatCellsIsFoundInFewSteps)
+{
+  Case problem;
+  problem.mesh = meshes::tets(2, 2, 2);
+  problem.mesh.points.col(0) *= 1e-9; // as flat as that
+  turnAndShift(problem);
+  Monitor monitor;
+  EXPECT_EQ(largestFactor(problem.mesh, problem.motion, {}, {}, monitor).factor, HUGE_VAL);
+
+  problem.straight.col(1) = problem.mesh.points.col(2); // they shear too, and stay valid
+  const double factor = largestFactor(problem.mesh, problem.motion, {}, {}, monitor).factor;
+  EXPECT_GE(factor, 0); // on the safe side
+  EXPECT_LT(factor, 1);
+}
+
+TEST(LargestFactor, AsksWhetherToStop)
+{
+  Case problem;
+  problem.mesh = meshes::hexes(10, 10, 10);
+  turnAndShift(problem);
+  meshes::WatchingMonitor monitor;
+  largestFactor(problem.mesh, problem.motion, {}, {}, monitor);
+  EXPECT_GE(monitor.questions, 3);
+  monitor.cancelAfter = monitor.questions + 2;
+  EXPECT_THROW(largestFactor(problem.mesh, problem.motion, {}, {}, monitor), Error);
 }

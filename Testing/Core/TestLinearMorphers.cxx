@@ -146,6 +146,55 @@ TEST_P(LinearMorphers, RigidMotionAndScaleGoThrough)
   }
 }
 
+TEST_P(LinearMorphers, SymmetriesOfTheMeshGoThrough)
+{
+  if (GetParam().name == "RadialBasisFewCentres")
+  {
+    GTEST_SKIP() << "Which of equally far sites become centres depends on their order.";
+  }
+  Mesh cube = meshes::hexes(6, 6, 6); // each place has many sites as far as the last neighbor
+  cube.points.array() -= 3;
+  const NodePartition partition = outerPartition(cube);
+  const motions::Map bend = [](const motions::Row& x)
+  {
+    return motions::Row(
+      x + motions::Row(.2 * std::sin(x[1]), .1 * x[0] * x[2], .2 * std::cos(x[0] + .3)));
+  };
+  const Points expected = morphed(cube, partition, targets(cube, partition, bend));
+  for (const Eigen::Matrix3d& S : motions::symmetries())
+  {
+    const motions::Map turnedBend = [&](const motions::Row& x)
+    { return motions::Row(bend(x * S.transpose()) * S); };
+    const Points result = morphed(cube, partition, targets(cube, partition, turnedBend));
+    EXPECT_LT(difference(meshes::rows(result, motions::images(cube.points, S)), expected * S), 6e-9)
+      << S;
+  }
+}
+
+TEST_P(LinearMorphers, UnitAndOriginGoThroughWhereNeighborsAreEquallyFar)
+{
+  const Mesh cube = meshes::hexes(6, 6, 6);
+  const NodePartition partition = outerPartition(cube);
+  const Points expected =
+    morphed(cube, partition, targets(cube, partition, twistOf(6, .5))) - cube.points;
+  for (const double unit : { 1e-9, 1e-3, .7, 1e6 })
+  {
+    Mesh scaled = cube;
+    scaled.points *= unit;
+    const Points moved =
+      morphed(scaled, partition, unit * targets(cube, partition, twistOf(6, .5)));
+    EXPECT_LT(difference((moved - scaled.points) / unit, expected), 6e-9) << unit;
+  }
+  Mesh shifted = cube;
+  shifted.points = (cube.points / 7).array() + 6e6; // rounded: a tenth of a millionth is left
+  const Points target =
+    meshes::rows(shifted.points, partition.prescribed) +
+    (targets(cube, partition, twistOf(6, .5)) - meshes::rows(cube.points, partition.prescribed)) /
+      7;
+  const Points moved = morphed(shifted, partition, target);
+  EXPECT_LT(difference(7 * (moved - shifted.points), expected), 1e-6);
+}
+
 TEST_P(LinearMorphers, RenumberingGoesThrough)
 {
   for (const auto& [name, mesh] : jittered())

@@ -6,7 +6,6 @@
 #include "LinearMethods/LogBarrierWarp.h"
 #include "LinearMethods/LogBarrierWeights.h"
 #include "Mesh/CellShape.h"
-#include "Solvers/MixedPrecisionMatrix.h"
 #include "Support/Error.h"
 
 #include <Eigen/Geometry>
@@ -40,7 +39,7 @@ Points morphed(const Mesh& mesh, const NodePartition& partition, const Points& t
 /// Rows of (I - W_I) x_I - W_B x_B, undeformed: how far the weights miss their nodes.
 double missed(const LogBarrierWarp& method, const Mesh& mesh)
 {
-  const Points residual = method.solver().matrix().toCsr() * rows(mesh.points, method.rows()) +
+  const Points residual = method.solver().matrix() * rows(mesh.points, method.rows()) +
                           method.coupling() * rows(mesh.points, method.partition().prescribed);
   return residual.cwiseAbs().maxCoeff();
 }
@@ -86,7 +85,7 @@ TEST(LogBarrierWarp, WeightsSumToOneAndReproduceTheRestPositions)
     LogBarrierWarp method;
     method.prepare(mesh, partition, monitor);
     EXPECT_LT(missed(method, mesh), 1e-12) << name;
-    const CsrMatrix A = method.solver().matrix().toCsr();
+    const CsrMatrix A = method.solver().matrix();
     const Eigen::VectorXd sums =
       A * Eigen::VectorXd::Ones(A.cols()) +
       method.coupling() * Eigen::VectorXd::Ones(method.coupling().cols());
@@ -121,7 +120,7 @@ TEST(LogBarrierWarp, NeighborsAreAllThatShareAVolumeCell)
         expected[mesh.cell(c)[a]].insert(mesh.cell(c), mesh.cell(c) + n);
       }
     }
-    const CsrMatrix A = method.solver().matrix().toCsr();
+    const CsrMatrix A = method.solver().matrix();
     for (int i = 0; i < static_cast<int>(method.rows().size()); ++i)
     {
       std::set<Index>& mine = found[method.rows()[i]];
@@ -154,9 +153,8 @@ TEST(LogBarrierWarp, AgreesWithADirectSolve)
     EXPECT_GT(report.iterations, 0) << name;
     EXPECT_LE(report.relativeResidual, 1e-13) << name;
     EXPECT_EQ(count(report, "OutsideHullNodes"), 0) << name;
-    EXPECT_EQ(count(report, "FallBackIterations"), 0) << name;
 
-    const Eigen::SparseMatrix<double> A = method.solver().matrix().toCsr();
+    const Eigen::SparseMatrix<double> A = method.solver().matrix();
     const Points displacement = target - rows(mesh.points, partition.prescribed);
     const Eigen::MatrixXd expected = direct::solve(A, -(method.coupling() * displacement));
     const Points found = rows(result, method.rows()) - rows(mesh.points, method.rows());
@@ -258,7 +256,6 @@ TEST(LogBarrierWarp, StretchedAndGradedMeshesConvergeFast)
     const EvaluateReport report = method.evaluate(
       targets(mesh, partition, [](const auto& x) { return twist(x, 20, 20, 1); }), result, monitor);
     EXPECT_LT(report.iterations, 40) << kind;
-    EXPECT_EQ(count(report, "FallBackIterations"), 0) << kind;
   }
 }
 
@@ -311,6 +308,36 @@ TEST(LogBarrierWarp, FreeNodesOnAFlatOuterFaceKeepToIt)
     {
       EXPECT_NEAR(result(id, 2), 0, 1e-12);
     }
+  }
+}
+
+TEST(LogBarrierWarp, FreeNodesOnTheEdgesOfGrowingLayersAreInTheirHull)
+{
+  // On an edge of the box the neighbors above and below are unequally far: the weights' system is
+  // singular to rounding.
+  for (const double growth : { 1.05, 1.1, 1.2, 1.5 })
+  {
+    const int layers = 24;
+    Mesh mesh = meshes::hexes(4, 4, layers);
+    const double most = std::pow(growth, layers) - 1;
+    meshes::transform(mesh, [&](const Eigen::RowVector3d& x)
+      { return Eigen::RowVector3d(x[0] / 4, x[1] / 4, (std::pow(growth, x[2]) - 1) / most); });
+    std::vector<Index> ends;
+    for (Index i = 0; i < mesh.numberOfNodes(); ++i)
+    {
+      if (mesh.points(i, 2) == 0 || mesh.points(i, 2) == 1)
+      {
+        ends.push_back(i);
+      }
+    }
+    const NodePartition partition = partitionNodes(mesh, ends);
+    Monitor monitor;
+    LogBarrierWarp method;
+    method.prepare(mesh, partition, monitor);
+    Points moved;
+    method.evaluate(motions::targets(mesh, partition, motions::affine), moved, monitor);
+    EXPECT_LT(motions::difference(moved, motions::mapped(mesh.points, motions::affine)), 1e-12)
+      << growth;
   }
 }
 

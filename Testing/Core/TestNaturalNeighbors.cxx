@@ -20,9 +20,8 @@ using namespace morph;
 namespace
 {
 using Row = Eigen::RowVector3d;
-using Kind = NaturalNeighbors::Coordinates;
 
-/// Another implementation of both coordinates.
+/// Another implementation.
 class Reference
 {
 public:
@@ -38,19 +37,14 @@ public:
   }
 
   /// One weight a site.
-  Eigen::VectorXd weights(const Row& x, Kind kind) const
+  Eigen::VectorXd weights(const Row& x) const
   {
     std::vector<std::pair<Triangulation::Vertex_handle, double>> found;
     double norm = 0;
     const Point q(x[0], x[1], x[2]);
-    const bool inside = kind == Kind::Sibson
-                          ? CGAL::sibson_natural_neighbor_coordinates_3(
-                              this->triangulation_, q, std::back_inserter(found), norm)
-                              .third
-                          : CGAL::laplace_natural_neighbor_coordinates_3(
-                              this->triangulation_, q, std::back_inserter(found), norm)
-                              .third;
-    EXPECT_TRUE(inside);
+    EXPECT_TRUE(CGAL::sibson_natural_neighbor_coordinates_3(
+      this->triangulation_, q, std::back_inserter(found), norm)
+                  .third);
     Eigen::VectorXd result = Eigen::VectorXd::Zero(this->count_);
     for (const auto& [vertex, weight] : found)
     {
@@ -80,11 +74,11 @@ struct Diagram
   }
 
   /// One weight a site; empty where there are none.
-  Eigen::VectorXd weights(const Row& x, Kind kind) const
+  Eigen::VectorXd weights(const Row& x) const
   {
     NaturalNeighbors::Workspace work(this->neighbors);
     const int inside = this->delaunay.locate(x, this->delaunay.startNear(x));
-    if (!this->neighbors.compute(x, inside, kind, work))
+    if (!this->neighbors.compute(x, inside, work))
     {
       return {};
     }
@@ -126,12 +120,9 @@ TEST(NaturalNeighbors, AgreeWithAnotherImplementation)
   for (int i = 0; i < 60; ++i)
   {
     const Row x(value(random), value(random), value(random));
-    for (Kind kind : { Kind::Sibson, Kind::Laplace })
-    {
-      const Eigen::VectorXd found = diagram.weights(x, kind);
-      ASSERT_EQ(found.size(), sites.rows());
-      EXPECT_LT((found - reference.weights(x, kind)).cwiseAbs().maxCoeff(), 1e-8) << x;
-    }
+    const Eigen::VectorXd found = diagram.weights(x);
+    ASSERT_EQ(found.size(), sites.rows());
+    EXPECT_LT((found - reference.weights(x)).cwiseAbs().maxCoeff(), 1e-8) << x;
   }
 }
 
@@ -141,16 +132,13 @@ TEST(NaturalNeighbors, KnownValues)
   Points corners(6, 3);
   corners << 1, 0, 0, -1, 0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 1, 0, 0, -1;
   const Diagram octahedron(corners);
-  for (Kind kind : { Kind::Sibson, Kind::Laplace })
-  {
-    EXPECT_LT((box.weights(Row(.5, .5, .5), kind).array() - 1. / 8).abs().maxCoeff(), 1e-14);
-    EXPECT_LT((octahedron.weights(Row(0, 0, 0), kind).array() - 1. / 6).abs().maxCoeff(), 1e-14);
-    const Eigen::VectorXd atSite = box.weights(cube().row(5), kind);
-    EXPECT_EQ(atSite, Eigen::VectorXd::Unit(8, 5));
-  }
+  EXPECT_LT((box.weights(Row(.5, .5, .5)).array() - 1. / 8).abs().maxCoeff(), 1e-14);
+  EXPECT_LT((octahedron.weights(Row(0, 0, 0)).array() - 1. / 6).abs().maxCoeff(), 1e-14);
+  const Eigen::VectorXd atSite = box.weights(cube().row(5));
+  EXPECT_EQ(atSite, Eigen::VectorXd::Unit(8, 5));
   // All corners of a box lie on one sphere: trilinear weights have the same symmetries, and these
   // differ.
-  const Eigen::VectorXd weights = box.weights(Row(.5, .5, .25), Kind::Sibson);
+  const Eigen::VectorXd weights = box.weights(Row(.5, .5, .25));
   EXPECT_NEAR(weights.head<4>().maxCoeff(), weights.head<4>().minCoeff(), 1e-14);
   EXPECT_NEAR(weights.head<4>().sum(), .75, 1e-14);
 }
@@ -165,14 +153,11 @@ TEST(NaturalNeighbors, ReproduceLinearFieldsAndAreNotNegative)
     for (int i = 0; i < 200; ++i)
     {
       const Row x(value(random), value(random), value(random));
-      for (Kind kind : { Kind::Sibson, Kind::Laplace })
-      {
-        const Eigen::VectorXd weights = diagram.weights(x, kind);
-        ASSERT_EQ(weights.size(), sites.rows()) << x;
-        EXPECT_NEAR(weights.sum(), 1, 1e-14);
-        EXPECT_LT((weights.transpose() * sites - x).norm(), 1e-14);
-        EXPECT_GE(weights.minCoeff(), -1e-8);
-      }
+      const Eigen::VectorXd weights = diagram.weights(x);
+      ASSERT_EQ(weights.size(), sites.rows()) << x;
+      EXPECT_NEAR(weights.sum(), 1, 1e-14);
+      EXPECT_LT((weights.transpose() * sites - x).norm(), 1e-14);
+      EXPECT_GE(weights.minCoeff(), -1e-8);
     }
   }
 }
@@ -182,14 +167,11 @@ TEST(NaturalNeighbors, AreContinuous)
   // Through a face of a lattice's cells, where the tessellation changes.
   const Points sites = meshes::hexes(4, 4, 4).points;
   const Diagram diagram(sites);
-  for (Kind kind : { Kind::Sibson, Kind::Laplace })
+  const Row x(2.3, 1.6, 2);
+  const Eigen::VectorXd on = diagram.weights(x);
+  for (double step : { -1e-6, 1e-6 })
   {
-    const Row x(2.3, 1.6, 2);
-    const Eigen::VectorXd on = diagram.weights(x, kind);
-    for (double step : { -1e-6, 1e-6 })
-    {
-      EXPECT_LT((diagram.weights(x + Row(0, 0, step), kind) - on).cwiseAbs().maxCoeff(), 1e-4);
-    }
+    EXPECT_LT((diagram.weights(x + Row(0, 0, step)) - on).cwiseAbs().maxCoeff(), 1e-4);
   }
 }
 
@@ -198,7 +180,6 @@ TEST(NaturalNeighbors, ThereAreNoneOnTheHullAndOutside)
   const Diagram diagram(cube());
   for (const Row& x : { Row(.5, .5, 0), Row(.5, 0, 0), Row(.5, .5, 2) })
   {
-    EXPECT_EQ(diagram.weights(x, Kind::Sibson).size(), 0) << x;
-    EXPECT_EQ(diagram.weights(x, Kind::Laplace).size(), 0) << x;
+    EXPECT_EQ(diagram.weights(x).size(), 0) << x;
   }
 }

@@ -238,7 +238,8 @@ TEST_P(PolyhedronRanges, AreThoseOfBisection)
     // Both agree at 0.
     ASSERT_EQ(problem.isValid(0), problem.isMeasuredValid(0));
     Monitor monitor;
-    const ValidRange range = validRange(problem.mesh, problem.motion, problem.orientation, monitor);
+    const ValidRange range =
+      validRange(problem.mesh, problem.motion, problem.orientation, {}, monitor);
     ASSERT_EQ(range.isEmpty, !problem.isValid(0));
     if (range.isEmpty)
     {
@@ -269,7 +270,7 @@ TEST_P(PolyhedronRanges, AreThoseOfBisection)
     EXPECT_EQ(range.highestCell >= 0, std::isfinite(range.highest));
     meshes::ThreadedMonitor threaded(3);
     const ValidRange again =
-      validRange(problem.mesh, problem.motion, problem.orientation, threaded);
+      validRange(problem.mesh, problem.motion, problem.orientation, {}, threaded);
     EXPECT_EQ(again.lowest, range.lowest);
     EXPECT_EQ(again.highest, range.highest);
   }
@@ -296,7 +297,7 @@ TEST(PolyhedronRange, OfAnAffineMotionIsThatOfTheMeasure)
     first.col(2) = -.25 * mesh.points.col(2);
     Monitor monitor;
     const NodeMotion motion = { &mesh.points, &first, nullptr, 0 };
-    const ValidRange range = validRange(mesh, motion, orientation, monitor);
+    const ValidRange range = validRange(mesh, motion, orientation, {}, monitor);
     EXPECT_NEAR(range.highest, 4, 1e-9);
     EXPECT_EQ(range.lowest, -HUGE_VAL);
     for (const double s : { -10., 1., 3.99 })
@@ -319,11 +320,12 @@ TEST(PolyhedronRange, LargestFactorsAreTheEndsOfOneTurn)
       makeCase(problem, kind, true, number);
       Monitor monitor;
       const ValidRange range =
-        validRange(problem.mesh, problem.motion, problem.orientation, monitor);
+        validRange(problem.mesh, problem.motion, problem.orientation, {}, monitor);
       CombinedMotion motion;
       motion.base = &problem.mesh.points;
       motion.turns = { { &problem.first, &problem.second, problem.motion.angle } };
-      const LargestFactor found = largestFactor(problem.mesh, motion, problem.orientation, monitor);
+      const LargestFactor found =
+        largestFactor(problem.mesh, motion, problem.orientation, {}, monitor);
       if (range.isEmpty)
       {
         EXPECT_TRUE(std::isnan(found.factor));

@@ -150,7 +150,7 @@ TEST(Progress, OfSubStepsRises)
   const NodePartition partition = motions::outerPartition(mesh);
   Recorder monitor;
   morphIncrementally(
-    mesh, mesh.points, partition, cellSigns(mesh, connectedComponents(mesh)),
+    mesh, mesh.points, partition, cellSigns(mesh, connectedComponents(mesh)), {},
     straightPath(mesh.points, partition, motions::targets(mesh, partition, impossible)),
     [] { return std::make_unique<FemWarp>(); }, {}, monitor);
   EXPECT_TRUE(std::is_sorted(monitor.told.begin(), monitor.told.end()));

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Four numbers at once give what each gives alone, on every processor.
+// Four numbers at once give what each gives alone.
 #include "Energies/CellBatches.h"
 #include "Energies/FoldoverKernel.h"
 #include "Meshes.h"
 #include "Motions.h"
-#include "Support/SimdDispatch.h"
+#include "Support/Simd.h"
 
 #include <gtest/gtest.h>
 
@@ -95,29 +95,42 @@ struct EvaluateCase
     }
   }
 };
-
-struct CubeRoot
-{
-  static MORPH_SIMD_INLINE void run(Index i, std::vector<double>& x)
-  {
-    const SimdDouble4 value = { x[i], x[i] * 1.37, x[i] * 2.9, x[i] * 5.1 };
-    const SimdDouble4 root = morph::inverseCubeRoot(value);
-    for (int lane = 0; lane < SimdWidth; ++lane)
-    {
-      EXPECT_NEAR(root[lane] * std::cbrt(value[lane]), 1, 2e-15) << value[lane];
-    }
-  }
-};
 }
 
-TEST(SimdDouble4, InverseCubeRoot)
+// What the twin of plain loops gives, too.
+TEST(SimdDouble4, HasEachOperationOnEachNumber)
 {
-  std::vector<double> x;
-  for (double value = 1e-300; value < 1e300; value *= 3.7)
+  using namespace morph;
+  const double from[] = { 1, 2, -3, 4 };
+  const float single[] = { 1, 2, -3, 4 };
+  const SimdDouble4 a = load(from), b = 2. * a - 1., c = SimdDouble4{} + 7.;
+  const SimdMask4 mask = (a > 1.) | (b == -7.);
+  const long long bits[] = { 2, 0, 3, 1 };
+  const SimdDouble4 chosen = select(mask, b, c), sums = sumsOf(a, b, c, -c);
+  const SimdDouble4 marked = select(hasBit(bits, 1), a, c), wide = widened(single);
+  const SimdFloat4 rows[] = { load(single), narrowed(b), 2.f * load(single), load(single) };
+  SimdFloat4 columns[4];
+  transpose(rows, columns);
+  double stored[SimdWidth];
+  store(a / 2., stored);
+  for (int i = 0; i < SimdWidth; ++i)
   {
-    x.push_back(value);
+    EXPECT_EQ(b[i], 2 * from[i] - 1);
+    EXPECT_EQ(chosen[i], i == 0 ? 7 : b[i]);
+    EXPECT_EQ(marked[i], i == 0 || i == 2 ? from[i] : 7);
+    EXPECT_EQ(wide[i], from[i]);
+    EXPECT_EQ(stored[i], from[i] / 2);
+    EXPECT_EQ(squareRoot(a * a)[i], std::abs(from[i]));
+    EXPECT_EQ(columns[i][1], static_cast<float>(b[i]));
+    EXPECT_EQ(columns[i][2], 2 * single[i]);
   }
-  morph::dispatchedFor<CubeRoot>(0, static_cast<Index>(x.size()), x);
+  EXPECT_EQ(sums[0], 4);
+  EXPECT_EQ(sums[1], 4);
+  EXPECT_EQ(sums[2], 28);
+  EXPECT_EQ(sums[3], -28);
+  EXPECT_TRUE(any(mask));
+  EXPECT_FALSE(any(a > 4.));
+  EXPECT_TRUE(any(!mask));
 }
 
 TEST(SimdDouble4, TheDensityIsThatOfSingleNumbers)
@@ -155,7 +168,7 @@ TEST(SimdDouble4, TheDensityIsThatOfSingleNumbers)
   }
 }
 
-#if defined(__x86_64__)
+#if defined(MORPH_HAS_GNU_VECTORS) && defined(__x86_64__)
 TEST(SimdDouble4, TheProcessorDoesNotShow)
 {
   if (!__builtin_cpu_supports("avx2"))

@@ -98,9 +98,7 @@ struct Block
     }
     ThreadedMonitor monitor;
     FemWarpSystem system = femWarpSystem(this->mesh, unknown, this->prescribed, {}, monitor);
-    CsrMatrix interior;
-    joinRows(std::move(system.interior), interior, monitor);
-    const Eigen::MatrixXd A = interior;
+    const Eigen::MatrixXd A = system.interior;
     const Points given =
       rows(this->moved, this->prescribed) - rows(this->mesh.points, this->prescribed);
     const Points b = -(system.coupling * given);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "BoundaryShapes.h"
+#include "Motions.h"
 
 #include "Boundary/FaceQuality.h"
 #include "Boundary/SurfaceLoops.h"
@@ -134,6 +135,56 @@ std::string messageOf(const std::function<void()>& call)
   }
   return "(no error)";
 }
+}
+
+TEST(SurfaceMorph, SymmetriesUnitAndOriginGoThrough)
+{
+  // One face turns in its plane, and its sides follow. Many edge nodes are equally far from theirs.
+  Mesh cube = meshes::hexes(6, 6, 6);
+  cube.points.array() -= 3;
+  const auto turn = [](const Row& x)
+  {
+    const double c = std::cos(.5), s = std::sin(.5);
+    return Row(c * x[0] - s * x[1], s * x[0] + c * x[1], x[2]);
+  };
+  const auto top = [](const Case& c, const Row& normal, double at)
+  {
+    std::vector<Index> ids;
+    for (Index node : c.faces.nodes)
+    {
+      if (std::abs(c.mesh.points.row(node).dot(normal) - at) < .1 * at)
+      {
+        ids.push_back(node);
+      }
+    }
+    return ids;
+  };
+  const Case here(cube);
+  const Points expected = here.morph(top(here, Row(0, 0, 1), 3), turn) - cube.points;
+  for (const Eigen::Matrix3d& S : motions::symmetries())
+  {
+    const Points result = here.morph(top(here, Row(0, 0, 1) * S, 3),
+      [&](const Row& x) { return Row(turn(x * S.transpose()) * S); });
+    const std::vector<Index> images = motions::images(cube.points, S);
+    EXPECT_LT(motions::difference(meshes::rows(result - cube.points, images), expected * S), 6e-9)
+      << S;
+  }
+  for (const double unit : { 1e-9, 1e-3, 1e6 })
+  {
+    Mesh scaled = cube;
+    scaled.points *= unit;
+    const Case other(scaled);
+    const Points moved = other.morph(top(other, Row(0, 0, unit), 3 * unit * unit),
+      [&](const Row& x) { return Row(unit * turn(x / unit)); });
+    EXPECT_LT(motions::difference((moved - scaled.points) / unit, expected), 6e-9) << unit;
+  }
+  Mesh shifted = cube;
+  shifted.points.array() += 6e6;
+  const Case far(shifted);
+  std::vector<Index> ids = top(here, Row(0, 0, 1), 3);
+  const Row origin = Row::Constant(6e6);
+  const Points moved = far.morph(ids, [&](const Row& x) { return Row(origin + turn(x - origin)); });
+  EXPECT_LT(motions::difference(moved - shifted.points, expected), 1e-7);
 }
 
 TEST(SurfaceMorph, NoMotionIsTheIdentityBitForBit)

@@ -80,7 +80,7 @@ public:
     }
     return true;
   }
-  bool closestOnFeatures(const Row&, Row&) const override { return false; }
+  bool closestOnFeatures(Index, const Row&, Row&) const override { return false; }
 };
 }
 

@@ -7,7 +7,9 @@
 #include "Quality/ScaledJacobian.h"
 #include "Quality/ValidRange.h"
 #include "RandomMeshes.h"
+#include "Support/Error.h"
 #include "ValidRangeCases.h"
+#include "WatchingMonitor.h"
 
 #include <gtest/gtest.h>
 
@@ -78,7 +80,8 @@ TEST_P(ValidRanges, AreThoseOfBisection)
     }
     ++made;
     Monitor monitor;
-    const ValidRange range = validRange(problem.mesh, problem.motion, problem.orientation, monitor);
+    const ValidRange range =
+      validRange(problem.mesh, problem.motion, problem.orientation, {}, monitor);
     ASSERT_FALSE(range.isEmpty);
     const double low = problem.bisected(-1), high = problem.bisected(1);
     bothFinite += std::isfinite(range.lowest) && std::isfinite(range.highest);
@@ -104,7 +107,7 @@ TEST_P(ValidRanges, AreThoseOfBisection)
     {
       meshes::ThreadedMonitor threaded(threads);
       const ValidRange again =
-        validRange(problem.mesh, problem.motion, problem.orientation, threaded);
+        validRange(problem.mesh, problem.motion, problem.orientation, {}, threaded);
       EXPECT_EQ(again.lowest, range.lowest);
       EXPECT_EQ(again.highest, range.highest);
     }
@@ -134,7 +137,7 @@ TEST(ValidRange, OfACubeThatIsFlattened)
   problem.first.col(2) = -.25 * problem.mesh.points.col(2);
   problem.motion = { &problem.mesh.points, &problem.first, nullptr, 0 };
   Monitor monitor;
-  ValidRange range = validRange(problem.mesh, problem.motion, {}, monitor);
+  ValidRange range = validRange(problem.mesh, problem.motion, {}, {}, monitor);
   EXPECT_NEAR(range.highest, 4, 1e-11);
   EXPECT_LE(range.highest, 4);
   EXPECT_EQ(range.highestCell, 0);
@@ -149,13 +152,13 @@ TEST(ValidRange, OfACubeThatIsFlattened)
   second *= -1;
   second.col(2).setZero();
   const NodeMotion turn = { &problem.mesh.points, &problem.first, &second, 1 };
-  range = validRange(problem.mesh, turn, {}, monitor);
+  range = validRange(problem.mesh, turn, {}, {}, monitor);
   EXPECT_EQ(range.highest, HUGE_VAL);
   EXPECT_EQ(range.lowest, -HUGE_VAL);
 
   // Inverted at 0.
   problem.mesh.points.row(0) << 5, 5, 5;
-  range = validRange(problem.mesh, problem.motion, {}, monitor);
+  range = validRange(problem.mesh, problem.motion, {}, {}, monitor);
   EXPECT_TRUE(range.isEmpty);
   EXPECT_TRUE(std::isnan(range.lowest) && std::isnan(range.highest));
   EXPECT_EQ(range.lowestCell, 0);
@@ -178,4 +181,27 @@ TEST(PolynomialRoot, FindsTheFirst)
   EXPECT_FALSE(isPositiveUntil(cubic, 3, 1));
   EXPECT_FALSE(isPositiveUntil(cubic, 3, HUGE_VAL));
   EXPECT_TRUE(isPositiveUntil(small, 3, 1e-10));
+}
+
+TEST(PolynomialRoot, OfNumbersBeyondAllBoundsIsNone)
+{
+  const double first[] = { HUGE_VAL, -5, 3, 1 }, last[] = { 1, 2, 3, HUGE_VAL };
+  const double not1[] = { 1, NAN, 3, 1 }, large[] = { 1e308, -1e308, 1e308, -1e-308 };
+  EXPECT_EQ(firstPositiveRoot(first, 3), 0);
+  EXPECT_EQ(firstPositiveRoot(last, 3), 0);
+  EXPECT_EQ(firstPositiveRoot(not1, 3), 0);
+  EXPECT_GE(firstPositiveRoot(large, 3), 0); // it ends
+}
+
+TEST(ValidRange, AsksWhetherToStop)
+{
+  Case problem;
+  problem.mesh = meshes::hexes(30, 30, 10);
+  problem.first = Points::Random(problem.mesh.points.rows(), 3);
+  problem.motion = { &problem.mesh.points, &problem.first, nullptr, 0 };
+  meshes::WatchingMonitor monitor;
+  validRange(problem.mesh, problem.motion, {}, {}, monitor);
+  EXPECT_GE(monitor.questions, 2);
+  monitor.cancelAfter = monitor.questions + 1;
+  EXPECT_THROW(validRange(problem.mesh, problem.motion, {}, {}, monitor), Error);
 }

@@ -49,7 +49,6 @@ Points targets(const Mesh& mesh, const NodePartition& partition,
 struct Options
 {
   Index neighbors = 80;
-  bool adaptive = false;
   int threads = 1;
 };
 
@@ -59,7 +58,6 @@ Points morphed(const Mesh& mesh, const NodePartition& partition, const Points& t
   meshes::ThreadedMonitor monitor(options.threads);
   WeightedResidual method;
   method.setNumberOfNeighbors(options.neighbors);
-  method.setAdaptiveNeighbors(options.adaptive);
   method.prepare(mesh, partition, monitor);
   Points result;
   method.evaluate(target, result, monitor);
@@ -83,7 +81,7 @@ std::vector<std::pair<std::string, Mesh>> generic(int nx, int ny, int nz)
 
 const std::vector<Options>& variants()
 {
-  static const std::vector<Options> list = { {}, { 9 }, { 1 }, { 6, true } };
+  static const std::vector<Options> list = { {}, { 9 }, { 1 } };
   return list;
 }
 
@@ -211,9 +209,13 @@ TEST(WeightedResidual, RigidMotionAndScaleOfTheRestMeshDoNotMatter)
     Eigen::AngleAxisd(1.3, Eigen::Vector3d(1, -2, .5).normalized()).toRotationMatrix();
   const auto place = [&](const Eigen::RowVector3d& x) -> Eigen::RowVector3d
   { return 1e3 * x * turn + Eigen::RowVector3d(500, -3000, 100); };
+  // Lattices have many sites as far as the last neighbor.
+  auto all = meshes::all(4, 4, 4);
+  const auto others = generic(4, 4, 4);
+  all.insert(all.end(), others.begin(), others.end());
   for (const Options& options : variants())
   {
-    for (const auto& [name, mesh] : generic(4, 4, 4))
+    for (const auto& [name, mesh] : all)
     {
       const NodePartition partition = outerPartition(mesh);
       Mesh elsewhere = mesh;
@@ -247,7 +249,6 @@ TEST(WeightedResidual, AdjointMatchesFiniteDifferences)
       Monitor monitor;
       WeightedResidual method;
       method.setNumberOfNeighbors(options.neighbors);
-      method.setAdaptiveNeighbors(options.adaptive);
       method.prepare(mesh, partition, monitor);
       Points gradient(mesh.numberOfNodes(), 3),
         step(static_cast<Index>(partition.prescribed.size()), 3);
@@ -288,36 +289,31 @@ TEST(WeightedResidual, ThreadsAndHistoryDoNotShow)
   std::mt19937 random(meshes::seed());
   const Points gradient = mesh.points.unaryExpr(
     [&](double) { return std::uniform_real_distribution<double>(-1, 1)(random); });
-  for (bool adaptive : { false, true })
+  Points reference, referenceAdjoint;
+  for (int threads : { 1, 2, 3, 5 })
   {
-    Points reference, referenceAdjoint;
-    for (int threads : { 1, 2, 3, 5 })
+    meshes::ThreadedMonitor monitor(threads);
+    WeightedResidual method;
+    method.prepare(mesh, partition, monitor);
+    Points result, adjoint;
+    method.evaluate(targets(mesh, partition, affine), result, monitor);
+    method.evaluate(target, result, monitor);
+    method.applyTranspose(gradient, adjoint, monitor);
+    if (threads == 1)
     {
-      meshes::ThreadedMonitor monitor(threads);
-      WeightedResidual method;
-      method.setAdaptiveNeighbors(adaptive);
-      method.setNumberOfNeighbors(adaptive ? 10 : 80);
-      method.prepare(mesh, partition, monitor);
-      Points result, adjoint;
-      method.evaluate(targets(mesh, partition, affine), result, monitor);
-      method.evaluate(target, result, monitor);
-      method.applyTranspose(gradient, adjoint, monitor);
-      if (threads == 1)
-      {
-        reference = result;
-        referenceAdjoint = adjoint;
-      }
-      EXPECT_TRUE(sameBits(result, reference)) << threads;
-      EXPECT_TRUE(sameBits(adjoint, referenceAdjoint)) << threads;
-      EXPECT_TRUE(sameBits(
-        result, morphed(mesh, partition, target, { adaptive ? 10 : 80, adaptive, threads })));
+      reference = result;
+      referenceAdjoint = adjoint;
     }
+    EXPECT_TRUE(sameBits(result, reference)) << threads;
+    EXPECT_TRUE(sameBits(adjoint, referenceAdjoint)) << threads;
+    EXPECT_TRUE(sameBits(result, morphed(mesh, partition, target, { 80, threads })));
   }
 }
 
 TEST(WeightedResidual, WeightsArePositiveAndSumToOne)
 {
   const Mesh mesh = meshes::hexes(7, 6, 5);
+  bool hasTies = false;
   Monitor monitor;
   WeightedResidual method;
   method.setNumberOfNeighbors(30);
@@ -326,9 +322,10 @@ TEST(WeightedResidual, WeightsArePositiveAndSumToOne)
   ASSERT_EQ(weights.rows(), 6 * 5 * 4);
   for (Index row = 0; row < weights.rows(); ++row)
   {
-    ASSERT_EQ(weights.entries(row), 30);
+    ASSERT_GE(weights.entries(row), 30);
+    hasTies = hasTies || weights.entries(row) > 30;
     double sum = 0;
-    for (Index e = 0; e < 30; ++e)
+    for (Index e = 0; e < weights.entries(row); ++e)
     {
       EXPECT_GT(weights.weight(row)[e], 0);
       EXPECT_TRUE(e == 0 || weights.column(row)[e] > weights.column(row)[e - 1]);
@@ -336,68 +333,8 @@ TEST(WeightedResidual, WeightsArePositiveAndSumToOne)
     }
     EXPECT_NEAR(sum, 1, 1e-14);
   }
+  EXPECT_TRUE(hasTies);
   EXPECT_GT(method.memory(), static_cast<std::size_t>(12 * 30 * weights.rows()));
-}
-
-TEST(WeightedResidual, AdaptiveNeighborsSurroundTheirNode)
-{
-  for (const auto& [name, mesh] : generic(6, 5, 5))
-  {
-    const NodePartition partition = outerPartition(mesh);
-    Monitor monitor;
-    WeightedResidual method;
-    method.setNumberOfNeighbors(5);
-    method.setAdaptiveNeighbors(true);
-    method.prepare(mesh, partition, monitor);
-    const Points& sites = method.sites().coordinates();
-    const Index free = static_cast<Index>(partition.free.size());
-    Index grown = 0;
-    for (Index row = 0; row < free; ++row)
-    {
-      const Index n = method.weights().entries(row);
-      const Eigen::RowVector3d x = mesh.points.row(partition.free[row]);
-      // An independent look: a node is in the hull of the first n neighbors if no direction sees
-      // them all. Random directions cannot prove that it is, but they show that it is not.
-      std::vector<std::pair<double, Index>> near;
-      for (Index s = 0; s < sites.rows(); ++s)
-      {
-        near.emplace_back((sites.row(s) - x).squaredNorm(), s);
-      }
-      std::sort(near.begin(), near.end());
-      std::mt19937 random(meshes::seed());
-      std::normal_distribution<double> normal;
-      const auto separated = [&](Index count)
-      {
-        for (int trial = 0; trial < 300; ++trial)
-        {
-          const Eigen::RowVector3d direction(normal(random), normal(random), normal(random));
-          bool all = true;
-          for (Index i = 0; i < count && all; ++i)
-          {
-            all = (sites.row(near[i].second) - x).dot(direction) > 0;
-          }
-          if (all)
-          {
-            return true;
-          }
-        }
-        return false;
-      };
-      EXPECT_TRUE(n == sites.rows() || !separated(n)) << name << " " << n;
-      if (separated(5))
-      {
-        EXPECT_GT(n, 5) << name;
-        ++grown;
-      }
-      Index doubled = 5;
-      while (doubled < n)
-      {
-        doubled *= 2;
-      }
-      EXPECT_EQ(n, std::min(doubled, sites.rows())) << name;
-    }
-    EXPECT_GT(grown, free / 4) << name;
-  }
 }
 
 TEST(WeightedResidual, FlatSetsOfPrescribedNodesKeepTheMapLinear)
@@ -540,6 +477,27 @@ TEST(WeightedResidual, AFitThatTurnsTheMeshInsideOutIsToldOf)
   Mesh expected = mesh;
   meshes::transform(expected, mirror);
   EXPECT_LT((result - expected.points).norm(), 1e-12); // and the map stays linear
+}
+
+TEST(WeightedResidual, AModeIsNoMotionToWarnOf)
+{
+  // One wall's share of a motion turns the fit inside out, which says nothing of the motion.
+  const Mesh mesh = meshes::hexes(3, 3, 3);
+  const NodePartition partition = outerPartition(mesh);
+  meshes::ThreadedMonitor monitor;
+  WeightedResidual method;
+  method.prepare(mesh, partition, monitor);
+  Points mode = meshes::rows(mesh.points, partition.prescribed);
+  mode.leftCols<2>().setZero();
+  mode *= -20;
+  method.basis({ mode }, monitor);
+  FourFields fields = FourFields::Zero(mode.rows(), 4);
+  fields.leftCols<3>() = mode;
+  method.fields(fields, monitor);
+  EXPECT_TRUE(monitor.warnings.empty()) << monitor.warnings.front();
+  Points moved;
+  method.evaluate(meshes::rows(mesh.points, partition.prescribed) + mode, moved, monitor);
+  EXPECT_EQ(monitor.warnings.size(), 1u);
 }
 
 TEST(WeightedResidual, RefusesWhatItCannotUse)

@@ -14,6 +14,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 
 namespace
@@ -39,9 +41,6 @@ std::vector<std::pair<std::string, std::unique_ptr<Morpher>>> methods()
   all.emplace_back("weighted residual", std::make_unique<morph::WeightedResidual>());
   all.emplace_back("simplex-linear", std::make_unique<morph::SimplexLinear>());
   all.emplace_back("natural neighbor", std::make_unique<morph::SimplexNaturalNeighbor>());
-  auto coarse = std::make_unique<morph::SimplexNaturalNeighbor>();
-  coarse->setCoarsening(1);
-  all.emplace_back("natural neighbor, coarsened", std::move(coarse));
   all.emplace_back("radial basis", std::make_unique<morph::RadialBasis>());
   auto few = std::make_unique<morph::RadialBasis>();
   few->setNumberOfCentres(20);
@@ -64,13 +63,12 @@ Points affine(const Points& x)
   return (x * map).rowwise() + Eigen::RowVector3d(0.5, -1, 2);
 }
 
-/// Moves the boundary of `whole` by `motion` on all ranks; returns the largest distance from the
-/// serial method's mesh, or from the motion of all nodes.
-double difference(const Ranks& ranks, const Mesh& whole, std::unique_ptr<Morpher> serial,
-  Points (*motion)(const Points&), bool isAffine)
+/// Moves the nodes `outer` of `whole` by `motion` on all ranks; returns the largest distance from
+/// the serial method's mesh, or from the motion of all nodes.
+double difference(const Ranks& ranks, const Mesh& whole, const std::vector<Index>& outer,
+  std::unique_ptr<Morpher> serial, Points (*motion)(const Points&), bool isAffine)
 {
   Monitor monitor;
-  const std::vector<Index> outer = morph::boundaryFaces(whole, monitor).nodes;
   const Points target = motion(whole.points);
   Points expected = target;
   if (!isAffine)
@@ -83,6 +81,15 @@ double difference(const Ranks& ranks, const Mesh& whole, std::unique_ptr<Morpher
   Points moved;
   mine.evaluate(target, moved, monitor);
   return pieces::distance(mine.mesh, moved, expected) / meshes::size(whole.points);
+}
+
+/// The same for the whole boundary.
+double difference(const Ranks& ranks, const Mesh& whole, std::unique_ptr<Morpher> serial,
+  Points (*motion)(const Points&), bool isAffine)
+{
+  Monitor monitor;
+  return difference(
+    ranks, whole, morph::boundaryFaces(whole, monitor).nodes, std::move(serial), motion, isAffine);
 }
 }
 
@@ -100,14 +107,71 @@ TEST(DistributedMethods, AgreeWithTheSerialOnes)
   }
 }
 
-TEST(DistributedMethods, AgreeOnACoarsenedBoundary)
+TEST(DistributedMethods, AgreeFarFromANearlyFlatWall)
 {
-  // Large enough for subsets of the boundary.
+  // What is fitted to the wall's motion would move far nodes by its unevenness, multiplied out.
   const Ranks ranks = pieces::world();
-  const Mesh whole = meshes::hexes(12, 12, 12);
-  auto coarse = std::make_unique<morph::SimplexNaturalNeighbor>();
-  coarse->setCoarsening(0.5);
-  EXPECT_LT(difference(ranks, whole, std::move(coarse), bend, false), 1e-9);
+  Mesh whole = meshes::hexes(5, 5, 5);
+  std::vector<Index> wall;
+  for (Index n = 0; n < whole.numberOfNodes(); ++n)
+  {
+    if (whole.points(n, 2) == 0)
+    {
+      whole.points(n, 2) = 1e-3 * std::sin(9. * static_cast<double>(n));
+      wall.push_back(n);
+    }
+  }
+  auto method = std::make_unique<morph::FemWarp>();
+  method->setTolerance(1e-13);
+  morph::CellStiffness stiffness;
+  stiffness.kind = morph::CellStiffness::Kind::WallDistance;
+  method->setStiffness(stiffness);
+  EXPECT_LT(difference(ranks, whole, wall, std::move(method), bend, false), 1e-9);
+}
+
+TEST(DistributedMethods, ABodyThatMovesByLittleHasAsManyDigits)
+{
+  const Ranks ranks = pieces::world();
+  const Mesh body = meshes::hexes(5, 5, 5);
+  Mesh whole = body;
+  const Index before = body.numberOfNodes();
+  whole.points.conservativeResize(2 * before, 3);
+  whole.points.bottomRows(before) = body.points.rowwise() + Eigen::RowVector3d(20, 0, 0);
+  for (Index c = 0; c < body.numberOfCells(); ++c)
+  {
+    std::vector<Index> nodes(body.cell(c), body.cell(c) + 8);
+    for (Index& node : nodes)
+    {
+      node += before;
+    }
+    meshes::add(whole, morph::Hexahedron, nodes);
+  }
+  Monitor monitor;
+  const double small = 1e-5;
+  const std::vector<Index> outer = morph::boundaryFaces(whole, monitor).nodes,
+                           ofOne = morph::boundaryFaces(body, monitor).nodes;
+  Points target = bend(whole.points), expected;
+  target.bottomRows(before) =
+    whole.points.bottomRows(before) + small * (bend(body.points) - body.points);
+  morph::FemWarp alone;
+  alone.setTolerance(1e-13);
+  alone.prepare(body, morph::partitionNodes(body, ofOne), monitor);
+  alone.evaluate(Points(bend(body.points)(ofOne, morph::allColumns)), expected, monitor);
+  const pieces::OnRanks mine(ranks, whole, outer,
+    morph::distributed::makeMethod(std::make_unique<morph::FemWarp>()), meshes::seed(), monitor);
+  Points moved;
+  mine.evaluate(target, moved, monitor);
+  double off = 0;
+  for (Index n = 0; n < mine.mesh.mesh().numberOfNodes(); ++n)
+  {
+    const Index node = mine.mesh.nodeId(n) - before;
+    if (node >= 0)
+    {
+      const Eigen::RowVector3d wanted = small * (expected.row(node) - body.points.row(node));
+      off = std::max(off, (moved.row(n) - whole.points.row(node + before) - wanted).norm());
+    }
+  }
+  EXPECT_LT(ranks.maximum(off), 1e-8 * small);
 }
 
 TEST(DistributedMethods, ReproduceAffineMotions)

@@ -51,8 +51,8 @@ TEST(DistributedPatches, RepairInvertedCellsAndMoveNothingElse)
   const Ranks ranks = pieces::world();
   Case c(ranks);
   Monitor monitor;
-  const auto report =
-    morph::distributed::repairInverted(c.mesh, c.mesh.mesh().points, c.partition, c.moved, monitor);
+  const auto report = morph::distributed::repairInverted(
+    c.mesh, c.mesh.mesh().points, c.partition, {}, c.moved, monitor);
   EXPECT_EQ(report.bad, 0);
   EXPECT_EQ(report.tooLarge, 0);
   // The patches of six rings end before the middle.
@@ -86,7 +86,7 @@ TEST(DistributedPatches, SayWhatTheyGatherAndHaveALimit)
   PatchLimits limits;
   limits.rings = 1;
   const PatchReport report = morph::distributed::repairPatches(
-    c.mesh, c.mesh.mesh().points, c.partition, seeds, limits, c.moved, monitor);
+    c.mesh, c.mesh.mesh().points, c.partition, seeds, {}, limits, c.moved, monitor);
   EXPECT_EQ(report.patches, 2);
   EXPECT_EQ(report.failed, 0);
   // The nodes within two cells of each move, and so change the cells within three.
@@ -96,7 +96,7 @@ TEST(DistributedPatches, SayWhatTheyGatherAndHaveALimit)
   limits.few = 100;
   c.moved = before;
   EXPECT_TRUE(morph::distributed::repairPatches(
-    c.mesh, c.mesh.mesh().points, c.partition, seeds, limits, c.moved, monitor)
+    c.mesh, c.mesh.mesh().points, c.partition, seeds, {}, limits, c.moved, monitor)
                 .isTooLarge);
   EXPECT_EQ(c.moved, before);
 }

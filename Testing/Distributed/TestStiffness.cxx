@@ -30,12 +30,18 @@ using morph::distributed::Ranks;
 
 using Make = std::function<std::unique_ptr<morph::LinearMorpher>(const CellStiffness&)>;
 
-template <typename Warp>
 std::unique_ptr<morph::LinearMorpher> stiff(const CellStiffness& stiffness)
 {
-  auto warp = std::make_unique<Warp>();
+  auto warp = std::make_unique<morph::FemWarp>();
   warp->setTolerance(1e-13);
   warp->setStiffness(stiffness);
+  return warp;
+}
+
+std::unique_ptr<morph::LinearMorpher> lbwarp(const CellStiffness&)
+{
+  auto warp = std::make_unique<morph::LogBarrierWarp>();
+  warp->setTolerance(1e-13);
   return warp;
 }
 
@@ -137,12 +143,9 @@ TEST(DistributedStiffness, AgreesWithTheSerialOne)
     meshes::jitterInterior(whole, 0.1, 7);
     for (const auto& [kind, stiffness] : kinds(whole))
     {
-      for (const Make& make : { Make(stiff<morph::FemWarp>), Make(stiff<morph::LogBarrierWarp>) })
-      {
-        const auto [place, slope] = differences(ranks, whole, make, stiffness);
-        EXPECT_LT(place, 1e-9) << name << ", " << kind;
-        EXPECT_LT(slope, 1e-9) << name << ", " << kind;
-      }
+      const auto [place, slope] = differences(ranks, whole, stiff, stiffness);
+      EXPECT_LT(place, 1e-9) << name << ", " << kind;
+      EXPECT_LT(slope, 1e-9) << name << ", " << kind;
     }
   }
 }
@@ -150,9 +153,8 @@ TEST(DistributedStiffness, AgreesWithTheSerialOne)
 TEST(DistributedAdjoint, AgreesWithTheSerialOne)
 {
   const Ranks ranks = pieces::world();
-  const std::vector<std::pair<std::string, Make>> methods = { { "FEMWARP", stiff<morph::FemWarp> },
-    { "LBWARP", stiff<morph::LogBarrierWarp> },
-    { "weighted residual", plain<morph::WeightedResidual> },
+  const std::vector<std::pair<std::string, Make>> methods = { { "FEMWARP", stiff },
+    { "LBWARP", lbwarp }, { "weighted residual", plain<morph::WeightedResidual> },
     { "simplex-linear", plain<morph::SimplexLinear> },
     { "natural neighbor", plain<morph::SimplexNaturalNeighbor> },
     { "radial basis", plain<morph::RadialBasis> } };

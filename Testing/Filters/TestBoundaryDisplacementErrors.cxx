@@ -176,11 +176,18 @@ TEST(BoundaryDisplacementErrors, TheMotion)
         f->SetMotionToArray();
         f->SetDisplacementArray("Short");
       } },
+    { "'Wild' is NaN, or vtkValidPointMask 0, at all",
+      [](auto* f)
+      {
+        addNumbers(vtkDataSet::SafeDownCast(f->GetInputDataObject(0, 0)), "Wild", 3, 27, NAN);
+        f->SetMotionToArray();
+        f->SetDisplacementArray("Wild");
+      } },
     { "DisplacementArray moves nodes to places that are not finite (NaN or infinite): point ids 0, "
       "1",
       [](auto* f)
       {
-        addNumbers(vtkDataSet::SafeDownCast(f->GetInputDataObject(0, 0)), "Wild", 3, 27, NAN);
+        addNumbers(vtkDataSet::SafeDownCast(f->GetInputDataObject(0, 0)), "Wild", 3, 27, INFINITY);
         f->SetMotionToArray();
         f->SetDisplacementArray("Wild");
       } },

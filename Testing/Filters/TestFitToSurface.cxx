@@ -4,9 +4,13 @@
 
 #include "vtkMorphMesh.h"
 
+#include <vtkAlgorithm.h>
 #include <vtkCallbackCommand.h>
+#include <vtkCell.h>
+#include <vtkCellArray.h>
 #include <vtkCommand.h>
 #include <vtkDataArray.h>
+#include <vtkIdList.h>
 #include <vtkNew.h>
 #include <vtkPlaneSource.h>
 #include <vtkPointData.h>
@@ -19,7 +23,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <utility>
 #include <vector>
 
 using grids::Row;
@@ -56,6 +62,7 @@ vtkSmartPointer<vtkPolyData> moved(vtkPolyData* surface, vtkAbstractTransform* t
 vtkSmartPointer<vtkPolyData> ellipsoid()
 {
   vtkNew<vtkSphereSource> sphere;
+  sphere->GenerateNormalsOff();
   sphere->SetRadius(1);
   sphere->SetThetaResolution(48);
   sphere->SetPhiResolution(24);
@@ -76,6 +83,115 @@ vtkSmartPointer<vtkPolyData> largerBrick()
   return moved(surface, scale);
 }
 
+/// The ellipsoid with triangles added that are no part of it: twice there, two equal corners, three
+/// on a line, and lower than the rounding of single precision.
+vtkSmartPointer<vtkPolyData> withFaults(vtkPolyData* surface)
+{
+  vtkNew<vtkPolyData> result;
+  result->DeepCopy(surface);
+  const auto corner = [&](vtkIdType cell, int k)
+  {
+    Row x;
+    result->GetPoint(surface->GetCell(cell)->GetPointId(k), x.data());
+    return x;
+  };
+  const auto add = [&](const Row& a, const Row& b, const Row& c)
+  {
+    vtkIdType ids[3];
+    int k = 0;
+    for (const Row& x : { a, b, c })
+    {
+      ids[k++] = result->GetPoints()->InsertNextPoint(x.data());
+    }
+    result->GetPolys()->InsertNextCell(3, ids);
+  };
+  add(corner(150, 0), corner(150, 1), corner(150, 2));
+  add(corner(40, 0), corner(40, 0), corner(40, 1));
+  add(corner(77, 0), (corner(77, 0) + corner(77, 1)) / 2, corner(77, 1));
+  const Row low = corner(300, 0) + corner(300, 1) + 1e-8 * corner(300, 2);
+  add(corner(300, 0), corner(300, 1), low / (2 + 1e-8));
+  result->BuildCells();
+  return result.Get();
+}
+
+/// The surface with the edge between two triangles divided on one side alone: a triangle without
+/// area joins its halves to the whole.
+vtkSmartPointer<vtkPolyData> withFlatTriangle(vtkPolyData* surface)
+{
+  vtkNew<vtkPolyData> result;
+  result->DeepCopy(surface);
+  const vtkIdType divided = 200;
+  vtkNew<vtkIdList> ids;
+  surface->GetCellPoints(divided, ids);
+  const vtkIdType a = ids->GetId(0), b = ids->GetId(1), c = ids->GetId(2);
+  Row x, y;
+  surface->GetPoint(a, x.data());
+  surface->GetPoint(b, y.data());
+  x = (x + y) / 2;
+  const vtkIdType m = result->GetPoints()->InsertNextPoint(x.data());
+  vtkNew<vtkCellArray> polygons;
+  for (vtkIdType cell = 0; cell < surface->GetNumberOfCells(); ++cell)
+  {
+    surface->GetCellPoints(cell, ids);
+    if (cell != divided)
+    {
+      polygons->InsertNextCell(ids);
+    }
+  }
+  const vtkIdType parts[][3] = { { a, m, c }, { m, b, c }, { a, b, m } };
+  for (const auto& part : parts)
+  {
+    polygons->InsertNextCell(3, part);
+  }
+  result->SetPolys(polygons);
+  return result.Get();
+}
+
+/// Hills about a height, over more than the brick's outline.
+vtkSmartPointer<vtkPolyData> hills(double height, double margin)
+{
+  vtkNew<vtkPlaneSource> plane;
+  plane->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
+  plane->SetOrigin(-margin, -margin, 0);
+  plane->SetPoint1(6 + margin, -margin, 0);
+  plane->SetPoint2(-margin, 4 + margin, 0);
+  plane->SetResolution(40, 40);
+  plane->Update();
+  vtkPolyData* surface = plane->GetOutput();
+  for (vtkIdType i = 0; i < surface->GetNumberOfPoints(); ++i)
+  {
+    Row x;
+    surface->GetPoint(i, x.data());
+    x[2] = height + 0.5 * std::sin(1.3 * x[0] + 0.4) * std::cos(1.1 * x[1] - 0.3);
+    surface->GetPoints()->SetPoint(i, x.data());
+  }
+  return surface;
+}
+
+vtkSmartPointer<vtkMorphMesh> make(vtkUnstructuredGrid* grid, vtkPolyData* target)
+{
+  auto filter = vtkSmartPointer<vtkMorphMesh>::New();
+  filter->SetInputData(grid);
+  filter->SetTargetData(target);
+  filter->SetDisplacementToTarget();
+  return filter;
+}
+
+/// The brick's top goes to the target, and its four sides slide.
+vtkSmartPointer<vtkMorphMesh> onto(vtkUnstructuredGrid* grid, vtkPolyData* target)
+{
+  auto filter = make(grid, target);
+  auto displace = displaced::make(grid);
+  const auto name = [&](const std::function<bool(const Row&)>& is)
+  { return displaced::surfaceName(displace, is); };
+  filter->AddSurface(name([](const Row& x) { return x[2] == 3; }).c_str());
+  filter->AddSlidingSurface(name([](const Row& x) { return x[0] == 0; }).c_str());
+  filter->AddSlidingSurface(name([](const Row& x) { return x[0] == 6; }).c_str());
+  filter->AddSlidingSurface(name([](const Row& x) { return x[1] == 0; }).c_str());
+  filter->AddSlidingSurface(name([](const Row& x) { return x[1] == 4; }).c_str());
+  return filter;
+}
+
 /// A rectangle of the brick's outline at a height, larger by `margin` on each side.
 vtkSmartPointer<vtkPolyData> lid(double height, double margin)
 {
@@ -86,15 +202,6 @@ vtkSmartPointer<vtkPolyData> lid(double height, double margin)
   plane->SetResolution(5, 7);
   plane->Update();
   return plane->GetOutput();
-}
-
-vtkSmartPointer<vtkMorphMesh> make(vtkUnstructuredGrid* grid, vtkPolyData* target)
-{
-  auto filter = vtkSmartPointer<vtkMorphMesh>::New();
-  filter->SetInputData(grid);
-  filter->SetTargetData(target);
-  filter->SetDisplacementToTarget();
-  return filter;
 }
 
 /// Where the brick's eight corners are now: those of an upright box of these half sizes?
@@ -246,13 +353,15 @@ TEST(FitToSurface, TheSurfacesThatTheTargetBelongsToMove)
 TEST(FitToSurface, ATargetThatCannotServeIsAnErrorAndKeepsTheMesh)
 {
   auto grid = brick();
-  vtkNew<vtkTransform> away;
+  vtkNew<vtkTransform> away, farAway;
   away->Translate(0, 0, 100);
+  farAway->Translate(0, 0, 1e20);
   auto notFinite = lid(3.4, 0);
   notFinite->GetPoints()->SetPoint(3, std::numeric_limits<double>::quiet_NaN(), 0, 0);
   const std::pair<vtkSmartPointer<vtkPolyData>, const char*> cases[] = {
     { vtkSmartPointer<vtkPolyData>::New(), "no polygons" }, { notFinite, "not finite" },
-    { moved(largerBrick(), away), "" }, { moved(lid(3.4, 0), away), "No node that moves reaches" }
+    { moved(largerBrick(), away), "" }, { moved(lid(3.4, 0), away), "No node that moves reaches" },
+    { moved(lid(3.4, 0), farAway), "farther from the mesh than 100,000 times its size" }
   };
   for (const auto& [target, message] : cases)
   {
@@ -271,6 +380,136 @@ TEST(FitToSurface, ATargetThatCannotServeIsAnErrorAndKeepsTheMesh)
     filter->Update();
     EXPECT_STREQ(filter->GetMorphStatus(), "Valid");
   }
+}
+
+TEST(FitToSurface, TrianglesThatAreNoPartOfTheTargetChangeNothing)
+{
+  auto grid = ball();
+  // Turned, as a symmetric node would have two nearest places, and might take either.
+  vtkNew<vtkTransform> turn;
+  turn->RotateWXYZ(20, 1, 2, 3);
+  const auto target = moved(ellipsoid(), turn);
+  for (const bool align : { false, true })
+  {
+    SCOPED_TRACE(align);
+    const auto fitted = [&](vtkPolyData* surface)
+    {
+      auto filter = make(grid, surface);
+      filter->SetAlignTarget(align);
+      grids::Listener listener(filter);
+      filter->Update();
+      EXPECT_TRUE(listener.Errors.empty()) << listener.Errors[0];
+      EXPECT_TRUE(listener.Warnings.empty()) << listener.Warnings[0];
+      return grids::points(filter->GetOutput());
+    };
+    const morph::Points clean = fitted(target);
+    EXPECT_LT((fitted(withFaults(target)) - clean).cwiseAbs().maxCoeff(), 1e-9);
+    EXPECT_LT((fitted(withFlatTriangle(target)) - clean).cwiseAbs().maxCoeff(),
+      align ? 2e-3 : 1e-6); // its points are in single precision
+  }
+}
+
+TEST(FitToSurface, TheRimGoesToTargetAndSlidingSidesTogether)
+{
+  auto grid = grids::make(meshes::hexes(24, 16, 12));
+  {
+    morph::Points x = grids::points(grid) / 4;
+    for (morph::Index i = 0; i < x.rows(); ++i)
+    {
+      grid->GetPoints()->SetPoint(i, x.row(i).data());
+    }
+  }
+  const morph::Points x = grids::points(grid);
+  auto filter = onto(grid, hills(3.2, 0.7));
+  grids::Listener listener(filter);
+  filter->Update();
+  ASSERT_TRUE(listener.Errors.empty()) << listener.Errors[0];
+  EXPECT_TRUE(listener.Warnings.empty()) << listener.Warnings[0];
+  EXPECT_LT(filter->GetMaxTargetDistance(), 1e-9);
+  EXPECT_EQ(filter->GetInvertedCells(), 0);
+  const morph::Points y = grids::points(filter->GetOutput());
+  for (morph::Index i = 0; i < x.rows(); ++i)
+  {
+    for (const auto& [axis, side] :
+      { std::pair(0, 0.), std::pair(0, 6.), std::pair(1, 0.), std::pair(1, 4.) })
+    {
+      if (x(i, axis) == side)
+      {
+        EXPECT_NEAR(y(i, axis), side, 1e-12) << i;
+      }
+    }
+  }
+}
+
+TEST(FitToSurface, NodesGoToTheTargetAlongADirection)
+{
+  auto grid = brick();
+  const morph::Points x = grids::points(grid);
+  auto filter = onto(grid, hills(3.2, 0.7));
+  grids::Listener listener(filter);
+  filter->SetProjectAlongToZ();
+  filter->Update();
+  ASSERT_TRUE(listener.Errors.empty()) << listener.Errors[0];
+  EXPECT_TRUE(listener.Warnings.empty()) << listener.Warnings[0];
+  EXPECT_LT(filter->GetMaxTargetDistance(), 1e-12);
+  const morph::Points along = grids::points(filter->GetOutput());
+  EXPECT_GT((along - x).col(2).cwiseAbs().maxCoeff(), 0.5);
+  for (morph::Index i = 0; i < x.rows(); ++i)
+  {
+    if (x(i, 2) == 3)
+    {
+      EXPECT_LT((along.row(i) - x.row(i)).head(2).norm(), 1e-12) << i;
+    }
+  }
+  // The same by a vector, and by the normals of the flat top.
+  filter->SetProjectAlongToVector();
+  filter->SetProjectVector(0, 0, -5);
+  filter->Update();
+  EXPECT_LT((grids::points(filter->GetOutput()) - along).cwiseAbs().maxCoeff(), 1e-12);
+  filter->SetProjectAlongToNormal();
+  filter->Update();
+  EXPECT_LT((grids::points(filter->GetOutput()) - along).cwiseAbs().maxCoeff(), 1e-12);
+  // Askew, sliding sides keep their nodes, and others go askew.
+  filter->SetProjectAlongToVector();
+  filter->SetProjectVector(0.3, 0, 1);
+  filter->Update();
+  const morph::Points askew = grids::points(filter->GetOutput());
+  EXPECT_LT(filter->GetMaxTargetDistance(), 1e-12);
+  for (morph::Index i = 0; i < x.rows(); ++i)
+  {
+    if (x(i, 2) == 3)
+    {
+      const double dx = askew(i, 0) - x(i, 0), dz = askew(i, 2) - 3;
+      const bool isOnSide = x(i, 0) == 0 || x(i, 0) == 6;
+      EXPECT_NEAR(dx, isOnSide ? 0 : 0.3 * dz, 1e-12) << i;
+    }
+  }
+  filter->SetProjectVector(0, 0, 0);
+  filter->Update();
+  ASSERT_EQ(listener.Errors.size(), 1u);
+  EXPECT_NE(listener.Errors[0].find("ProjectVector has no length"), std::string::npos);
+}
+
+TEST(FitToSurface, NodesThatMissTheTargetAlongADirectionFollowTheOthers)
+{
+  // The target ends before the brick does.
+  auto grid = brick();
+  const morph::Points x = grids::points(grid);
+  auto filter = make(grid, lid(3.4, -0.5));
+  filter->SetProjectAlongToZ();
+  grids::Listener listener(filter);
+  filter->Update();
+  ASSERT_TRUE(listener.Errors.empty()) << listener.Errors[0];
+  ASSERT_EQ(listener.Warnings.size(), 1u);
+  EXPECT_NE(listener.Warnings[0].find("within TargetReach along the direction"), std::string::npos);
+  EXPECT_NEAR(filter->GetMinScaledJacobian(), 1, 0.2);
+  // To its very rim, in single precision, nodes are on it.
+  auto exact = make(grid, lid(3.4, 0));
+  exact->SetProjectAlongToZ();
+  grids::Listener other(exact);
+  exact->Update();
+  EXPECT_TRUE(other.Warnings.empty()) << other.Warnings[0];
+  EXPECT_LT(exact->GetMaxTargetDistance(), 1e-6);
 }
 
 TEST(FitToSurface, WithoutATargetTheBoundaryIsShown)

@@ -235,6 +235,28 @@ TEST(MorphShapes, WeightsAreFiniteNumbers)
   EXPECT_EQ(filter->GetNumberOfWeights(), 0);
 }
 
+TEST(MorphShapes, AbsurdWeightsAreOneError)
+{
+  auto grid = grids::hexes(4);
+  auto filter = shapesOf(grid, { grids::twist, bulged, turnedTop(.3) });
+  const double absurd[] = { 1e150, -.2, .5 };
+  for (int i = 0; i < 3; ++i)
+  {
+    filter->SetWeight(i, absurd[i]);
+  }
+  grids::Listener listener(filter);
+  for (const int motion :
+    { vtkMorphShapes::MOTION_AS_DISPLACEMENT, vtkMorphShapes::MOTION_AS_ROTATION })
+  {
+    listener.Errors.clear();
+    filter->SetMotion(2, motion);
+    filter->Update();
+    ASSERT_EQ(listener.Errors.size(), 1u);
+    EXPECT_NE(listener.Errors[0].find("beyond 1e50"), std::string::npos) << listener.Errors[0];
+    EXPECT_EQ(grids::points(filter->GetOutput()), grids::points(grid));
+  }
+}
+
 TEST(MorphShapes, AShapeThatNamesFewerNodesKeepsTheOthers)
 {
   auto grid = grids::hexes(4);

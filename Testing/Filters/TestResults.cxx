@@ -70,6 +70,8 @@ Getters gettersOf(vtkMorphAlgorithm* f)
     { "BoundaryMinimum", [f] { return f->GetBoundaryMinimum(); } },
     { "InvertedCells", [f] { return f->GetInvertedCells(); } },
     { "DegenerateCells", [f] { return f->GetDegenerateCells(); } },
+    { "InvertedBefore", [f] { return f->GetInvertedBefore(); } },
+    { "NewInvertedCells", [f] { return f->GetNewInvertedCells(); } },
     { "WorstCellId", [f] { return f->GetWorstCellId(); } },
     { "SurfaceInvertedCells", [f] { return f->GetSurfaceInvertedCells(); } },
     { "BoundaryInvertedCells", [f] { return f->GetBoundaryInvertedCells(); } },
@@ -107,6 +109,8 @@ Getters gettersOf(vtkMorphShapes* f)
     { "MeanScaledJacobian", [f] { return f->GetMeanScaledJacobian(); } },
     { "InvertedCells", [f] { return f->GetInvertedCells(); } },
     { "DegenerateCells", [f] { return f->GetDegenerateCells(); } },
+    { "InvertedBefore", [f] { return f->GetInvertedBefore(); } },
+    { "NewInvertedCells", [f] { return f->GetNewInvertedCells(); } },
     { "WorstCellId", [f] { return f->GetWorstCellId(); } },
     { "MirroredBodies", [f] { return f->GetMirroredBodies(); } },
     { "SurfaceInvertedCells", [f] { return f->GetSurfaceInvertedCells(); } },
@@ -163,7 +167,6 @@ Getters countsOf(vtkRadialBasisMorph* f)
 Getters countsOf(vtkSimplexLinearMorph* f)
 {
   return { { "FoldedTetrahedra", [f] { return f->GetFoldedTetrahedra(); } },
-    { "BridgingTetrahedra", [f] { return f->GetBridgingTetrahedra(); } },
     { "ExtrapolatedNodes", [f] { return f->GetExtrapolatedNodes(); } },
     { "AffineNodes", [f] { return f->GetAffineNodes(); } } };
 }

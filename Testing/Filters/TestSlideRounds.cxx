@@ -260,6 +260,27 @@ TEST(SlideRounds, WithoutMotionKeepsTheBitsAndSaysSo)
   EXPECT_TRUE(grids::points(filter->GetOutput()) == displaced::restPositions(filter->GetOutput()));
 }
 
+TEST(SlideRounds, AMeshWithoutAFreeNodeHasNothingToSlide)
+{
+  auto grid = grids::make(meshes::hexes(Side, Side, 1));
+  vtkNew<vtkMorphMesh> filter;
+  filter->SetInputData(grid);
+  filter->SetDisplacementToVector();
+  filter->SetVector(.1, .05, 0);
+  filter->AddSurface(surface(grid, onPlane).c_str());
+  filter->AddSlidingSurface(surface(grid, [](const Row& x) { return isAt(x[0], Side); }).c_str());
+  filter->SetSurroundings(vtkMorphMesh::SURROUNDINGS_STAY);
+  filter->SetSlideRounds(2);
+  grids::Listener listener(filter);
+  filter->Update();
+  EXPECT_TRUE(listener.Errors.empty()) << listener.Errors[0];
+  const Points rest = grids::points(grid), moved = grids::points(filter->GetOutput());
+  for (Index n = 0; n < rest.rows(); ++n)
+  {
+    EXPECT_LE((moved.row(n) - rest.row(n)).norm(), std::hypot(.1, .05) * (1 + 1e-12));
+  }
+}
+
 TEST(SlideRounds, RefusesWhatItDoesNotKnow)
 {
   auto grid = grids::make(meshes::hexes(3, 3, 3));

@@ -11,13 +11,12 @@
 
 namespace
 {
-morph::Points moved(vtkUnstructuredGrid* grid, int neighbors, bool adaptive)
+morph::Points moved(vtkUnstructuredGrid* grid, int neighbors)
 {
   vtkNew<vtkWeightedResidualMorph> filter;
   filter->SetInputData(grid);
   filter->SetBoundaryData(grids::boundary(grid, grids::twist));
   filter->SetNumberOfNeighbors(neighbors);
-  filter->SetAdaptiveNeighbors(adaptive);
   filter->Update();
   return grids::points(filter->GetOutput());
 }
@@ -26,11 +25,10 @@ morph::Points moved(vtkUnstructuredGrid* grid, int neighbors, bool adaptive)
 TEST(WeightedResidualMorph, OptionsReachTheMethod)
 {
   auto grid = grids::hexes(6); // 218 prescribed nodes
-  const morph::Points all = moved(grid, 218, false);
-  EXPECT_TRUE(moved(grid, 100000, false) == all);
-  EXPECT_FALSE(moved(grid, 80, false) == all);
-  EXPECT_FALSE(moved(grid, 4, false) == moved(grid, 5, false));
-  EXPECT_FALSE(moved(grid, 4, false) == moved(grid, 4, true));
+  const morph::Points all = moved(grid, 218);
+  EXPECT_TRUE(moved(grid, 100000) == all);
+  EXPECT_FALSE(moved(grid, 80) == all);
+  EXPECT_FALSE(moved(grid, 4) == moved(grid, 5));
 }
 
 TEST(WeightedResidualMorph, ABoundaryTurnedInsideOutIsAWarning)
@@ -53,7 +51,6 @@ TEST(WeightedResidualMorph, ParametersAreClamped)
 {
   vtkNew<vtkWeightedResidualMorph> filter;
   EXPECT_EQ(filter->GetNumberOfNeighbors(), 80);
-  EXPECT_FALSE(filter->GetAdaptiveNeighbors());
   filter->SetNumberOfNeighbors(0);
   EXPECT_EQ(filter->GetNumberOfNeighbors(), 1);
 }

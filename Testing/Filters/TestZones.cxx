@@ -252,6 +252,68 @@ TEST(Zones, SelectionsAndBlocksAreZonesToo)
   }
 }
 
+namespace
+{
+/// A cube whose cells with x above 4 are the zone `Rotor`, and whose top turns by 30 degrees.
+vtkSmartPointer<vtkBoundaryDisplacement> withRotor(double scale)
+{
+  auto grid = grids::make(meshes::hexes(N, N, N));
+  vtkNew<vtkDoubleArray> rotor;
+  rotor->SetName("Rotor");
+  for (vtkIdType c = 0; c < grid->GetNumberOfCells(); ++c)
+  {
+    double bounds[6];
+    grid->GetCellBounds(c, bounds);
+    rotor->InsertNextValue(bounds[0] >= 4);
+  }
+  grid->GetCellData()->AddArray(rotor);
+  auto filter = twisted(grid);
+  filter->SetRotation(0, 0, 30);
+  filter->SetTranslation(0, 0, 0);
+  filter->SetScale(scale, 1, 1);
+  filter->AddRigidZone("Rotor");
+  return filter;
+}
+}
+
+TEST(Zones, ARigidOneTakesItsMotionFromTheNodesThatMove)
+{
+  auto filter = withRotor(1);
+  grids::Listener listener(filter);
+  filter->Update();
+  EXPECT_TRUE(listener.Errors.empty()) << listener.Errors.front();
+  for (const std::string& warning : listener.Warnings) // the sides leave their planes
+  {
+    EXPECT_EQ(warning.find("miss their places"), std::string::npos) << warning;
+  }
+  const Points rest = displaced::restPositions(filter->GetOutput());
+  const Points moved = grids::points(filter->GetOutput());
+  const double c = std::cos(M_PI / 6), s = std::sin(M_PI / 6);
+  for (Index i = 0; i < rest.rows(); ++i)
+  {
+    if (rest(i, 0) >= 4 || rest(i, 2) == N)
+    {
+      const double x = rest(i, 0) - N / 2., y = rest(i, 1) - N / 2.;
+      EXPECT_LT(
+        (moved.row(i) - Row(N / 2. + c * x - s * y, N / 2. + s * x + c * y, rest(i, 2))).norm(),
+        1e-9)
+        << i;
+    }
+  }
+}
+
+TEST(Zones, AWarningSaysHowFarAskedPlacesAreMissed)
+{
+  auto filter = withRotor(1.5);
+  grids::Listener listener(filter);
+  filter->Update();
+  ASSERT_FALSE(listener.Warnings.empty());
+  // Of the zone's nodes at the top, those at 5 go to 6 on average, as is asked of them.
+  const std::string& warning = listener.Warnings.back();
+  EXPECT_NE(warning.find("14 nodes that move miss their places by up to 0.5"), std::string::npos)
+    << warning;
+}
+
 TEST(Zones, SoftOnesGiveWay)
 {
   auto grid = marked();
@@ -318,6 +380,35 @@ TEST(Zones, ErrorsNameWhatIsWrong)
   auto surface = twisted(grids::boundary(grid, [](const Row& x) { return x; }));
   surface->AddFrozenZone("Nodes");
   EXPECT_NE(errorOf(surface).find("the input is a surface"), std::string::npos);
+}
+
+TEST(Zones, OneThatIsFrozenAndRigidStays)
+{
+  auto grid = marked();
+  for (const char* name : { "All", "Nodes" })
+  {
+    vtkNew<vtkDoubleArray> all;
+    all->SetName("All");
+    all->SetNumberOfTuples(grid->GetNumberOfPoints());
+    all->FillValue(1);
+    grid->GetPointData()->AddArray(all);
+    auto filter = displaced::make(grid);
+    filter->SetMotionToVector();
+    filter->SetVector(0.1, 0, 0);
+    filter->AddFrozenZone(name);
+    filter->AddRigidZone(name);
+    grids::Listener listener(filter);
+    filter->Update();
+    EXPECT_TRUE(listener.Errors.empty()) << listener.Errors[0];
+    const Points rest = displaced::restPositions(filter->GetOutput());
+    const Points moved = grids::points(filter->GetOutput());
+    for (vtkIdType i = 0; i < filter->GetOutput()->GetNumberOfPoints(); ++i)
+    {
+      const bool isFrozen = displaced::role(filter->GetOutput(), i) == 5;
+      EXPECT_NEAR((moved.row(i) - rest.row(i)).norm(), isFrozen ? 0 : 0.1, 1e-12);
+    }
+    EXPECT_GT(filter->GetZonePoints(), 0);
+  }
 }
 
 TEST(Zones, InnerPointsHaveAllArrays)

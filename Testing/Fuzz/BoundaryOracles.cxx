@@ -95,12 +95,12 @@ Finding checkMovedBoundary(const Case& made, vtkAlgorithm* algorithm, const Run&
   const double scale = filter->GetScaleFactor();
   // Where curves bound all surfaces. A motion that flattens or reflects a surface draws a warning,
   // and smoothing improves faces that a strong one distorts.
-  const bool isAffine = made.boundary.isAffine && !made.inputs[2] && run.warnings.empty() &&
-                        filter->GetSurfaceMethod() == vtkMorphBoundary::WEIGHTED_RESIDUAL &&
-                        made.choices.value("property.FeatureAngle") < 60 &&
-                        filter->GetUnattachedMotion() == vtkMorphBoundary::UNATTACHED_AFFINELY &&
-                        made.choices.value("hostile.mesh") == 0 &&
-                        isValid(made.grid.mesh, made.grid.mesh.points, 0.02);
+  const bool isAffine =
+    made.boundary.isAffine && !made.inputs[2] && run.warnings.empty() &&
+    filter->GetSurfaceMethod() == vtkMorphBoundary::SURFACE_METHOD_WEIGHTED_RESIDUAL &&
+    made.choices.value("property.FeatureAngle") < 60 &&
+    filter->GetUnattachedMotion() == vtkMorphBoundary::UNATTACHED_AFFINELY &&
+    made.choices.value("hostile.mesh") == 0 && isValid(made.grid.mesh, made.grid.mesh.points, 0.02);
   for (vtkIdType p = 0; p < output->GetNumberOfPoints(); ++p)
   {
     const auto node = static_cast<Index>(ids->GetComponent(p, 0));
@@ -148,7 +148,7 @@ Finding checkDisplaced(const Case& made, vtkPointSet* output)
     const Row rest = made.grid.mesh.points.row(node);
     Row x;
     output->GetPoint(p, x.data());
-    if (!(role >= 0 && role <= 3))
+    if (!(role >= 0 && role <= 6))
     {
       return { "displaced boundary", "a Role of " + std::to_string(role) };
     }

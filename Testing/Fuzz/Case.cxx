@@ -13,6 +13,8 @@
 #include "vtkMorphAdjoint.h"
 #include "vtkMorphAlgorithm.h"
 #include "vtkMorphBoundary.h"
+#include "vtkMorphMesh.h"
+#include "vtkMorphShapes.h"
 #include "vtkRadialBasisMorph.h"
 #include "vtkSimplexLinearMorph.h"
 #include "vtkSimplexNaturalNeighborMorph.h"
@@ -155,17 +157,21 @@ Case::Case(Choices& made, const Filter& ofFilter)
   this->grid = randomGrid(made);
   this->inputs = { this->grid.data };
   const std::string& name = ofFilter.name;
+  vtkSmartPointer<vtkDataObject> more;
   if (ofFilter.isMorph || name == "MorphBoundary" || name == "CompareMorphMethods" ||
-      name == "MorphAdjoint")
+      name == "MorphAdjoint" || name == "MorphShapes")
   {
     this->boundary = randomBoundary(made, this->grid);
     this->inputs.push_back(this->boundary.data);
     this->vary();
   }
-  vtkSmartPointer<vtkDataObject> more;
-  if (name == "MorphBoundary")
+  if (name == "MorphShapes")
   {
-    this->isRegular = randomTarget(made, this->grid, more) && this->isRegular;
+    this->addShapes();
+  }
+  else if (name == "MorphBoundary")
+  {
+    this->isRegular = randomTarget(made, this->grid, 0.4, more) && this->isRegular;
     this->inputs.push_back(more);
   }
   else if (name == "MorphAdjoint")
@@ -173,15 +179,41 @@ Case::Case(Choices& made, const Filter& ofFilter)
     this->isRegular = randomGradient(made, this->grid, more) && this->isRegular;
     this->inputs.push_back(more);
   }
-  else if (name == "BoundaryDisplacement")
+  else if (vtkDisplacementAlgorithm::SafeDownCast(ofFilter.make()))
   {
-    if (made.chance("displace.surface", 0.3) && this->grid.isAsMesh)
+    if (name == "BoundaryDisplacement" && made.chance("displace.surface", 0.3) &&
+        this->grid.isAsMesh)
     {
       this->inputs[0] = boundaryOfGrid(made, this->grid);
     }
     vtkNew<vtkBoundaryDisplacement> unused;
     this->isRegular = setMotion(made, this->grid, unused, more) && this->isRegular;
     this->inputs.push_back(more);
+    vtkSmartPointer<vtkDataObject> target;
+    const double chance = name == "FitToSurface" ? 0.97 : 0.2;
+    this->isRegular = randomTarget(made, this->grid, chance, target) && this->isRegular;
+    this->inputs.push_back(target);
+    this->inputs.push_back(more); // of zones
+  }
+}
+
+/// More shapes: the first, shrunk along x.
+void Case::addShapes()
+{
+  auto* first = vtkPointSet::SafeDownCast(this->boundary.data);
+  const int more = this->choices.whole("with.shapes", 0, [](Random& r) { return r.below(3); });
+  for (int i = 0; first && first->GetNumberOfPoints() > 0 && i < more; ++i)
+  {
+    const vtkSmartPointer<vtkDataObject> copy = deepCopy(first);
+    vtkPoints* points = vtkPointSet::SafeDownCast(copy)->GetPoints();
+    double centre[3], x[3];
+    points->GetPoint(i % points->GetNumberOfPoints(), centre);
+    for (vtkIdType p = 0; p < points->GetNumberOfPoints(); ++p)
+    {
+      points->GetPoint(p, x);
+      points->SetPoint(p, centre[0] + 0.9 * (x[0] - centre[0]), x[1], x[2]);
+    }
+    this->inputs.push_back(copy);
   }
 }
 
@@ -233,6 +265,7 @@ void Case::setNames(vtkAlgorithm* algorithm)
   }
   setBoundaryNames<vtkMorphAlgorithm>(algorithm, ids, vectors);
   setBoundaryNames<vtkMorphBoundary>(algorithm, ids, vectors);
+  setBoundaryNames<vtkMorphShapes>(algorithm, ids, vectors);
   setBoundaryNames<vtkCompareMorphMethods>(algorithm, ids, vectors);
   const int surface = this->choices.pick("names.surface",
     { "none", "Surface", "Temperature", "NoSuchArray", "ScaledJacobian" },
@@ -241,24 +274,36 @@ void Case::setNames(vtkAlgorithm* algorithm)
     "ScaledJacobian" };
   setSurfaceName<vtkClassifyBoundary>(algorithm, names[surface]);
   setSurfaceName<vtkMorphBoundary>(algorithm, names[surface]);
-  setSurfaceName<vtkBoundaryDisplacement>(algorithm, names[surface]);
+  setSurfaceName<vtkDisplacementAlgorithm>(algorithm, names[surface]);
 }
 
 vtkSmartPointer<vtkAlgorithm> Case::makeFilter(int threads)
 {
+  return this->makeFilter(this->inputs, threads);
+}
+
+vtkSmartPointer<vtkAlgorithm> Case::makeFilter(
+  const std::vector<vtkSmartPointer<vtkDataObject>>& data, int threads)
+{
   vtkSmartPointer<vtkAlgorithm> algorithm = this->filter.make();
-  for (std::size_t port = 0; port < this->inputs.size(); ++port)
+  auto* shapes = vtkMorphShapes::SafeDownCast(algorithm);
+  for (std::size_t port = 0; port < data.size(); ++port)
   {
-    if (this->inputs[port])
+    if (data[port] && shapes && port > 0)
     {
-      algorithm->SetInputDataObject(static_cast<int>(port), this->inputs[port]);
+      shapes->AddShapeData(data[port]);
+    }
+    else if (data[port])
+    {
+      algorithm->SetInputDataObject(static_cast<int>(port), data[port]);
     }
   }
   if (this->varying)
   {
     algorithm->SetInputConnection(1, this->varying->GetOutputPort());
   }
-  const PropertiesSet properties = setProperties(this->choices, this->filter, algorithm);
+  const PropertiesSet properties =
+    setProperties(this->choices, this->filter, this->grid.size, algorithm);
   this->isRegular = properties.areRegular && this->isRegular;
   this->acceptedProperty = properties.accepted;
   vtkSmartPointer<vtkAlgorithm> named = algorithm;
@@ -276,11 +321,16 @@ vtkSmartPointer<vtkAlgorithm> Case::makeFilter(int threads)
     }
     adjoint->SetGradientArray("Gradient");
   }
-  if (auto* displacement = vtkBoundaryDisplacement::SafeDownCast(algorithm))
+  if (auto* displacement = vtkDisplacementAlgorithm::SafeDownCast(algorithm))
   {
     vtkSmartPointer<vtkDataObject> known;
     setMotion(this->choices, this->grid, displacement, known);
-    displacement->SetDisplacementArray("Displacement");
+  }
+  if (shapes)
+  {
+    // The turn of a boundary, as a rotation.
+    const bool isTurn = this->choices.value("motion") == 2;
+    shapes->SetMotion(0, isTurn && this->choices.chance("with.rotation", 0.8));
   }
   this->setNames(named);
   if (threads > 0)
@@ -288,7 +338,8 @@ vtkSmartPointer<vtkAlgorithm> Case::makeFilter(int threads)
     setThreads<vtkMorphAlgorithm>(named, threads);
     setThreads<vtkMorphBoundary>(named, threads);
     setThreads<vtkClassifyBoundary>(named, threads);
-    setThreads<vtkBoundaryDisplacement>(named, threads);
+    setThreads<vtkDisplacementAlgorithm>(named, threads);
+    setThreads<vtkMorphShapes>(named, threads);
     setThreads<vtkCompareMorphMethods>(named, threads);
   }
   return algorithm;

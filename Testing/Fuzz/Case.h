@@ -19,12 +19,16 @@ public:
   Case(Choices& choices, const Filter& filter);
   /// A new filter with the inputs and properties of this case. `threads`: 0 for those of the case.
   vtkSmartPointer<vtkAlgorithm> makeFilter(int threads = 0);
+  /// The same with other inputs.
+  vtkSmartPointer<vtkAlgorithm> makeFilter(
+    const std::vector<vtkSmartPointer<vtkDataObject>>& data, int threads);
 
   Choices& choices;
   const Filter& filter;
   RandomGrid grid;
   RandomBoundary boundary;
-  std::vector<vtkSmartPointer<vtkDataObject>> inputs; ///< of ports 0, 1, ...
+  /// of ports 0, 1, ...; of vtkMorphShapes all but the first are of port 1
+  std::vector<vtkSmartPointer<vtkDataObject>> inputs;
   vtkSmartPointer<vtkAlgorithm> varying; ///< on port 1 in place of its data; null for none
   double time = -1;                      ///< that is asked for; none if negative
   /// properties are in range, and inputs other than grid and boundary are right
@@ -34,6 +38,7 @@ public:
 
 private:
   void vary();
+  void addShapes();
   void setNames(vtkAlgorithm* algorithm);
 };
 

@@ -105,6 +105,20 @@ int Choices::pick(const std::string& name, const std::vector<const char*>& optio
   return taken;
 }
 
+std::map<std::string, bool> Choices::asked() const
+{
+  std::map<std::string, bool> result;
+  for (const auto& [name, value] : this->Known)
+  {
+    result[name] = false;
+  }
+  for (const Choice& choice : this->Made)
+  {
+    result[choice.name] = true;
+  }
+  return result;
+}
+
 double Choices::value(const std::string& name) const
 {
   const auto known = this->Known.find(name);

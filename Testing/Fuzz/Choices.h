@@ -65,6 +65,8 @@ public:
   const std::vector<Choice>& made() const { return this->Made; }
   /// Any choice that was asked for.
   double value(const std::string& name) const;
+  /// The names of all that were, and whether they are not plain.
+  std::map<std::string, bool> asked() const;
 
 private:
   double take(const std::string& name, double plain, double drawn);

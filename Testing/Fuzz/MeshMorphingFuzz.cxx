@@ -9,6 +9,8 @@
 #include <cstring>
 #include <iostream>
 #include <map>
+#include <sstream>
+#include <utility>
 
 namespace
 {
@@ -145,6 +147,35 @@ struct Share
   std::uint64_t useful = 0; ///< with free nodes and without an error
 };
 
+/// Of the cases that could have it, how many have a property, or something else by name.
+using Features = std::map<std::string, std::pair<std::uint64_t, std::uint64_t>>;
+
+void add(const std::string& features, Features& to)
+{
+  std::istringstream words(features);
+  for (std::string word; words >> word;)
+  {
+    auto& [has, all] = to[word.substr(0, word.size() - 1)];
+    has += word.back() == '+';
+    ++all;
+  }
+}
+
+/// Each is to be in 2 % of these cases.
+bool printFeatures(const Features& features, bool isChecked)
+{
+  bool good = true;
+  for (const auto& [name, counts] : features)
+  {
+    const auto [has, all] = counts;
+    const bool isEnough = 50 * has >= all;
+    good = good && isEnough;
+    std::cout << "  " << name << ": " << 1000 * has / all / 10. << " % of " << all << " cases"
+              << (isEnough ? "" : ", too few") << "\n";
+  }
+  return good || !isChecked;
+}
+
 /// Each filter is to have 2 % of all cases, and 60 % are to be useful.
 bool printShares(const std::map<std::string, Share>& shares, bool isChecked)
 {
@@ -188,12 +219,14 @@ int main(int argc, char** argv)
   const auto start = std::chrono::steady_clock::now();
   std::map<std::string, Share> shares;
   std::map<std::string, int> findings;
+  Features features;
   int found = 0;
   fuzz::runSeeds(options.from, options.count, options.filter,
     [&](const fuzz::Report& report)
     {
       Share& share = shares[report.filter];
       ++share.cases;
+      add(report.features, features);
       share.useful += report.hasFreeNodes && !report.hasError;
       if (report.oracle.empty())
       {
@@ -213,7 +246,9 @@ int main(int argc, char** argv)
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
   const bool isChecked =
     options.filter.empty() && options.count >= 1000 && !(options.stops && found);
-  const bool good = printShares(shares, isChecked);
+  // Few cases of the rarest filter say nothing about its properties.
+  const bool areCovered = printFeatures(features, isChecked && options.count >= 5000);
+  const bool good = printShares(shares, isChecked) && areCovered;
   std::cout << "Seeds " << options.from << " to " << options.from + options.count - 1 << ": "
             << found << " findings, " << seconds.count() << " s\n";
   for (const auto& [name, count] : findings)

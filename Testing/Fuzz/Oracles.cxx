@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Oracles.h"
 
+#include "MotionOracles.h"
 #include "RandomMesh.h"
 #include "SameData.h"
 #include "vtkMorphAlgorithm.h"
@@ -208,19 +209,24 @@ Verdict judge(
   };
   for (const auto& check :
     std::vector<std::function<Finding()>>{ inputsChanged, [&] { return checkMessages(made, run); },
-      [&] { return checkOutput(made, algorithm, run); } })
+      [&] { return checkOutput(made, algorithm, run); },
+      [&] { return checkNothing(made, algorithm, run); },
+      [&] { return checkAgain(made, algorithm, run); },
+      [&] { return checkFrame(made, algorithm, run); },
+      [&] { return checkRanges(made, algorithm, run); }, inputsChanged })
   {
     verdict.finding = check();
     if (verdict.finding)
     {
-      return verdict;
+      break;
     }
   }
-
-  verdict.finding = checkAgain(made, algorithm, run);
-  if (!verdict.finding)
+  for (const auto& [name, isMade] : choices.asked())
   {
-    verdict.finding = inputsChanged();
+    if (name.rfind("property.", 0) == 0 || name.rfind("with.", 0) == 0)
+    {
+      verdict.features += (verdict.features.empty() ? "" : " ") + name + (isMade ? "+" : "-");
+    }
   }
   return verdict;
 }

@@ -23,6 +23,8 @@ struct Verdict
   std::string filter;
   bool hasFreeNodes = false;
   bool hasError = false;
+  /// properties and what else was asked for, each with + where the case has it, else -
+  std::string features;
   std::vector<std::string> messages;
 };
 

@@ -7,6 +7,8 @@
 #include "Recount.h"
 #include "vtkInversionFreeMorph.h"
 #include "vtkMorphAlgorithm.h"
+#include "vtkMorphMesh.h"
+#include "vtkMorphShapes.h"
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
@@ -204,7 +206,9 @@ Finding checkPrescribed(const Case& made, vtkMorphAlgorithm* filter, vtkUnstruct
 {
   const morph::Points points = pointsOf(output);
   const double scale = filter->GetScaleFactor();
-  const bool isRounded = isFloat(output) || made.choices.value("boundary.float") != 0;
+  // Coordinates of a boundary of few digits that are the undeformed ones, rounded, are these.
+  const bool isOfFew = made.choices.value("boundary.float") != 0;
+  const bool isRounded = isFloat(output) || isOfFew;
   // Floats below 1e-38 are multiples of one number, however small they are.
   const double subnormal =
     isRounded ? (1 + std::abs(scale)) * std::numeric_limits<float>::denorm_min() : 0;
@@ -221,7 +225,7 @@ Finding checkPrescribed(const Case& made, vtkMorphAlgorithm* filter, vtkUnstruct
       const double value =
         isFloat(output) ? static_cast<double>(static_cast<float>(wanted[j])) : wanted[j];
       const double rounding =
-        (scale == 1 && made.boundary.isExact) || scale == 0
+        (scale == 1 && made.boundary.isExact && !isOfFew) || scale == 0
           ? 0
           : (isRounded ? 1e-6 : 1e-14) *
                 (std::abs(rest[j]) + std::abs(scale) * (std::abs(target[j]) + std::abs(rest[j]))) +
@@ -242,8 +246,8 @@ bool keepsAffineMaps(const Case& made, vtkMorphAlgorithm* filter)
   const Choices& choices = made.choices;
   const double tolerance = choices.value("property.Tolerance");
   return made.filter.isLinear && tolerance <= 1e-9 && !filter->GetPostSmooth() &&
-         filter->GetValidity() != vtkMorphAlgorithm::VALIDITY_SUB_STEP &&
-         filter->GetValidity() != vtkMorphAlgorithm::VALIDITY_REPAIR &&
+         (filter->GetValidity() < vtkMorphAlgorithm::VALIDITY_SUB_STEP ||
+           filter->GetValidity() == vtkMorphAlgorithm::VALIDITY_REFUSE) &&
          made.choices.value("hostile.mesh") == 0 && made.choices.value("hostile.boundary") == 0;
 }
 
@@ -276,7 +280,8 @@ Finding checkAffine(const Case& made, vtkMorphAlgorithm* filter, vtkUnstructured
 }
 
 /// After an error: a message, no counts, and the undeformed mesh or nothing.
-Finding checkFailed(const Case& made, vtkMorphAlgorithm* filter, const Run& run)
+template <typename F>
+Finding checkFailed(const Case& made, F* filter, const Run& run)
 {
   auto* output = vtkUnstructuredGrid::SafeDownCast(run.outputs.front());
   if (run.errors.empty() && filter->GetMorphStatus() == std::string("Failed"))
@@ -321,26 +326,32 @@ bool isMildAffine(const Case& made, vtkMorphAlgorithm* filter)
   return made.boundary.isAffine && motion.norm() < 0.5;
 }
 
-/// A plain case has a result: of linear methods always, unless inverted cells are refused; of
-/// others where the motion is mild. Excepted are log-barrier weights outside a hull, and inverted
-/// cells, where they are refused, that smoothing leaves or that quadratic cells had inside before.
+/// A plain case has a result: of linear methods always, unless inverted cells are refused or a mask
+/// frees the boundary; of others where the motion is mild. Excepted are log-barrier weights outside
+/// a hull, and inverted cells, where they are refused, that smoothing leaves or that quadratic
+/// cells had inside before.
 Finding checkAccepted(const Case& made, vtkMorphAlgorithm* filter, const Run& run)
 {
   const std::string& name = made.filter.name;
   const bool mayRefuse = filter->GetValidity() > vtkMorphAlgorithm::VALIDITY_REPORT;
   const bool mayInvert = name == "SmoothingMorph" || made.choices.value("mesh.order") != 0;
-  const bool isAlways = made.filter.isLinear && !mayRefuse && filter->GetHoldUnnamedBoundary();
+  const bool isAlways = made.filter.isLinear && !mayRefuse && filter->GetHoldUnnamedBoundary() &&
+                        made.choices.value("with.mask") == 0;
   const bool isMild = isMildAffine(made, filter) && !(mayRefuse && mayInvert);
   const bool hasResult = name != "LBWarpMorph" && (isAlways || isMild) && isPlainCase(made, filter);
   return run.errors.empty() || !hasResult ? Finding{} : Finding{ "refused", run.errors.front() };
 }
 
-Finding checkMorph(const Case& made, vtkMorphAlgorithm* filter, const Run& run)
+bool hasAdvice(vtkAlgorithm* filter)
 {
-  if (const Finding found = checkAccepted(made, filter, run))
-  {
-    return found;
-  }
+  auto* mesh = vtkMorphMesh::SafeDownCast(filter);
+  return mesh && std::string(mesh->GetAdvice()) != "None";
+}
+
+/// The moved mesh of any filter that morphs one, and what it says of it.
+template <typename F>
+Finding checkMesh(const Case& made, F* filter, const Run& run)
+{
   auto* output = vtkUnstructuredGrid::SafeDownCast(run.outputs.front());
   if (!output)
   {
@@ -355,25 +366,25 @@ Finding checkMorph(const Case& made, vtkMorphAlgorithm* filter, const Run& run)
   {
     return status == "None" ? Finding{} : Finding{ "status", status + " without an output" };
   }
+  if (hasAdvice(filter))
+  {
+    return {}; // nothing moves, and the boundary alone comes out
+  }
   if (const Finding found = checkFinite(output, "MorphDisplacement"))
   {
     return found;
   }
-  if (!made.grid.isAsMesh)
+  if (!made.grid.isAsMesh || filter->GetQuality() != F::QUALITY_ALL)
   {
     return {};
   }
-  if (const Finding found = checkCells(made.grid.grid(), output))
+  for (const auto& found : { checkCells(made.grid.grid(), output), checkCounts(made, output),
+         checkMirrored(made, output, run) })
   {
-    return found;
-  }
-  if (const Finding found = checkCounts(made, output))
-  {
-    return found;
-  }
-  if (const Finding found = checkMirrored(made, output, run))
-  {
-    return found;
+    if (found)
+    {
+      return found;
+    }
   }
   const double reported =
     fieldValue(output, "InvertedCells") + fieldValue(output, "DegenerateCells");
@@ -385,25 +396,31 @@ Finding checkMorph(const Case& made, vtkMorphAlgorithm* filter, const Run& run)
   }
   const bool claimsValid = status == "Valid" || status == "SubStepped" || status == "Repaired";
   // Positions are valid as computed; rounding to float may undo that, and ghosts are not measured.
-  if (claimsValid && !isFloat(output) && !made.grid.hasGhosts &&
-      !(reported == 0 && filter->GetMinScaledJacobian() > 0))
+  const bool isRight =
+    !claimsValid || isFloat(output) || made.grid.hasGhosts ||
+    (filter->GetNewInvertedCells() == 0 &&
+      (filter->GetInvertedBefore() > 0 || (reported == 0 && filter->GetMinScaledJacobian() > 0)));
+  return isRight ? Finding{} : Finding{ "status", status + " with inverted cells" };
+}
+
+Finding checkMorph(const Case& made, vtkMorphAlgorithm* filter, const Run& run)
+{
+  for (const auto& found : { checkAccepted(made, filter, run), checkMesh(made, filter, run) })
   {
-    return { "status", status + " with inverted cells" };
-  }
-  if (!made.boundary.isRight || !run.errors.empty() || !isWhole(filter))
-  {
-    return {};
-  }
-  // A huge tolerance lets any point stand for any node.
-  if (filter->GetMatchTolerance() <= 1e-3)
-  {
-    if (const Finding found = checkPrescribed(made, filter, output))
+    if (found)
     {
       return found;
     }
-    return checkAffine(made, filter, output);
   }
-  return {};
+  auto* output = vtkUnstructuredGrid::SafeDownCast(run.outputs.front());
+  // A huge tolerance lets any point stand for any node.
+  if (!output || !made.grid.isAsMesh || !made.boundary.isRight || !run.errors.empty() ||
+      !isWhole(filter) || filter->GetMatchTolerance() > 1e-3)
+  {
+    return {};
+  }
+  const Finding found = checkPrescribed(made, filter, output);
+  return found ? found : checkAffine(made, filter, output);
 }
 
 /// The sum over the boundary is that over the mesh, since the methods keep translations.
@@ -447,6 +464,14 @@ Finding checkOutput(const Case& made, vtkAlgorithm* filter, const Run& run)
   if (auto* morph = vtkMorphAlgorithm::SafeDownCast(filter))
   {
     return checkMorph(made, morph, run);
+  }
+  if (auto* mesh = vtkMorphMesh::SafeDownCast(filter))
+  {
+    return checkMesh(made, mesh, run);
+  }
+  if (auto* shapes = vtkMorphShapes::SafeDownCast(filter))
+  {
+    return checkMesh(made, shapes, run);
   }
   auto* output = vtkPointSet::SafeDownCast(run.outputs.front());
   if (!run.errors.empty() || !run.fromExecutive.empty() || !output)

@@ -20,7 +20,11 @@ struct Property
   double low, high; ///< values that a user may want; the range is often wider
   bool isWhole;
   std::function<void(vtkAlgorithm*, double)> set;
+  bool isLength = false; ///< values are in units of the mesh's size
 };
+
+/// A scale of motions, the smallest but 0.
+constexpr double Tiny = 1e-9;
 
 struct Filter
 {
@@ -45,6 +49,7 @@ struct PropertiesSet
   std::string accepted;
 };
 
-/// Sets some of the filter's properties, in range or not.
-PropertiesSet setProperties(Choices& choices, const Filter& filter, vtkAlgorithm* algorithm);
+/// Sets some of the filter's properties, in range or not. `size`: of the mesh.
+PropertiesSet setProperties(
+  Choices& choices, const Filter& filter, double size, vtkAlgorithm* algorithm);
 }

@@ -4,6 +4,7 @@
 #include "RandomMesh.h"
 #include "vtkExtractMorphBoundary.h"
 
+#include <vtkCompositeDataSet.h>
 #include <vtkDoubleArray.h>
 #include <vtkFloatArray.h>
 #include <vtkIdTypeArray.h>
@@ -14,6 +15,7 @@
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
+#include <vtkSignedCharArray.h>
 #include <vtkStringArray.h>
 #include <vtkTable.h>
 
@@ -108,7 +110,8 @@ Map motion(Choices& choices, const RandomGrid& grid, bool hostile, RandomBoundar
       return [=](const Row& x) -> Row { return middle + factor * (x - middle); };
     }
     default:
-      return affine(Eigen::Matrix3d::Identity(), Row::Zero());
+      boundary.isNothing = boundary.isAffine = true;
+      return [](const Row& x) { return x; };
   }
 }
 
@@ -265,6 +268,34 @@ void addRest(
   data->GetPointData()->AddArray(rest);
 }
 
+/// What vtkProbeFilter and others mark as nothing: points whose values, and here places, say
+/// nothing. With displacements they name no node; else the mask means nothing.
+void addMask(Random random, vtkPointSet* data, RandomBoundary& boundary)
+{
+  vtkNew<vtkSignedCharArray> mask;
+  mask->SetName("vtkValidPointMask");
+  const double part = random.between(0.3, 1);
+  std::vector<std::pair<Index, Row>> left;
+  const bool areNamed =
+    static_cast<vtkIdType>(boundary.targets.size()) == data->GetNumberOfPoints();
+  for (vtkIdType p = 0; p < data->GetNumberOfPoints(); ++p)
+  {
+    const bool isValid = random.happens(part);
+    mask->InsertNextValue(isValid);
+    if (areNamed && isValid)
+    {
+      left.push_back(boundary.targets[p]);
+    }
+  }
+  data->GetPointData()->AddArray(mask);
+  if (!boundary.displacementArray.empty())
+  {
+    boundary.targets = left;
+    boundary.isRight = boundary.isRight && areNamed;
+    boundary.isAffine = false;
+  }
+}
+
 /// As an application would: Extract Morph Boundary, then a filter that moves points.
 vtkSmartPointer<vtkPointSet> extracted(
   const RandomGrid& grid, const Map& map, RandomBoundary& boundary)
@@ -284,11 +315,13 @@ vtkSmartPointer<vtkPointSet> extracted(
   }
   for (vtkIdType p = 0; p < surface->GetNumberOfPoints(); ++p)
   {
-    const auto node = static_cast<Index>(ids->GetComponent(p, 0));
-    const Row target = map(grid.mesh.points.row(node));
+    Row rest;
+    surface->GetPoint(p, rest.data());
+    const Row target = map(rest);
     points->InsertNextPoint(target.data());
-    boundary.targets.emplace_back(node, target);
+    boundary.targets.emplace_back(static_cast<Index>(ids->GetComponent(p, 0)), target);
   }
+  boundary.isRight = grid.isAsMesh;
   surface->SetPoints(points);
   return surface;
 }
@@ -357,11 +390,12 @@ RandomBoundary randomBoundary(Choices& choices, const RandomGrid& grid)
     { "MorphPointId", "Extract Morph Boundary", "own array", "PointIds", "vtkOriginalPointIds",
       "as many points", "nearest" },
     { 4, grid.isAsMesh ? 4.0 : 0.0, 1.5, 0.7, 0.4, 0.7, 0.7 });
+  const bool isComposite = vtkCompositeDataSet::SafeDownCast(grid.data);
   const bool displaced = ids == 6 || choices.chance("boundary.displacements", 0.12);
   const int pointType =
     choices.chance("boundary.float", 0.15) && !displaced ? VTK_FLOAT : VTK_DOUBLE;
   vtkSmartPointer<vtkPointSet> data;
-  if (ids == 1 && !displaced && grid.isAsMesh && grid.data)
+  if ((ids == 1 && !displaced && grid.isAsMesh) || isComposite)
   {
     data = extracted(grid, map, boundary);
   }
@@ -424,6 +458,10 @@ RandomBoundary randomBoundary(Choices& choices, const RandomGrid& grid)
     {
       addRest(data, nodes, grid.mesh.points, "RestPosition");
     }
+    if (choices.chance("with.mask", 0.06))
+    {
+      addMask(choices.stream("mask"), data, boundary);
+    }
   }
   // As many points as the mesh has nodes are matched by their numbers before their names are looked
   // at.
@@ -465,6 +503,7 @@ RandomBoundary randomBoundary(Choices& choices, const RandomGrid& grid)
       addArrays(choices, data, "boundary", true, odd);
     }
     boundary.isRight = boundary.isRight && wrong == 0;
+    boundary.isNothing = boundary.isNothing && wrong == 0;
     boundary.data = data;
     if (wrong == 5)
     {

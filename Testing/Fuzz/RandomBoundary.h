@@ -20,9 +20,10 @@ struct RandomBoundary
 
   /// The nodes that it names, and where they go with a ScaleFactor of 1: known where isRight holds.
   std::vector<std::pair<morph::Index, Eigen::RowVector3d>> targets;
-  bool isRight = true;   ///< ids, arrays and positions are as they should be
-  bool isExact = true;   ///< targets are the very points of `data`
-  bool isAffine = false; ///< all outer nodes go where this map takes them
+  bool isRight = true;    ///< ids, arrays and positions are as they should be
+  bool isExact = true;    ///< targets are the very points of `data`
+  bool isNothing = false; ///< nobody meant to move anything
+  bool isAffine = false;  ///< all outer nodes go where this map takes them
   Eigen::Matrix3d matrix = Eigen::Matrix3d::Identity();
   Eigen::RowVector3d shift = Eigen::RowVector3d::Zero();
 };

@@ -3,6 +3,7 @@
 
 #include "vtkBoundaryDisplacement.h"
 #include "vtkExtractMorphBoundary.h"
+#include "vtkMorphMesh.h"
 
 #include <vtkBox.h>
 #include <vtkCellArray.h>
@@ -35,6 +36,29 @@ Row middleOf(const RandomGrid& grid)
 {
   return grid.mesh.numberOfNodes() > 0 ? Row(grid.mesh.points.row(grid.mesh.numberOfNodes() / 2))
                                        : Row(0, 0, 0);
+}
+
+/// The mesh's own boundary, with a few waves.
+vtkSmartPointer<vtkPolyData> wavyBoundary(Random& random, const RandomGrid& grid)
+{
+  vtkNew<vtkExtractMorphBoundary> extract;
+  extract->SetNumberOfThreads(1);
+  extract->SetInputDataObject(grid.data);
+  extract->Update();
+  auto result = vtkSmartPointer<vtkPolyData>::New();
+  result->SetPolys(extract->GetOutput()->GetPolys());
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  const double amount = 0.05 * random.unit() * grid.size;
+  for (vtkIdType p = 0; p < extract->GetOutput()->GetNumberOfPoints(); ++p)
+  {
+    Row x;
+    extract->GetOutput()->GetPoint(p, x.data());
+    x += amount * (6 * x / grid.size).array().cos().matrix();
+    points->InsertNextPoint(x.data());
+  }
+  result->SetPoints(points);
+  return result;
 }
 
 /// A wavy sheet, or a rough sphere, around the mesh.
@@ -82,16 +106,18 @@ vtkSmartPointer<vtkPolyData> surface(Random& random, const RandomGrid& grid)
 }
 }
 
-bool randomTarget(Choices& choices, const RandomGrid& grid, vtkSmartPointer<vtkDataObject>& target)
+bool randomTarget(
+  Choices& choices, const RandomGrid& grid, double chance, vtkSmartPointer<vtkDataObject>& target)
 {
-  if (!choices.chance("target", 0.4))
+  if (!choices.chance("with.target", chance))
   {
     return true;
   }
   Random random = choices.stream("target");
-  auto data = surface(random, grid);
+  auto data =
+    grid.isAsMesh && random.happens(0.6) ? wavyBoundary(random, grid) : surface(random, grid);
   target = data;
-  if (!choices.chance("hostile.target", 0.25))
+  if (!choices.chance("hostile.target", 0.12) || data->GetNumberOfPolys() == 0)
   {
     return true;
   }
@@ -157,14 +183,27 @@ bool randomTarget(Choices& choices, const RandomGrid& grid, vtkSmartPointer<vtkD
   return false;
 }
 
-bool setMotion(Choices& choices, const RandomGrid& grid, vtkBoundaryDisplacement* filter,
-  vtkSmartPointer<vtkDataObject>& selection)
+namespace
 {
-  Random random = choices.stream("displace");
-  const bool hostile = choices.chance("hostile.motion", 0.12);
-  const Row middle = middleOf(grid);
-  const double size = grid.size;
-  vtkNew<vtkTransform> transform;
+/// Calls the function of that name and purpose of either filter.
+void addSurface(vtkDisplacementAlgorithm* filter, int role, const std::string& name)
+{
+  using Boundary = vtkBoundaryDisplacement;
+  using Add = void (Boundary::*)(const char*);
+  constexpr Add ofBoundary[] = { &Boundary::AddPatch, &Boundary::AddHeldPatch,
+    &Boundary::AddSlidingPatch, &Boundary::AddFreePatch };
+  using AddToMesh = void (vtkMorphMesh::*)(const char*);
+  constexpr AddToMesh ofMesh[] = { &vtkMorphMesh::AddSurface, &vtkMorphMesh::AddFixedSurface,
+    &vtkMorphMesh::AddSlidingSurface, &vtkMorphMesh::AddFreeSurface };
+  auto* boundary = Boundary::SafeDownCast(filter);
+  boundary ? (boundary->*ofBoundary[role])(name.c_str())
+           : (vtkMorphMesh::SafeDownCast(filter)->*ofMesh[role])(name.c_str());
+}
+
+vtkSmartPointer<vtkTransform> transformAbout(
+  const Row& middle, double size, Random& random, bool hostile)
+{
+  auto transform = vtkSmartPointer<vtkTransform>::New();
   transform->PostMultiply();
   transform->Translate((-middle).eval().data());
   transform->RotateWXYZ(random.between(-40, 40), 0.3, random.unit(), 1);
@@ -176,51 +215,110 @@ bool setMotion(Choices& choices, const RandomGrid& grid, vtkBoundaryDisplacement
   {
     transform->Translate(random.happens(0.5) ? NaN : random.power(30, 300), 0, 0);
   }
-  filter->SetTransform(transform);
+  return transform;
+}
 
-  vtkSmartPointer<vtkImplicitFunction> region;
-  switch (choices.pick("displace.region", { "none", "sphere", "box", "plane" }, { 1, 1, 1, 1 }))
+/// `kind`: 0 for none.
+vtkSmartPointer<vtkImplicitFunction> region(
+  int kind, const Row& middle, double size, Random& random, bool hostile)
+{
+  switch (kind)
   {
     case 1:
     {
-      vtkNew<vtkSphere> sphere;
+      auto sphere = vtkSmartPointer<vtkSphere>::New();
       sphere->SetCenter(middle.x() + size / 2, middle.y(), middle.z());
       sphere->SetRadius(hostile && random.happens(0.3) ? NaN : random.between(0.1, 1) * size);
-      region = sphere;
-      break;
+      return sphere;
     }
     case 2:
     {
-      vtkNew<vtkBox> box;
+      auto box = vtkSmartPointer<vtkBox>::New();
       box->SetBounds(middle.x(), middle.x() + size, middle.y() - size, middle.y() + size,
         middle.z() - size, middle.z() + size);
-      region = box;
-      break;
+      return box;
     }
     case 3:
     {
-      vtkNew<vtkPlane> plane;
+      auto plane = vtkSmartPointer<vtkPlane>::New();
       plane->SetOrigin(middle.x(), middle.y(), middle.z());
       plane->SetNormal(hostile ? NaN : random.between(-1, 1), random.unit(), 1);
-      region = plane;
-      break;
+      return plane;
     }
     default:
-      break;
+      return nullptr;
   }
-  filter->SetRegion(region);
-  const int patches = random.below(4);
-  for (int i = 0; i < patches; ++i)
+}
+
+void setControlPoints(
+  const RandomGrid& grid, Random random, bool hostile, vtkDisplacementAlgorithm* filter)
+{
+  const double size = grid.size;
+  const auto any = [&] { return 0.1 * size * random.between(-1, 1); };
+  const int handles = random.below(5);
+  for (int i = 0; i < handles && grid.mesh.numberOfNodes() > 0; ++i)
   {
-    const std::string patch = (random.happens(0.8) ? "Surface " : "Curve ") +
-                              std::to_string(random.below(6) - (hostile ? 2 : 0));
-    filter->AddPatch(hostile && random.happens(0.3) ? "Surface x" : patch.c_str());
-    if (random.happens(0.3))
-    {
-      filter->AddHeldPatch(("Surface " + std::to_string(random.below(6))).c_str());
-    }
+    const Row x = grid.mesh.points.row(random.below(static_cast<int>(grid.mesh.numberOfNodes())));
+    const double radius = random.happens(0.5) ? 0 : size * random.unit();
+    filter->AddHandle(
+      x.x(), x.y(), x.z(), any(), any(), any(), hostile && random.happens(0.2) ? NaN : radius);
   }
-  if (choices.chance("displace.selection", 0.4))
+  const int points = random.below(4);
+  filter->SetLatticeSize(2 + random.below(3), 2 + random.below(3), 2 + random.below(3));
+  for (int i = 0; i < points; ++i)
+  {
+    const int last = hostile ? 5 : 2;
+    filter->AddLatticeDisplacement(
+      random.below(last), random.below(last), random.below(last), any(), any(), any());
+  }
+}
+}
+
+bool setMotion(Choices& choices, const RandomGrid& grid, vtkDisplacementAlgorithm* filter,
+  vtkSmartPointer<vtkDataObject>& selection)
+{
+  Random random = choices.stream("displace");
+  const bool hostile = choices.chance("hostile.motion", 0.12);
+  const Row middle = middleOf(grid);
+  const double size = grid.size;
+  filter->SetTransform(transformAbout(middle, size, random, hostile));
+  filter->SetDisplacementArray("Displacement");
+  filter->SetMovingArray("Marked");
+  const int kind =
+    choices.pick("displace.region", { "none", "sphere", "box", "plane" }, { 1, 1, 1, 1 });
+  filter->SetRegion(region(kind, middle, size, random, hostile));
+  setControlPoints(grid, choices.stream("control points"), hostile, filter);
+  // Of all roles, and some twice.
+  const int surfaces = choices.whole("with.surfaces", 0, [](Random& r) { return r.below(5); });
+  for (int i = 0; i < surfaces; ++i)
+  {
+    const bool isSurface = random.happens(0.8);
+    const int last = random.below(6);
+    const std::string name = (isSurface ? "Surface " : "Curve ") +
+                             std::to_string(random.below(last + 1) - (hostile ? 2 : 0));
+    addSurface(
+      filter, i == 0 ? 0 : random.below(4), hostile && random.happens(0.3) ? "Surface x" : name);
+  }
+  const int zone = choices.pick("with.zones",
+    { "none", "frozen array", "rigid array", "both", "region", "selection" },
+    { 20, 1, 1, 1, 1, 1 });
+  if (zone == 1 || zone == 3)
+  {
+    filter->AddFrozenZone(random.happens(0.5) ? "Zone" : "Marked");
+  }
+  if (zone == 2 || zone == 3)
+  {
+    filter->AddRigidZone(random.happens(0.5) ? "Zone" : "Marked");
+  }
+  const int type = 1 + random.below(3);
+  filter->SetZoneRegion(region(1 + random.below(3), middle, size, random, hostile));
+  filter->SetZoneRegionType(zone == 4 ? type : vtkDisplacementAlgorithm::ZONE_NONE);
+  filter->SetZoneSelectionType(zone == 5 ? type : vtkDisplacementAlgorithm::ZONE_NONE);
+  if (random.happens(0.3))
+  {
+    filter->SetRigidTransform(transformAbout(middle, size, random, hostile));
+  }
+  if (zone == 5 || choices.chance("displace.selection", 0.4))
   {
     vtkNew<vtkIdTypeArray> ids;
     const int count = random.below(8);

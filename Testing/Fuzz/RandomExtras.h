@@ -4,17 +4,18 @@
 #include "RandomBoundary.h"
 #include "RandomGrid.h"
 
-class vtkAlgorithm;
-class vtkBoundaryDisplacement;
+class vtkDisplacementAlgorithm;
 
 namespace fuzz
 {
 /// What else a filter takes. All return whether what they made is right.
 
-/// A target surface for vtkMorphBoundary; null for none.
-bool randomTarget(Choices& choices, const RandomGrid& grid, vtkSmartPointer<vtkDataObject>& target);
-/// What moves and how: transform, region, selection, patches, displacement array.
-bool setMotion(Choices& choices, const RandomGrid& grid, vtkBoundaryDisplacement* filter,
+/// A target surface with that probability; null for none.
+bool randomTarget(
+  Choices& choices, const RandomGrid& grid, double chance, vtkSmartPointer<vtkDataObject>& target);
+/// What moves and how, but for properties that take a number: transform, regions, selection (for
+/// zones, too), surfaces, zones, handles, lattice, arrays.
+bool setMotion(Choices& choices, const RandomGrid& grid, vtkDisplacementAlgorithm* filter,
   vtkSmartPointer<vtkDataObject>& selection);
 /// The point vectors `Gradient`, on a copy of the grid.
 bool randomGradient(

@@ -1,23 +1,30 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "RandomGrid.h"
 
+#include "Mesh/CellShape.h"
+#include "PolyhedralMeshes.h"
 #include "RandomMesh.h"
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
+#include <vtkDoubleArray.h>
+#include <vtkExtractCells.h>
 #include <vtkIdList.h>
 #include <vtkIdTypeArray.h>
 #include <vtkImageData.h>
 #include <vtkMultiBlockDataSet.h>
 #include <vtkNew.h>
+#include <vtkPartitionedDataSetCollection.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
+#include <vtkSignedCharArray.h>
 #include <vtkTable.h>
 #include <vtkTypeInt64Array.h>
 #include <vtkUnsignedCharArray.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace fuzz
 {
@@ -41,20 +48,25 @@ void addForeignCells(Choices& choices, vtkUnstructuredGrid* grid)
   grid->InsertNextCell(types[which], static_cast<vtkIdType>(nodes.size()), nodes.data());
 }
 
-/// A tetrahedron as a polyhedron, of any points, that may lack a face or have a wrong one.
-void addPolyhedron(Choices& choices, vtkUnstructuredGrid* grid)
+/// Adds a polyhedron of `mesh`, whose faces may be flawed.
+void addPolyhedron(
+  Choices& choices, const morph::Mesh& mesh, Index cell, bool isHostile, vtkUnstructuredGrid* grid)
 {
-  const int flaw = choices.pick("polyhedron",
-    { "none", "open", "face twice", "two nodes", "repeated node", "turned face" },
-    { 4, 1, 1, 1, 1, 1 });
-  Random random = choices.stream("cells.polyhedron");
-  vtkIdType p[4];
-  for (vtkIdType& point : p)
+  std::vector<std::vector<vtkIdType>> faces;
+  for (Index at = mesh.faceOffsets[cell]; at < mesh.faceOffsets[cell + 1];)
   {
-    point = random.below(static_cast<int>(grid->GetNumberOfPoints()));
+    const Index* first = mesh.faces.data() + at + 1;
+    faces.emplace_back(first, first + mesh.faces[at]);
+    at += 1 + mesh.faces[at];
   }
-  std::vector<std::vector<vtkIdType>> faces = { { p[0], p[1], p[2] }, { p[0], p[3], p[1] },
-    { p[1], p[3], p[2] }, { p[2], p[3], p[0] } };
+  Random random = choices.stream("polyhedron " + std::to_string(cell));
+  const int flaw =
+    isHostile && random.happens(0.3)
+      ? choices.pick("polyhedron",
+          { "none", "open", "face twice", "two nodes", "repeated node", "turned face" },
+          { 4, 1, 1, 1, 1, 1 })
+      : 0;
+  std::vector<vtkIdType>& face = faces[random.below(static_cast<int>(faces.size()))];
   switch (flaw)
   {
     case 1:
@@ -64,25 +76,63 @@ void addPolyhedron(Choices& choices, vtkUnstructuredGrid* grid)
       faces.push_back(faces.front());
       break;
     case 3:
-      faces[2].pop_back();
+      face.resize(2);
       break;
     case 4:
-      faces[1][2] = faces[1][0];
+      face[1] = face[0];
       break;
     case 5:
-      std::reverse(faces[3].begin(), faces[3].end());
+      std::reverse(face.begin(), face.end());
       break;
     default:
       break;
   }
   vtkNew<vtkIdList> stream;
   stream->InsertNextId(static_cast<vtkIdType>(faces.size()));
-  for (const std::vector<vtkIdType>& face : faces)
+  for (const std::vector<vtkIdType>& nodes : faces)
   {
-    stream->InsertNextId(static_cast<vtkIdType>(face.size()));
-    std::for_each(face.begin(), face.end(), [&](vtkIdType id) { stream->InsertNextId(id); });
+    stream->InsertNextId(static_cast<vtkIdType>(nodes.size()));
+    std::for_each(nodes.begin(), nodes.end(), [&](vtkIdType id) { stream->InsertNextId(id); });
   }
   grid->InsertNextCell(VTK_POLYHEDRON, stream);
+}
+
+/// What displacements and zones ask for by name: the vectors "Displacement", and 1 in a part of the
+/// mesh, "Marked" of points and "Zone" of cells.
+void addMarks(Choices& choices, vtkUnstructuredGrid* grid)
+{
+  Random random = choices.stream("marks");
+  const double length = grid->GetLength(), from = grid->GetCenter()[0];
+  vtkNew<vtkDoubleArray> vectors, points, cells;
+  vectors->SetName("Displacement");
+  vectors->SetNumberOfComponents(3);
+  const double amount = random.between(0, 0.1) * length;
+  for (vtkIdType p = 0; p < grid->GetNumberOfPoints(); ++p)
+  {
+    const double* x = grid->GetPoint(p);
+    vectors->InsertNextTuple3(amount * std::sin(3 * (x[1] - x[2]) / length), 0, amount);
+    points->InsertNextValue(x[0] > from);
+  }
+  const int part = random.below(static_cast<int>(grid->GetNumberOfCells()) + 1);
+  for (vtkIdType c = 0; c < grid->GetNumberOfCells(); ++c)
+  {
+    cells->InsertNextValue(c >= part);
+  }
+  if (random.happens(0.3)) // as vtkProbeFilter leaves it
+  {
+    vtkNew<vtkSignedCharArray> mask;
+    mask->SetName("vtkValidPointMask");
+    for (vtkIdType p = 0; p < grid->GetNumberOfPoints(); ++p)
+    {
+      mask->InsertNextValue(random.happens(0.8));
+    }
+    grid->GetPointData()->AddArray(mask);
+  }
+  points->SetName("Marked");
+  cells->SetName("Zone");
+  grid->GetPointData()->AddArray(vectors);
+  grid->GetPointData()->AddArray(points);
+  grid->GetCellData()->AddArray(cells);
 }
 
 /// Node ids that do not exist, cells with too few nodes, lists that are too short.
@@ -113,11 +163,12 @@ void spoilCells(Choices& choices, vtkUnstructuredGrid* grid)
     {
       types->InsertNextValue(static_cast<unsigned char>(grid->GetCellType(c)));
     }
-    grid->SetCells(types, cells);
+    grid->SetCells(types, cells, grid->GetFaceLocations(), grid->GetFaces());
   }
 }
 
-vtkSmartPointer<vtkUnstructuredGrid> makeGrid(Choices& choices, const morph::Mesh& mesh)
+vtkSmartPointer<vtkUnstructuredGrid> makeGrid(
+  Choices& choices, const morph::Mesh& mesh, bool isHostile)
 {
   auto grid = vtkSmartPointer<vtkUnstructuredGrid>::New();
   vtkNew<vtkPoints> points;
@@ -138,6 +189,11 @@ vtkSmartPointer<vtkUnstructuredGrid> makeGrid(Choices& choices, const morph::Mes
   grid->Allocate(mesh.numberOfCells());
   for (Index c = 0; c < mesh.numberOfCells(); ++c)
   {
+    if (mesh.types[c] == morph::Polyhedron)
+    {
+      addPolyhedron(choices, mesh, c, isHostile, grid);
+      continue;
+    }
     const std::vector<vtkIdType> nodes(mesh.cell(c), mesh.cell(c) + mesh.cellSize(c));
     grid->InsertNextCell(mesh.types[c], static_cast<vtkIdType>(nodes.size()), nodes.data());
   }
@@ -146,6 +202,37 @@ vtkSmartPointer<vtkUnstructuredGrid> makeGrid(Choices& choices, const morph::Mes
     grid->GetCells()->ConvertTo32BitStorage();
   }
   return grid;
+}
+
+/// The cells in two blocks, which have all points each, or their own.
+vtkSmartPointer<vtkDataObject> inBlocks(Choices& choices, vtkUnstructuredGrid* grid)
+{
+  vtkNew<vtkExtractCells> cells[2];
+  Random random = choices.stream("blocks");
+  const vtkIdType cut = random.below(static_cast<int>(grid->GetNumberOfCells()) + 1);
+  vtkSmartPointer<vtkUnstructuredGrid> blocks[2];
+  for (int b = 0; b < 2; ++b)
+  {
+    cells[b]->SetInputData(grid);
+    const vtkIdType first = b == 0 ? 0 : cut, end = b == 0 ? cut : grid->GetNumberOfCells();
+    if (first < end)
+    {
+      cells[b]->AddCellRange(first, end - 1);
+    }
+    cells[b]->Update();
+    blocks[b] = cells[b]->GetOutput();
+  }
+  if (random.happens(0.5))
+  {
+    auto result = vtkSmartPointer<vtkPartitionedDataSetCollection>::New();
+    result->SetPartition(0, 0, blocks[0]);
+    result->SetPartition(1, 0, blocks[1]);
+    return result;
+  }
+  auto result = vtkSmartPointer<vtkMultiBlockDataSet>::New();
+  result->SetBlock(0, blocks[0]);
+  result->SetBlock(2, blocks[1]); // after an empty one
+  return result;
 }
 
 vtkSmartPointer<vtkDataObject> otherData(int type, vtkUnstructuredGrid* grid)
@@ -194,28 +281,44 @@ RandomGrid randomGrid(Choices& choices)
 {
   RandomGrid result;
   result.mesh = randomMesh(choices);
-  auto grid = makeGrid(choices, result.mesh);
+  const bool hostile = choices.chance("hostile.grid", 0.1);
+  const double polyhedra = choices.number("with.polyhedra", 0,
+    [](Random& random) { return random.happens(0.05) ? random.between(0.3, 1.5) : 0; });
+  Random random = choices.stream("cells.polyhedra");
+  const auto isChosen = [&](Index c)
+  {
+    const morph::CellShape* shape = morph::cellShape(result.mesh.types[c]);
+    const bool isLinear = shape && shape->dimension == 3 && shape->numberOfNodes > 0 &&
+                          shape->numberOfNodes == shape->numberOfCorners;
+    return isLinear && random.happens(polyhedra);
+  };
+  const morph::Mesh mesh = polyhedra > 0 ? meshes::asPolyhedra(result.mesh, isChosen) : result.mesh;
+  auto grid = makeGrid(choices, mesh, hostile);
+  result.isAsMesh = polyhedra == 0;
   result.mesh.points = pointsOf(grid);
   result.outer = outerNodes(result.mesh);
   result.size = meshSize(result.mesh);
   result.data = grid;
 
-  const bool hostile = choices.chance("hostile.grid", 0.1);
   if (hostile && grid->GetNumberOfPoints() > 0 && choices.chance("cells.foreign", 0.12))
   {
     addForeignCells(choices, grid);
     result.isAsMesh = false;
   }
-  if (hostile && grid->GetNumberOfPoints() > 0 && choices.chance("cells.polyhedral", 0.25))
+  if (choices.chance("with.marks", 0.2))
   {
-    addPolyhedron(choices, grid);
-    result.isAsMesh = false;
+    addMarks(choices, grid);
   }
   addArrays(choices, grid, "grid", hostile, result.hasOddArrays);
   result.hasGhosts = grid->GetCellGhostArray() || grid->GetPointGhostArray();
   if (hostile && grid->GetNumberOfCells() > 0 && choices.chance("cells.areSpoilt", 0.12))
   {
     spoilCells(choices, grid);
+    result.isAsMesh = false;
+  }
+  if (!hostile && choices.chance("with.blocks", 0.05))
+  {
+    result.data = inBlocks(choices, grid);
     result.isAsMesh = false;
   }
   if (hostile)

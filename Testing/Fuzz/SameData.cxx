@@ -6,8 +6,9 @@
 #include <vtkBitArray.h>
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
+#include <vtkCompositeDataIterator.h>
+#include <vtkCompositeDataSet.h>
 #include <vtkFieldData.h>
-#include <vtkMultiBlockDataSet.h>
 #include <vtkPointData.h>
 #include <vtkPointSet.h>
 #include <vtkPoints.h>
@@ -174,12 +175,33 @@ std::string difference(vtkDataObject* a, vtkDataObject* b, const std::set<std::s
   {
     return difference(points, vtkPointSet::SafeDownCast(b));
   }
-  if (auto* blocks = vtkMultiBlockDataSet::SafeDownCast(a))
+  const std::vector<vtkDataObject*> parts = leaves(a), others = leaves(b);
+  if (parts.size() != others.size())
   {
-    return difference(
-      blocks->GetBlock(0), vtkMultiBlockDataSet::SafeDownCast(b)->GetBlock(0), except);
+    return "number of blocks";
   }
-  return {};
+  for (std::size_t i = 0; found.empty() && vtkCompositeDataSet::SafeDownCast(a) && i < parts.size();
+       ++i)
+  {
+    found = difference(parts[i], others[i], except);
+  }
+  return found;
+}
+
+std::vector<vtkDataObject*> leaves(vtkDataObject* data)
+{
+  auto* blocks = vtkCompositeDataSet::SafeDownCast(data);
+  if (!blocks)
+  {
+    return { data };
+  }
+  std::vector<vtkDataObject*> result;
+  const auto iterator = vtkSmartPointer<vtkCompositeDataIterator>::Take(blocks->NewIterator());
+  for (iterator->InitTraversal(); !iterator->IsDoneWithTraversal(); iterator->GoToNextItem())
+  {
+    result.push_back(iterator->GetCurrentDataObject());
+  }
+  return result;
 }
 
 vtkSmartPointer<vtkDataObject> deepCopy(vtkDataObject* data)

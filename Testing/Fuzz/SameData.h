@@ -6,6 +6,7 @@
 
 #include <set>
 #include <string>
+#include <vector>
 
 namespace fuzz
 {
@@ -13,6 +14,9 @@ namespace fuzz
 /// named in `except` are left out.
 std::string difference(
   vtkDataObject* a, vtkDataObject* b, const std::set<std::string>& except = {});
+
+/// Of composite data its blocks, without empty ones; else the data itself.
+std::vector<vtkDataObject*> leaves(vtkDataObject* data);
 
 /// All of it, arrays of wrong lengths included.
 vtkSmartPointer<vtkDataObject> deepCopy(vtkDataObject* data);

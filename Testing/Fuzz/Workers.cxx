@@ -132,13 +132,14 @@ std::pair<std::string, std::string> inProcess(
 std::string lineOf(std::uint64_t seed, const Verdict& verdict)
 {
   return line({ "done", std::to_string(seed), verdict.filter, verdict.hasFreeNodes ? "1" : "0",
-    verdict.hasError ? "1" : "0", verdict.finding.oracle, verdict.finding.detail });
+    verdict.hasError ? "1" : "0", verdict.finding.oracle, verdict.finding.detail,
+    verdict.features });
 }
 
 Report reportOf(const std::vector<std::string>& fields)
 {
   return { std::stoull(fields[1]), fields[2], fields[3] == "1", fields[4] == "1", fields[5],
-    fields[6] };
+    fields[6], fields[7] };
 }
 }
 
@@ -165,7 +166,7 @@ void runSeeds(std::uint64_t from, std::uint64_t count, const std::string& filter
     if (!problem.empty())
     {
       const std::uint64_t at = seed + reports.size();
-      reports.push_back({ at, filterFor(at, filter).name, false, true, problem, said });
+      reports.push_back({ at, filterFor(at, filter).name, false, true, problem, said, {} });
     }
     for (const Report& each : reports)
     {

@@ -17,8 +17,9 @@ struct Report
   std::string filter;
   bool hasFreeNodes = false;
   bool hasError = false;
-  std::string oracle; ///< "crash" and "time-out" too; empty: nothing was found
-  std::string detail; ///< of a crash, what the process wrote before it ended
+  std::string oracle;   ///< "crash" and "time-out" too; empty: nothing was found
+  std::string detail;   ///< of a crash, what the process wrote before it ended
+  std::string features; ///< see Verdict
 };
 
 /// Runs the seeds in processes of their own, 500 in each, so that a crash ends no more than that

@@ -93,6 +93,14 @@ class Readme(unittest.TestCase):
         self.assertGreater(float(minimum), 0.5)
         self.assertEqual(inverted, "0")
 
+    def test_the_example_as_a_macro_with_nothing_selected(self):
+        environment = {**os.environ, "PV_PLUGIN_PATH": str(PLUGIN.parents[1])}
+        example = README.parent / "Examples/move_a_part.py"
+        result = subprocess.run([shutil.which("pvpython"), str(example)], env=environment,
+                                capture_output=True, text=True, timeout=120)
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("RuntimeError: Select a volume mesh", result.stderr)
+
 
 if __name__ == "__main__":
     unittest.main()

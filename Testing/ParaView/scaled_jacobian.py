@@ -6,6 +6,7 @@ Run: MESHMORPHING_PLUGIN=<path of MeshMorphing.so> pvpython scaled_jacobian.py
 import math
 import os
 import sys
+import tempfile
 import unittest
 
 from paraview.simple import *
@@ -123,10 +124,59 @@ class ScaledJacobianTest(unittest.TestCase):
         self.assertLess(above[2], 0.3)
         self.assertGreater(best[2] - best[0], 0.4)
 
-        # The range stays where it is when the data change.
-        Render(view)
-        display.RescaleTransferFunctionToDataRange(False, False)
-        self.assertEqual(list(table.GetRange()), [-1.0, 1.0])
+    def test_no_rescaling_moves_the_break(self):
+        quality = ScaledJacobian(Input=source(hexes(1.0, False)))
+        view = CreateRenderView()
+        self.addCleanup(Delete, view)
+        display = Show(quality, view)
+        array = ("CELLS", "ScaledJacobian")
+        colors = GetColorTransferFunction("ScaledJacobian")
+        points = list(colors.RGBPoints)
+        self.assertEqual(points[::4], [-1, -1e-12, 0, 0.2, 0.4, 0.6, 0.8, 1])
+        for name, rescale in (
+                ("ColorBy", lambda: ColorBy(display, array)),
+                ("data", lambda: display.RescaleTransferFunctionToDataRange(False, True)),
+                ("extended", lambda: display.RescaleTransferFunctionToDataRange(True, True)),
+                ("time", display.RescaleTransferFunctionToDataRangeOverTime),
+                ("visible", lambda: display.RescaleTransferFunctionToVisibleRange(view)),
+                ("all data", lambda: colors.RescaleTransferFunctionToDataRange(False)),
+                ("tiny", lambda: colors.RescaleTransferFunction(0.7071, 0.70711))):
+            rescale()
+            Render(view)
+            self.assertEqual(list(colors.RGBPoints), points, name)
+            self.assertEqual(list(colors.GetClientSideObject().GetRange()), [-1, 1], name)
+
+        # A map of the display's own.
+        ColorBy(display, array, True)
+        self.assertNotEqual(display.LookupTable, colors)
+        own = list(display.LookupTable.RGBPoints)
+        self.assertTrue(own[4:8] != points[4:8] or own == points)
+        ColorBy(display, array)
+
+        # A state keeps the range, and one of an earlier version, written as Python, gets it.
+        with tempfile.TemporaryDirectory() as folder:
+            state = os.path.join(folder, "state.pvsm")
+            SaveState(state)
+            LoadState(state)
+        table = display.LookupTable
+        self.assertEqual(list(table.RGBPoints), points)
+        table.RGBPoints = [x if i % 4 else 0.3 + 0.1 * x for i, x in enumerate(points)]
+        self.assertEqual(list(table.RGBPoints), points)
+
+    def test_a_user_may_unlock_the_range(self):
+        colors = GetColorTransferFunction("ScaledJacobian")
+        points = list(colors.RGBPoints)
+        self.addCleanup(setattr, colors, "AutomaticRescaleRangeMode", "Never")
+        self.addCleanup(setattr, colors, "RGBPoints", points)  # goes first, while it is unlocked
+        colors.ApplyPreset("Viridis (matplotlib)", True)
+        self.assertEqual((colors.RGBPoints[0], colors.RGBPoints[-4]), (-1, 1))
+        colors.AutomaticRescaleRangeMode = "Clamp and update every timestep"
+        colors.RescaleTransferFunction(0.25, 0.75)
+        self.assertEqual((colors.RGBPoints[0], colors.RGBPoints[-4]), (0.25, 0.75))
+        colors.AutomaticRescaleRangeMode = "Never"
+        colors.RescaleTransferFunction(0, 1)
+        self.assertEqual((colors.RGBPoints[0], colors.RGBPoints[-4]), (0.25, 0.75))
+        colors.AutomaticRescaleRangeMode = "Clamp and update every timestep"
 
     def test_a_users_own_colors_for_other_arrays_are_left_alone(self):
         table = GetColorTransferFunction("SomethingElse")

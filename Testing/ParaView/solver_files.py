@@ -265,7 +265,7 @@ class SolverFiles(unittest.TestCase):
                         error, out = self.write_copy(morph, "out.exo", path)
                         if applied:
                             self.assertRegex(error, "nodes were not at the file's own .*: [0-9].*"
-                                             "the displacements 'displ_' .*Apply Displacements")
+                                             "The displacements 'displ_' .*Apply Displacements")
                             self.assertFalse(out.exists())
                             continue
                         self.assertEqual(error, "")

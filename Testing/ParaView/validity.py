@@ -123,7 +123,8 @@ class Validity(unittest.TestCase):
                 morph = globals()[name](Input=self.grid)
                 self.assertEqual(morph.Validity, expected.get(name, "Report"))
                 self.assertEqual(morph.GetProperty("Validity").GetAvailable(),
-                                 ["None", "Report", "Sub Step", "Repair", "Refuse"])
+                                 ["None", "Report", "Sub Step", "Repair", "Refuse",
+                                  "Repair All"])
 
     def test_report_warns_of_the_worst_cells(self):
         morph = self.morph("MorphFEMWARP", WAVES)

@@ -83,7 +83,7 @@ class SaveCoordinates(unittest.TestCase):
 
     def test_displacements_of_a_reader_are_refused(self):
         messages, out = self.save("displaced")
-        self.assertIn("Switch Apply Displacements off", messages)
+        self.assertIn("If the reader has Apply Displacements on, switch it off", messages)
         self.assertFalse(out.exists())
 
 

@@ -76,6 +76,17 @@ class WrongInputs(unittest.TestCase):
         self.assertMessage(CompareMorphMethods(Input=self.grid), *parts)
         self.assertMessage(MorphBoundary(Input=self.grid), *parts)
 
+    def test_no_source(self):
+        """A macro or script with nothing selected."""
+        simple.SetActiveSource(None)
+        for make in (BoundaryDisplacement, MorphMesh, FittoSurface, MorphShapes, MorphFEMWARP,
+                     MorphBoundary, ExtractMorphBoundary, ClassifyBoundary, ScaledJacobian,
+                     CompareMorphMethods, MorphAdjoint):
+            with self.subTest(make.__name__):
+                proxy = make()
+                self.assertFalse(proxy.Input)
+                simple.Delete(proxy)
+
     def test_boundary_of_another_mesh(self):
         self.assertRefused(["outside the grid's 0 to 124", "Make the boundary from this grid"],
                            Input=self.grid, Boundary=ExtractMorphBoundary(Input=hexes(5)))

@@ -107,6 +107,18 @@ class MorphMesh(unittest.TestCase):
                 (2, "1 file is needed (grid), 2 are given", "--list-surfaces", BORE, moved)):
             self.fails(status, message, *arguments)
 
+    def test_a_motion_of_zero_is_a_motion(self):
+        for motion in (("--translate", "0,0,0"), ("--rotate", "z,0"), ("--scale", "1"),
+                       ("--scale", "1,1,1"), ("--radius", "0")):
+            result = run("--quiet", "--move", "Surface 1", *motion, BORE, self.folder / "out.vtk")
+            self.assertEqual((result.returncode, result.stderr), (0, ""), motion)
+            points = [re.search(b"POINTS .*CELLS ", (self.folder / name).read_bytes(), re.S)[0]
+                      for name in ("out.vtk", "rest.vtk")
+                      if run(BORE, self.boundary, self.folder / "rest.vtk").returncode == 0]
+            self.assertEqual(points[0], points[1], motion)
+        self.fails(2, "--radius cannot be combined", "--move", "Surface 1", "--radius", "0",
+                   "--scale", "1", BORE, self.folder / "out.vtk")
+
     def test_a_surface_turns_about_a_point(self):
         """Its centre, as it is listed, against Rodrigues' formula; its area stays."""
         def surface(path):
@@ -373,6 +385,19 @@ class MorphMesh(unittest.TestCase):
             parts.append(content[content.index(b"POINTS "):content.index(b"POLYGONS")])
         self.assertEqual(parts[0] == parts[1], True)
 
+    def test_normals_are_left_out(self):
+        name = self.folder / "bore.vtk"
+        self.assertEqual(self.morph(output="bore.vtk").returncode, 0)
+        content = name.read_bytes()
+        count = int(re.search(rb"POINTS (\d+)", content)[1])
+        normals = b"NORMALS Outward double\n" + struct.pack(">3d", 0, 0, 1) * count + b"\n"
+        at = re.search(rb"POINT_DATA \d+\n", content).end()
+        name.write_bytes(content[:at] + normals + content[at:])
+        move = ("--move", "Surface 1", "--translate", "0,0,0.01", name)
+        self.assertEqual(run(*move, self.folder / "moved.vtk").returncode, 0)
+        self.assertIn(b"NORMALS", name.read_bytes())
+        self.assertNotIn(b"NORMALS", (self.folder / "moved.vtk").read_bytes())
+
     def test_a_grid_of_another_program(self):
         # AVS UCD: a cube of eight hexahedra; ids from 1.
         nodes = [(x / 2, y / 2, z / 2) for z in range(3) for y in range(3) for x in range(3)]
@@ -465,55 +490,62 @@ class MorphMesh(unittest.TestCase):
         self.fails(1, "Nothing says which nodes", BORE, MODELS / "bore_tet_small.vtu", output)
         self.assertFalse(output.exists())
 
-    def test_a_damaged_file_gives_one_message(self):
-        """The ways in which VTK's readers fail; malformed_files.py breaks many more files."""
+    def refuse(self, name, content, message):
+        """`content` as the moved boundary gives one message, and no mesh."""
+        file = self.folder / name
+        file.write_bytes(content if isinstance(content, bytes) else content.encode())
+        result = run(BORE, file, self.folder / "out.vtu")
+        self.assertEqual((result.returncode, result.stderr.count("\n")), (1, 1), result.stderr)
+        self.assertRegex(result.stderr, f"^morph-mesh: Cannot read {file}: {message}")
+        self.assertFalse((self.folder / "out.vtu").exists())
+
+    def test_files_of_another_format_are_told_apart(self):
+        page = "<html><body>" + "There is no such page. " * 10 + "</body></html>"
+        for extension in ("vtu", "vtp", "vts", "vti", "vtr", "pvtp", "vtk", "stl", "ply", "obj",
+                          "inp", "neu", "exo"):
+            with self.subTest(extension=extension):
+                self.refuse(f"other.{extension}", page,
+                            f"it does not begin as a .{extension} file does")
+
+    def test_damaged_files_are_told_apart(self):
+        vtu = Path(BORE).read_text()
         neutral = ("        CONTROL INFO 1.3.0\n** GAMBIT NEUTRAL FILE\ncube\nPROGRAM: Gambit\n"
                    "January 2000\n"
                    "     NUMNP     NELEM     NGRPS    NBSETS     NDFCD     NDFVL\n"
                    "{} {} {} {} 3 3\nENDOFSECTION\n"
                    "   NODAL COORDINATES 1.3.0\n1 0 0 0\nENDOFSECTION\n"
                    "      ELEMENTS/CELLS 1.3.0\nENDOFSECTION\n")
-        legacy = ("# vtk DataFile Version 4.2\n\nASCII\nDATASET UNSTRUCTURED_GRID\n"
-                  "POINTS 1000000000000000 double\n")
-        vtu = Path(BORE).read_text()
-        # VTK 9.1 ends with its own exception where VTK 9.2 lets the C++ library throw.
-        memory = "did not get the memory that it asked for|Unable to allocate"
-        # VTK 9.6 asks for the memory first.
-        endless = f"has not ended after computing for 3 s. |{memory}"
-        files = {
-            "cut.vtu": (vtu[:2000], ": Error parsing XML"),
-            "empty.vtu": ("", "damaged"),
-            "deep.vtu": ("<a>" * 1000000, "damaged"),
-            "other.vtk": (vtu, "damaged"),
-            "count.vtk": (legacy, memory),
-            "memory.neu": (neutral.format(2000000000, 0, 0, 0), memory),
-            "endless.neu": (neutral.format(1, 0, 0, 2000000000), endless),
-        }
-        for name, (content, message) in files.items():
+        points = "# vtk DataFile Version 4.2\n\n{}\nDATASET POLYDATA\nPOINTS {} {}\n"
+        ply = ("ply\nformat {} 1.0\nelement vertex {}\n"
+               "property float x\nproperty float y\nproperty float z\n"
+               "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0")
+        stl = b"\0" * 80 + struct.pack("<I", 3) + b"\0" * 100
+        more = "the file is damaged: its header asks for more than its"
+        for name, content, message in (
+                ("empty.vtu", "", "the file is damaged: it is empty"),
+                ("cut.vtu", vtu[:2000], "the file is damaged: it ends before </VTKFile>"),
+                ("count.vtu", re.sub('NumberOfCells="', r"\g<0>4294967296", vtu, 1), more),
+                ("version.vtk", "# vtk DataFile Version 1e-320\n", ".* it has no version"),
+                ("text.vtk", points.format("ASCII", 10**15, "double"), more),
+                ("binary.vtk", points.format("BINARY", 30, "double"), more),
+                ("negative.vtk", points.format("ASCII", -1, "float"), more),
+                ("cut.stl", "solid a\nfacet normal 0 0 1\n", ".* it ends before endsolid"),
+                ("binary.stl", stl, more),
+                ("cut.ply", "ply\nformat ascii 1.0\n", ".* its header has no end"),
+                ("text.ply", ply.format("ascii", 8), more),
+                ("binary.ply", ply.format("binary_little_endian", 8), more),
+                ("many.ply", ply.format("ascii", "1e39"), more),
+                ("word.ply", ply.format("ascii", 8).replace("element ", "", 1),
+                 ".* its header has a line that PLY does not know"),
+                ("type.ply", ply.format("ascii", 8).replace("float y", "face y", 1),
+                 ".* its header has a line that PLY does not know"),
+                ("many.inp", "2000000000 1 0 0 0\n1 0 0 0\n", more),
+                ("many.neu", neutral.format(2000000000, 0, 0, 0), more),
+                ("sets.neu", neutral.format(1, 0, 0, 2000000000), more),
+                ("deep.vtu", "<VTKFile>" + "<a>" * 100 + "</VTKFile>",
+                 "the file is damaged, or not what its extension says: ")):
             with self.subTest(name=name):
-                file = self.folder / name
-                file.write_text(content)
-                result = run(file, self.boundary, self.folder / "out.vtu")
-                self.assertEqual((result.returncode, result.stderr.count("\n")), (1, 1),
-                                 result.stderr)
-                self.assertTrue(result.stderr.startswith(f"morph-mesh: Cannot read {file}: "),
-                                result.stderr)
-                self.assertRegex(result.stderr,
-                                 "[Tt]he file is damaged, or not what its extension says")
-                self.assertRegex(result.stderr, message)
-
-    def test_a_file_that_vtk_reads_beyond_its_end_gives_one_message(self):
-        """What VTK's reader finds there decides whether it crashes; morph-mesh never does."""
-        polygons = ("ply\nformat ascii 1.0\nelement vertex 8\n"
-                    "property float x\nproperty float y\nproperty float z\n"
-                    "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
-                    "0 0 0\n1 0")
-        boundary = self.folder / "cut.ply"
-        boundary.write_text(polygons)
-        result = run(BORE, boundary, self.folder / "out.vtu")
-        self.assertEqual((result.returncode, result.stderr.count("\n")), (1, 1), result.stderr)
-        self.assertRegex(result.stderr, "^morph-mesh: Cannot (read|morph) ")
-        self.assertFalse((self.folder / "out.vtu").exists())
+                self.refuse(name, content, message)
 
 
 if __name__ == "__main__":

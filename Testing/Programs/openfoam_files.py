@@ -115,6 +115,10 @@ class OpenFoam(solver_files.SolverFiles):
             ("owner", lambda s: s.replace("\n0\n", "\n99999999\n", 1), "cell 99999999"),
             ("faces", lambda s: re.sub(r"4\((\d+)", "4(9999", s, 1), "the point 9999"),
             ("boundary", lambda s: s.replace("startFace ", "startFace 9", 1), "patch wall"),
+            ("boundary", lambda s: re.sub(r"type +\w+", "type processor", s, 1),
+             "piece of a decomposed case .*patch wall .*reconstructParMesh"),
+            ("boundary", lambda s: re.sub(r"type +\w+", "type processorCyclic", s, 1),
+             "piece of a decomposed case"),
             ("neighbour", lambda s: s.replace("\n(\n", "\n(\nx", 1), "whole number is missing"))
         for name, damage, message in cases:
             with self.subTest(name=name, message=message):

@@ -191,6 +191,28 @@ class SolverFiles(unittest.TestCase):
                 self.refuse(f"Nothing'.*{names[1]}", "--move", "Nothing", "--translate", "1,0,0",
                             path, out)
 
+    def test_a_set_that_names_what_is_not_there_is_left_out(self):
+        """Alone, as the nodes of elements, in a set of a set, and in a surface."""
+        nodes = "".join(f"{i + 1}, {i & 1}., {i >> 1 & 1}., {i >> 2}.\n" for i in range(8))
+        path = self.folder / "m.inp"
+        path.write_text(
+            "*NODE\n" + nodes + "*ELEMENT, TYPE=C3D8, ELSET=Solid\n1, 1, 2, 4, 3, 5, 6, 8, 7\n"
+            "*ELEMENT, TYPE=GK3D8, ELSET=Gasket\n2, 1, 2, 4, 3, 5, 6, 8, 7\n"
+            "*NSET, NSET=Low\n1, 2, 3, 4\n*NSET, NSET=Top\n5, 6, 7, 8\n"
+            "*NSET, NSET=Nodes, ELSET=Solid\n*NSET, NSET=All\nLow, Nodes\n"
+            "*NSET, NSET=Both\nTop, Missing\n*NSET, NSET=More\nLow, Both\n"
+            "*NSET, NSET=Gone, ELSET=Lost\n*ELSET, ELSET=Some\nSolid, Gasket\n"
+            "*SURFACE, NAME=Face\nAway, S1\n*NSET, NSET=Round\nRound, Top\n")
+        listed = run("--list-surfaces", path)
+        found = dict(re.findall(r"^(\w+)  +(\d+) ", listed.stdout, re.MULTILINE))
+        self.assertEqual(set(found), {"Low", "Top", "Nodes", "All", "Some", "Solid", "Round"})
+        self.assertEqual((found["All"], found["Round"]), ("6", "1"))
+        for name, missing in (("Both", "MISSING"), ("More", "MISSING"), ("Gone", "LOST"),
+                              ("Face", "AWAY")):
+            self.assertIn(f"The set '{name}' names the set '{missing}'", listed.stderr)
+            self.refuse(f"names '{name}', which the boundary does not have", "--move", name,
+                        "--translate", "0,0,0.1", path, self.folder / "out.inp")
+
     def test_nodes_are_chosen_by_the_numbers_of_the_file(self):
         for extension in (".inp", ".su2", ".msh"):
             with self.subTest(extension=extension):
@@ -360,6 +382,14 @@ class SolverFiles(unittest.TestCase):
                 path.write_text(content)
                 self.refuse(message, "--list-surfaces", path)
                 self.refuse(message, "--move", "Surface 0", "--translate", "1,0,0", path, path)
+
+    def test_too_many_included_files_are_refused(self):
+        (self.folder / "empty.inc").write_text("")
+        for name, line in (("m.inp", "*INCLUDE, INPUT=empty.inc\n"),
+                           ("m.bdf", "INCLUDE 'empty.inc'\n")):
+            path = self.folder / name
+            path.write_text(("BEGIN BULK\n" if name == "m.bdf" else "") + 1001 * line)
+            self.refuse(f"{name}: it includes more than 1000 files", "--list-surfaces", path)
 
     def test_planar_files_of_each_format(self):
         """CGNS and Exodus II: library_files.py. OpenFOAM has no planar mesh: its two-dimensional

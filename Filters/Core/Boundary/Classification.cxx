@@ -5,7 +5,7 @@
 #include "Mesh/CellShape.h"
 #include "Support/Buckets.h"
 #include "Support/Error.h"
-#include "Support/FirstTouch.h"
+#include "Support/Parallel.h"
 #include "Support/ReproducibleSum.h"
 
 #include <Eigen/Geometry>
@@ -19,7 +19,6 @@ namespace morph
 {
 namespace
 {
-constexpr Index Grain = 4096;
 constexpr double NoParameter = std::numeric_limits<double>::quiet_NaN();
 
 void requireLength(std::size_t length, Index needed, const char* what)
@@ -96,9 +95,9 @@ public:
   {
     validate(static_cast<Index>(this->points_.rows()), this->faces_, this->options_);
     const Index nodes = static_cast<Index>(this->points_.rows());
-    this->result_.dimension = largeVector<std::int8_t>(nodes, -1, monitor);
-    this->result_.entity = largeVector<Index>(nodes, -1, monitor);
-    this->result_.parameter = largeVector<double>(nodes, NoParameter, monitor);
+    this->result_.dimension = std::vector<std::int8_t>(nodes, -1);
+    this->result_.entity = std::vector<Index>(nodes, -1);
+    this->result_.parameter = std::vector<double>(nodes, NoParameter);
     this->result_.edges = surfaceEdges(this->points_, this->faces_, monitor);
     monitor.check();
     monitor.progress(0.4);
@@ -566,14 +565,8 @@ Classification classify(const Mesh& mesh, const BoundaryFaces& faces,
       result.entity[node] = body;
     }
   };
-  monitor.parallelFor(mesh.numberOfNodes(), Grain,
-    [&](Index first, Index last)
-    {
-      for (Index node = first; node < last; ++node)
-      {
-        placeInside(node, parts.ofNode[node]);
-      }
-    });
+  parallel(
+    mesh.numberOfNodes(), monitor, [&](Index node) { placeInside(node, parts.ofNode[node]); });
   const auto hasNodesBetween = [&mesh](Index c)
   {
     const CellShape* shape = cellShape(mesh.types[c]);

@@ -2,6 +2,7 @@
 #include "Boundary/SurfaceEdges.h"
 
 #include "Support/Buckets.h"
+#include "Support/Parallel.h"
 
 #include <Eigen/Geometry>
 
@@ -14,8 +15,6 @@ namespace morph
 {
 namespace
 {
-constexpr Index Grain = 4096;
-
 /// A face's edge.
 struct Side
 {
@@ -31,14 +30,11 @@ public:
     : faces_(faces)
     , face_(faces.connectivity.size())
   {
-    monitor.parallelFor(static_cast<Index>(faces.offsets.size()) - 1, Grain,
-      [&](Index first, Index last)
+    parallel(static_cast<Index>(faces.offsets.size()) - 1, monitor,
+      [&](Index f)
       {
-        for (Index f = first; f < last; ++f)
-        {
-          std::fill(
-            this->face_.begin() + faces.offsets[f], this->face_.begin() + faces.offsets[f + 1], f);
-        }
+        std::fill(
+          this->face_.begin() + faces.offsets[f], this->face_.begin() + faces.offsets[f + 1], f);
       });
   }
 
@@ -63,15 +59,12 @@ public:
           add((*this)[side].low, side);
         }
       });
-    monitor.parallelFor(nodes, Grain,
-      [&](Index first, Index last)
+    parallel(nodes, monitor,
+      [&](Index node)
       {
-        for (Index node = first; node < last; ++node)
-        {
-          std::stable_sort(byLow.values.begin() + byLow.offsets[node],
-            byLow.values.begin() + byLow.offsets[node + 1],
-            [this](Index a, Index b) { return (*this)[a].high < (*this)[b].high; });
-        }
+        std::stable_sort(byLow.values.begin() + byLow.offsets[node],
+          byLow.values.begin() + byLow.offsets[node + 1],
+          [this](Index a, Index b) { return (*this)[a].high < (*this)[b].high; });
       });
     return std::move(byLow.values);
   }
@@ -100,14 +93,7 @@ Eigen::RowVector3d normalOf(const ConstPoints& points, const BoundaryFaces& face
 Points normals(const ConstPoints& points, const BoundaryFaces& faces, Monitor& monitor)
 {
   Points result(static_cast<Index>(faces.offsets.size()) - 1, 3);
-  monitor.parallelFor(result.rows(), Grain,
-    [&](Index first, Index last)
-    {
-      for (Index f = first; f < last; ++f)
-      {
-        result.row(f) = normalOf(points, faces, f);
-      }
-    });
+  parallel(result.rows(), monitor, [&](Index f) { result.row(f) = normalOf(points, faces, f); });
   return result;
 }
 
@@ -245,16 +231,13 @@ SurfaceEdges surfaceEdges(const ConstPoints& points, const BoundaryFaces& faces,
   Points normal = normals(points, faces, monitor);
   result.visits = fillNormals(points, result, meeting, normal);
   result.angle.resize(meeting.size());
-  monitor.parallelFor(static_cast<Index>(meeting.size()), Grain,
-    [&](Index first, Index last)
+  parallel(static_cast<Index>(meeting.size()), monitor,
+    [&](Index e)
     {
-      for (Index e = first; e < last; ++e)
-      {
-        const Meeting& at = meeting[e];
-        result.angle[e] = at.face[0] < 0 ? std::numeric_limits<double>::quiet_NaN()
-                                         : degreesBetween(normal.row(at.face[0]),
-                                             normal.row(at.face[1]), at.sameDirection);
-      }
+      const Meeting& at = meeting[e];
+      result.angle[e] = at.face[0] < 0 ? std::numeric_limits<double>::quiet_NaN()
+                                       : degreesBetween(normal.row(at.face[0]),
+                                           normal.row(at.face[1]), at.sameDirection);
     });
   return result;
 }

@@ -255,8 +255,8 @@ ProjectionReport projectCurves(const Classification& geometry, const ProjectionT
   const Points displacement = motion.displacement, moved = motion.moved();
   ProjectionReport report = moveTo(
     nodesIn(motion, BoundaryMotion::OnCurve),
-    [&](Index, const Eigen::RowVector3d& x, Eigen::RowVector3d& y)
-    { return target.closestOnFeatures(x, y); },
+    [&](Index node, const Eigen::RowVector3d& x, Eigen::RowVector3d& y)
+    { return target.closestOnFeatures(node, x, y); },
     motion, monitor);
   // After the first round, only pieces next to a node that went back can have turned.
   Points now = motion.moved();

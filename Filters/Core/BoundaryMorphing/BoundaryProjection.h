@@ -21,9 +21,9 @@ public:
   /// Classification). Its normal must fit `normal` (unit length, or zero where unknown). Returns
   /// false if none is near enough.
   virtual bool closestOnSurface(Index surface, const Row& x, const Row& normal, Row& y) const = 0;
-  /// Finds the point `y` nearest to `x` on the target's feature edges. Returns false if none is
-  /// near enough.
-  virtual bool closestOnFeatures(const Row& x, Row& y) const = 0;
+  /// Finds the point `y` nearest to `x` on the target's feature edges, for that node. Returns false
+  /// if none is near enough.
+  virtual bool closestOnFeatures(Index node, const Row& x, Row& y) const = 0;
 };
 
 struct ProjectionReport

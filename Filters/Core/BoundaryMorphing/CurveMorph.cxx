@@ -17,8 +17,8 @@ struct Anchor
 };
 
 /// Returns displacements in the order of curve.nodes, zero for the known nodes.
-Points blend(const GeometryCurve& curve, const std::vector<Anchor>& anchors, const AffineFit& fit,
-  const BoundaryMotion& motion)
+Points blend(const GeometryCurve& curve, const std::vector<Anchor>& anchors,
+  const MotionAround::Mixture<AffineFit>& fit, const BoundaryMotion& motion)
 {
   const auto field = [&](Index node) -> Eigen::RowVector3d
   { return fit.displacement(Eigen::RowVector3d(motion.rest.row(node))); };
@@ -91,7 +91,7 @@ Index morphCurves(const Classification& geometry, UnattachedMotion unattached,
     {
       continue;
     }
-    const MotionSums around = known.around(curve);
+    const MotionAround around = known.around(curve);
     const std::vector<Anchor> anchors = findAnchors(curve, before);
     if (anchors.empty())
     {

@@ -2,7 +2,6 @@
 #include "BoundaryMorphing/Falloff.h"
 
 #include "Geometry/NearestNodes.h"
-#include "Geometry/SpatialOrder.h"
 #include "Interpolation/InverseDistanceWeights.h"
 #include "Support/Error.h"
 
@@ -23,18 +22,18 @@ std::vector<Index> all(Index count)
   return rows;
 }
 
-/// Returns the squared distance of each place from the nearest node.
-std::vector<double> squaredDistances(const Points& nodes, const Points& places, Monitor& monitor)
+/// Returns the distance of each place from the nearest node.
+std::vector<double> distances(const Points& nodes, const Points& places, Monitor& monitor)
 {
   std::vector<double> result(places.rows());
   const NearestNodes nearest(nodes);
-  const std::vector<Index> order = spatialOrder(places, all(places.rows()));
   monitor.parallelFor(places.rows(), Grain,
     [&](Index first, Index last)
     {
-      nearest.search(places, order, first, last, 1,
-        [&](Index row, const NearestNodes::Neighbors& found)
-        { result[row] = found.squaredDistances[0]; });
+      for (Index i = first; i < last; ++i)
+      {
+        result[i] = nearest.distance(places.row(i));
+      }
     });
   return result;
 }
@@ -55,11 +54,10 @@ void Falloff::prepare(const Points& moving, const Points& places, double radius,
   this->sites_ = InterpolationSites(moving, all(moving.rows()));
   this->reached_.clear();
   this->factor_.clear();
-  const std::vector<double> distance2 =
-    squaredDistances(this->sites_.coordinates(), places, monitor);
+  const std::vector<double> distance = distances(this->sites_.coordinates(), places, monitor);
   for (Index i = 0; i < places.rows(); ++i)
   {
-    const double t = std::sqrt(distance2[i]) / radius;
+    const double t = distance[i] / radius;
     if (t < 1)
     {
       const double s = (1 - t) * (1 - t);
@@ -68,8 +66,8 @@ void Falloff::prepare(const Points& moving, const Points& places, double radius,
     }
   }
   monitor.check();
-  this->weights_ = inverseDistanceWeights(
-    this->sites_, places(this->reached_, allColumns), Neighborhood{ Neighbors, false }, monitor);
+  this->weights_ =
+    inverseDistanceWeights(this->sites_, places(this->reached_, allColumns), Neighbors, monitor);
 }
 
 Points Falloff::evaluate(const Points& displacement, Monitor& monitor) const

@@ -3,7 +3,6 @@
 
 #include "Support/Error.h"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
 #include <algorithm>
@@ -69,19 +68,44 @@ void requireApart(const Points& places, double distance)
   }
 }
 
-/// Orthonormal directions along which the points extend, 3 x (0 to 3).
-Eigen::MatrixXd extendedDirections(const Points& points)
+/// The handles' principal directions. What they move is as far from them as they are from one
+/// another.
+PrincipalDirections directionsOf(const Points& points)
 {
-  const Eigen::RowVector3d mean = points.colwise().mean();
-  const Points arms = points.rowwise() - mean;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(arms.transpose() * arms);
-  const double largest = axes.eigenvalues()[2];
-  Index rank = 0;
-  while (rank < 3 && AffineLeastSquares::isExtended(axes.eigenvalues()[2 - rank], largest))
+  const Points arms = points.rowwise() - points.colwise().mean();
+  PrincipalDirections directions(
+    arms.transpose() * arms, static_cast<double>(std::max<Index>(points.rows(), 1)));
+  Eigen::RowVector3d within = Eigen::RowVector3d::Zero(), reach = within;
+  for (Index i = 0; i < arms.rows(); ++i)
   {
-    ++rank;
+    within = within.cwiseMax(directions.leverages(arms.row(i)));
   }
-  return axes.eigenvectors().rightCols(rank);
+  const double size = arms.rowwise().norm().maxCoeff();
+  for (int j = 0; j < 3; ++j)
+  {
+    reach = reach.cwiseMax(directions.leverages(size * directions.axes().col(j).transpose()));
+  }
+  directions.limit(within, reach);
+  return directions;
+}
+
+/// The solution of the symmetric `matrix` for the values `given`. Throws Error where rounding or
+/// overlapping radii leave none. `largest`: of the displacements.
+Eigen::MatrixXd solve(const Eigen::MatrixXd& matrix, const Points& values, double largest)
+{
+  Eigen::MatrixXd given = Eigen::MatrixXd::Zero(matrix.rows(), 3);
+  given.topRows(values.rows()) = values;
+  const Eigen::PartialPivLU<Eigen::MatrixXd> factor(matrix);
+  Eigen::MatrixXd solution = factor.solve(given);
+  solution += factor.solve(given - matrix * solution); // one step of refinement
+  const double residual = (given - matrix * solution).cwiseAbs().maxCoeff();
+  if (!solution.allFinite() || !(residual <= LargestResidual * largest))
+  {
+    throw Error(Error::Kind::Singular,
+      "No smooth motion takes the displacements of these handles: they are too near each other for "
+      "their radii. Remove some, or give those that overlap the same radius.");
+  }
+  return solution;
 }
 
 Points rows(const Points& of, const std::vector<Index>& ids)
@@ -91,8 +115,6 @@ Points rows(const Points& of, const std::vector<Index>& ids)
 }
 
 HandleMotion::HandleMotion(const std::vector<Handle>& handles)
-  : trend_(Eigen::RowVector3d::Zero(), Eigen::RowVector3d::Zero(), Eigen::Matrix3d::Zero(),
-      Eigen::Matrix3d::Zero())
 {
   require(handles);
   const auto n = static_cast<Index>(handles.size());
@@ -115,12 +137,15 @@ HandleMotion::HandleMotion(const std::vector<Handle>& handles)
 
   const std::vector<Index> unlimited = ofRadius.count(0) ? ofRadius.at(0) : std::vector<Index>();
   this->hasPolynomial_ = !unlimited.empty();
-  Eigen::MatrixXd directions(3, 0);
+  PrincipalDirections directions(Eigen::Matrix3d::Zero(), 0);
   if (this->hasPolynomial_)
   {
     const Points free = rows(places, unlimited);
-    this->trend_ = AffineLeastSquares(free).fit(rows(values, unlimited));
-    directions = extendedDirections(free);
+    directions = directionsOf(free);
+    const Eigen::RowVector3d mean = free.colwise().mean(),
+                             of = rows(values, unlimited).colwise().mean();
+    this->trend_ = AffineFit(mean, of, directions.inverse(),
+      (free.rowwise() - mean).transpose() * (rows(values, unlimited).rowwise() - of));
     for (Index i = 0; i < n; ++i)
     {
       values.row(i) -= this->trend_.displacement(places.row(i));
@@ -128,7 +153,7 @@ HandleMotion::HandleMotion(const std::vector<Handle>& handles)
   }
   places = (places.rowwise() - this->centre_) / this->size_;
 
-  const Index terms = this->hasPolynomial_ ? 1 + directions.cols() : 0;
+  const Index terms = this->hasPolynomial_ ? 4 : 0;
   Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(n + terms, n + terms);
   for (const auto& [radius, ids] : ofRadius)
   {
@@ -147,24 +172,26 @@ HandleMotion::HandleMotion(const std::vector<Handle>& handles)
   if (terms > 0)
   {
     matrix.col(n).head(n).setOnes();
-    matrix.block(0, n + 1, n, terms - 1) = places * directions;
+    matrix.block(0, n + 1, n, 3) = places * directions.axes().rowwise().reverse();
     for (const Index j : unlimited)
     {
       matrix.col(j).tail(terms) = matrix.row(j).tail(terms).transpose();
     }
   }
 
-  Eigen::MatrixXd given = Eigen::MatrixXd::Zero(n + terms, 3);
-  given.topRows(n) = values;
-  const Eigen::PartialPivLU<Eigen::MatrixXd> factor(matrix);
-  Eigen::MatrixXd solution = factor.solve(given);
-  solution += factor.solve(given - matrix * solution); // one step of refinement
-  const double residual = (given - matrix * solution).cwiseAbs().maxCoeff();
-  if (!solution.allFinite() || !(residual <= LargestResidual * largest))
+  // The polynomial varies along the directions that count. Where one counts in part, so do the
+  // answers with and without it, which both take the handles' displacements.
+  Eigen::MatrixXd solution = Eigen::MatrixXd::Zero(n + terms, 3);
+  double left = 1;
+  for (Index rank = terms > 0 ? 3 : 0; rank >= 0 && left > 0; --rank)
   {
-    throw Error(Error::Kind::Singular,
-      "No smooth motion takes the displacements of these handles: they are too near each other for "
-      "their radii. Remove some, or give those that overlap the same radius.");
+    const double share = rank == 0 ? left : left * directions.shares()[3 - rank];
+    const Index size = terms > 0 ? n + 1 + rank : n;
+    if (share > 0)
+    {
+      solution.topRows(size) += share * solve(matrix.topLeftCorner(size, size), values, largest);
+    }
+    left -= share;
   }
   auto group = this->groups_.begin();
   for (const auto& [radius, ids] : ofRadius)
@@ -175,7 +202,8 @@ HandleMotion::HandleMotion(const std::vector<Handle>& handles)
   if (terms > 0)
   {
     this->polynomial_.row(0) = solution.row(n);
-    this->polynomial_.bottomRows<3>() = directions * solution.bottomRows(terms - 1);
+    this->polynomial_.bottomRows<3>() =
+      directions.axes().rowwise().reverse() * solution.bottomRows(3);
   }
 }
 

@@ -24,9 +24,10 @@ struct Handle
 ///          + sum over handles with radius R_j of b_j (1 - q)_+^4 (4 q + 1),  q = r / R_j
 ///
 /// with r = |x - c_j|, a linear polynomial p, and sum a_j q(c_j) = 0 for every linear polynomial q.
-/// Handles without radius have the thin-plate spline: affine motions of four that are not in a
-/// plane come out affine. Of handles in a plane, on a line or of a single one, p varies within
-/// their span alone, so that one handle translates everything. Without such handles p is 0.
+/// Handles without radius have the thin-plate spline: affine motions of four that are not nearly in
+/// a plane come out affine. Of handles in a plane, on a line or of a single one, p varies within
+/// their span alone, so that one handle translates everything. Where they are nearly flat, p varies
+/// across them by the share of PrincipalDirections. Without such handles p is 0.
 ///
 /// Source: H. Wendland, "Scattered Data Approximation", Cambridge University Press 2005, chapters 8
 /// and 9.

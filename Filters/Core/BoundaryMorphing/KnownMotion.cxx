@@ -77,11 +77,24 @@ MotionSums KnownMotion::sumOf(const std::vector<Index>& ids)
   return MotionSums(this->motion_, ids);
 }
 
-bool KnownMotion::holds(const MotionSums& sums, const std::vector<Index>& nodes) const
+/// Adds a nonempty set by the share of the directions in which the places leave its centre.
+void KnownMotion::add(const MotionSums& sums, const Points& places, MotionAround& around) const
 {
-  const AffineSpan flat = sums.flat();
-  return std::all_of(nodes.begin(), nodes.end(),
-    [&](Index node) { return flat.distance(this->motion_.rest.row(node)) <= this->tolerance_; });
+  if (sums.empty())
+  {
+    return;
+  }
+  const PrincipalDirections directions = sums.directions(places);
+  const Points arms = (places.rowwise() - sums.centre()) * directions.axes();
+  double share = 1;
+  for (int j = 0; j < 3; ++j)
+  {
+    if (arms.col(j).cwiseAbs().maxCoeff() > this->tolerance_)
+    {
+      share = std::min(share, directions.shares()[j]);
+    }
+  }
+  around.add(sums, directions, share);
 }
 
 const MotionSums& KnownMotion::besides(const GeometryCurve& curve)
@@ -120,28 +133,40 @@ const MotionSums& KnownMotion::besides(const GeometryCurve& curve)
   return this->besides_.emplace(curve.surfaces, sums).first->second;
 }
 
-MotionSums KnownMotion::around(const GeometryCurve& curve)
+MotionAround KnownMotion::around(const GeometryCurve& curve)
 {
-  MotionSums last;
-  const auto does = [&](const MotionSums& sums)
+  const Points places = this->motion_.rest(curve.nodes, allColumns);
+  MotionAround around;
+  this->add(this->sumOf(knownOf(curve.nodes, this->motion_)), places, around);
+  if (around.left() > 0)
   {
-    last = sums.empty() ? last : sums;
-    return !sums.empty() && this->holds(sums, curve.nodes);
-  };
-  if (does(this->sumOf(knownOf(curve.nodes, this->motion_))) || does(this->besides(curve)))
-  {
-    return last;
+    this->add(this->besides(curve), places, around);
   }
-  const MotionSums more = this->around(this->motion_.bodyOfNode[curve.nodes[0]], curve.nodes);
-  return more.empty() ? last : more;
+  if (around.left() > 0)
+  {
+    this->addBody(this->motion_.bodyOfNode[curve.nodes[0]], places, around);
+  }
+  return around;
 }
 
-MotionSums KnownMotion::around(Index body, const std::vector<Index>& nodes)
+MotionAround KnownMotion::around(Index body, const std::vector<Index>& nodes)
+{
+  MotionAround around;
+  this->addBody(body, this->motion_.rest(nodes, allColumns), around);
+  return around;
+}
+
+void KnownMotion::addBody(Index body, const Points& places, MotionAround& around)
 {
   this->sumBodies();
   const std::size_t place = static_cast<std::size_t>(body + 1);
-  const bool does = place < this->body_.size() && !this->body_[place].empty() &&
-                    this->holds(this->body_[place], nodes);
-  return does ? this->body_[place] : this->all_;
+  if (place < this->body_.size())
+  {
+    this->add(this->body_[place], places, around);
+  }
+  if (around.left() > 0)
+  {
+    this->add(this->all_, places, around);
+  }
 }
 }

@@ -18,13 +18,15 @@ public:
   /// the surfaces' nodes.
   KnownMotion(const Classification& geometry, const BoundaryMotion& motion);
 
-  /// Returns the sums of the first set whose affine span (line, plane, space) contains the curve,
+  /// Returns the motion of the first set whose affine span (line, plane, space) contains the curve,
   /// or of the last nonempty one. The sets are the known nodes of the curve, of its adjacent
-  /// surfaces, of its body, of all. An affine motion of the set is then known on the curve. Cost:
-  /// the curve's nodes; once for each set of adjacent surfaces, the nodes of all but the largest.
-  MotionSums around(const GeometryCurve& curve);
-  /// Returns the sums for other nodes on a body: of its known nodes, or of all. Cost: `nodes`.
-  MotionSums around(Index body, const std::vector<Index>& nodes);
+  /// surfaces, of its body, of all. An affine motion of the set is then known on the curve. Where a
+  /// set is nearly flat and the curve leaves it, the set tells a share, and the next ones the rest
+  /// (PrincipalDirections). Cost: the curve's nodes; once for each set of adjacent surfaces, the
+  /// nodes of all but the largest.
+  MotionAround around(const GeometryCurve& curve);
+  /// The same for other nodes on a body: its known nodes, or all. Cost: `nodes`.
+  MotionAround around(Index body, const std::vector<Index>& nodes);
 
   /// Returns the number of known nodes summed so far, a measure of the cost.
   Index summed() const { return this->summed_; }
@@ -35,7 +37,8 @@ private:
   /// Sums by body, unless that is done.
   void sumBodies();
   const MotionSums& besides(const GeometryCurve& curve);
-  bool holds(const MotionSums& sums, const std::vector<Index>& nodes) const;
+  void add(const MotionSums& sums, const Points& places, MotionAround& around) const;
+  void addBody(Index body, const Points& places, MotionAround& around);
 
   const BoundaryMotion& motion_;
   /// maximum distance of a node from an affine span that contains it

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "BoundaryMorphing/MotionFit.h"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <Eigen/SVD>
 
 namespace morph
 {
 MotionSums::MotionSums(const BoundaryMotion& motion, const std::vector<Index>& ids)
-  : count_(static_cast<Index>(ids.size()))
+  : count_(static_cast<double>(ids.size()))
 {
   if (ids.empty())
   {
@@ -40,7 +39,7 @@ void MotionSums::add(const MotionSums& other)
     return;
   }
   // Chan, Golub, LeVeque (The American Statistician 37 (1983) 242-247): free of cancellation.
-  const double n = static_cast<double>(this->count_), m = static_cast<double>(other.count_);
+  const double n = this->count_, m = other.count_;
   const Eigen::RowVector3d arm = other.centre_ - this->centre_, gain = other.mean_ - this->mean_;
   const double weight = n * m / (n + m);
   this->spread_ += other.spread_ + weight * arm.transpose() * arm;
@@ -50,31 +49,24 @@ void MotionSums::add(const MotionSums& other)
   this->count_ += other.count_;
 }
 
-AffineSpan::AffineSpan(const Eigen::RowVector3d& centre, const Eigen::Matrix3d& spread)
-  : centre_(centre)
-  , normal_(Eigen::Matrix3d::Identity())
+PrincipalDirections MotionSums::directions(const Points& places) const
 {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(spread);
-  for (int j = 0; j < 3; ++j)
+  PrincipalDirections result(this->spread_, this->count_);
+  Eigen::RowVector3d reach = Eigen::RowVector3d::Zero();
+  for (Index i = 0; i < places.rows(); ++i)
   {
-    if (AffineLeastSquares::isExtended(axes.eigenvalues()[j], axes.eigenvalues()[2]))
-    {
-      this->normal_ -= axes.eigenvectors().col(j) * axes.eigenvectors().col(j).transpose();
-    }
+    reach = reach.cwiseMax(result.leverages(places.row(i) - this->centre_));
   }
+  result.limit(Eigen::RowVector3d::Ones(), reach);
+  return result;
 }
 
-double AffineSpan::distance(const Eigen::RowVector3d& x) const
+AffineFit MotionSums::affineFit(const PrincipalDirections& directions) const
 {
-  return ((x - this->centre_) * this->normal_).norm();
+  return { this->centre_, this->mean_, directions.inverse(), this->stretch_ };
 }
 
-AffineFit MotionSums::affineFit() const
-{
-  return AffineFit(this->centre_, this->mean_, this->spread_, this->stretch_);
-}
-
-MotionSums::RigidFit MotionSums::rigidFit() const
+MotionSums::RigidFit MotionSums::rigidFit(const PrincipalDirections& directions) const
 {
   RigidFit fit;
   fit.centre_ = this->centre_;
@@ -85,17 +77,13 @@ MotionSums::RigidFit MotionSums::rigidFit() const
     return fit;
   }
   // Uses displacements in addition to positions, so a small motion keeps its digits.
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(
-    this->stretch_.transpose() + this->spread_, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  const Eigen::Vector3d& size = svd.singularValues();
-  if (!(size[1] > 1e-10 * size[0]))
-  {
-    // A line: the rotation about its axis is free.
-    const Eigen::Quaterniond q =
-      Eigen::Quaterniond::FromTwoVectors(svd.matrixV().col(0), svd.matrixU().col(0));
-    fit.turn_ = q.toRotationMatrix() - Eigen::Matrix3d::Identity();
-    return fit;
-  }
+  Eigen::Matrix3d moment = this->stretch_.transpose() + this->spread_;
+  // A line leaves the rotation about itself free: the smallest one that turns the line.
+  const Eigen::Vector3d line = directions.axes().col(2);
+  const Eigen::Quaterniond turn = Eigen::Quaterniond::FromTwoVectors(line, moment * line);
+  moment += (1 - directions.shares()[1]) * this->spread_.trace() * turn.toRotationMatrix() *
+            (Eigen::Matrix3d::Identity() - line * line.transpose());
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(moment, Eigen::ComputeFullU | Eigen::ComputeFullV);
   const Eigen::Vector3d sign(
     1, 1, (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0 ? -1 : 1);
   fit.turn_ =
@@ -108,12 +96,43 @@ Eigen::RowVector3d MotionSums::RigidFit::displacement(const Eigen::RowVector3d& 
   return this->shift_ + (x - this->centre_) * this->turn_.transpose();
 }
 
-AffineFit affineFit(const BoundaryMotion& motion, const std::vector<Index>& ids)
+void MotionAround::add(const MotionSums& sums, const PrincipalDirections& directions, double share)
 {
-  return MotionSums(motion, ids).affineFit();
+  if (!this->empty() && this->left_ > 0)
+  {
+    this->parts_.back().weight -= this->left_;
+  }
+  this->parts_.push_back({ sums, directions, this->left_ });
+  this->left_ *= 1 - share;
 }
 
-void extrapolate(const MotionSums& sums, const std::vector<Index>& nodes, UnattachedMotion how,
+template <typename Fit, typename Make>
+MotionAround::Mixture<Fit> MotionAround::mixture(const Make& make) const
+{
+  Mixture<Fit> result;
+  for (const Part& part : this->parts_)
+  {
+    if (part.weight > 0)
+    {
+      result.parts.emplace_back(part.weight, make(part));
+    }
+  }
+  return result;
+}
+
+MotionAround::Mixture<AffineFit> MotionAround::affineFit() const
+{
+  return this->mixture<AffineFit>(
+    [](const Part& part) { return part.sums.affineFit(part.directions); });
+}
+
+MotionAround::Mixture<MotionSums::RigidFit> MotionAround::rigidFit() const
+{
+  return this->mixture<MotionSums::RigidFit>(
+    [](const Part& part) { return part.sums.rigidFit(part.directions); });
+}
+
+void extrapolate(const MotionAround& around, const std::vector<Index>& nodes, UnattachedMotion how,
   BoundaryMotion& motion)
 {
   const auto set = [&](const auto& fit)
@@ -123,7 +142,7 @@ void extrapolate(const MotionSums& sums, const std::vector<Index>& nodes, Unatta
       motion.displacement.row(node) = fit.displacement(Eigen::RowVector3d(motion.rest.row(node)));
     }
   };
-  if (sums.empty() || how == UnattachedMotion::Stay)
+  if (around.empty() || how == UnattachedMotion::Stay)
   {
     for (Index node : nodes)
     {
@@ -132,11 +151,11 @@ void extrapolate(const MotionSums& sums, const std::vector<Index>& nodes, Unatta
   }
   else if (how == UnattachedMotion::FollowAffinely)
   {
-    set(sums.affineFit());
+    set(around.affineFit());
   }
   else
   {
-    set(sums.rigidFit());
+    set(around.rigidFit());
   }
 }
 }

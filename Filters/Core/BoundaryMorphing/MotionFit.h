@@ -4,24 +4,11 @@
 #include "BoundaryMorphing/BoundaryMotion.h"
 #include "Geometry/AffineFit.h"
 
+#include <utility>
 #include <vector>
 
 namespace morph
 {
-/// The affine span of some nodes: their common point, line, plane or all of space.
-class AffineSpan
-{
-public:
-  /// `centre`: the nodes' mean position; `spread`: their second moments about it.
-  AffineSpan(const Eigen::RowVector3d& centre, const Eigen::Matrix3d& spread);
-  /// Returns the distance of `x` from the span.
-  double distance(const Eigen::RowVector3d& x) const;
-
-private:
-  Eigen::RowVector3d centre_;
-  Eigen::Matrix3d normal_; ///< projects onto the orthogonal complement
-};
-
 /// Sums over nodes with displacements, from which fits follow. Sums of disjoint sets can be added
 /// without visiting their nodes again.
 class MotionSums
@@ -33,10 +20,13 @@ public:
   void add(const MotionSums& other);
 
   bool empty() const { return this->count_ == 0; }
-  AffineSpan flat() const { return AffineSpan(this->centre_, this->spread_); }
+  const Eigen::RowVector3d& centre() const { return this->centre_; }
+
+  /// The nodes' principal directions, to move others. `places`: #places x 3.
+  PrincipalDirections directions(const Points& places) const;
 
   /// Returns the affine displacement field that fits the displacements, zero if all of them are.
-  AffineFit affineFit() const;
+  AffineFit affineFit(const PrincipalDirections& directions) const;
 
   /// The rigid motion x' = c' + (x - c) R^T, without reflection, that fits the displacements by
   /// least squares. If the nodes lie on a line, it is the fit with the smallest angle. Source:
@@ -51,21 +41,63 @@ public:
     Eigen::RowVector3d centre_, shift_;
     Eigen::Matrix3d turn_; ///< R - I
   };
-  RigidFit rigidFit() const;
+  /// Where the nodes lie nearly on a line, its smallest angle counts by what `directions` leave.
+  RigidFit rigidFit(const PrincipalDirections& directions) const;
 
 private:
-  Index count_ = 0;
+  double count_ = 0;
   Eigen::RowVector3d centre_ = Eigen::RowVector3d::Zero(); ///< mean position
   Eigen::RowVector3d mean_ = Eigen::RowVector3d::Zero();   ///< mean displacement
   Eigen::Matrix3d spread_ = Eigen::Matrix3d::Zero();       ///< of (x - c)^T (x - c)
   Eigen::Matrix3d stretch_ = Eigen::Matrix3d::Zero();      ///< of (x - c)^T (d - mean)
 };
 
-/// Returns the affine displacement field that fits the displacements of `ids`, zero if all are.
-AffineFit affineFit(const BoundaryMotion& motion, const std::vector<Index>& ids);
+/// The motion of one set of nodes, or of several, each by its weight.
+class MotionAround
+{
+public:
+  bool empty() const { return this->parts_.empty(); }
+  /// Adds a set that tells a `share`, in [0, 1], of what the sets before it leave. The last set
+  /// tells the rest, too.
+  void add(const MotionSums& sums, const PrincipalDirections& directions, double share);
+  /// What the sets leave: 0 if the last needs no other.
+  double left() const { return this->left_; }
 
-/// Moves `nodes` with the nodes of `sums` by the fit that `how` selects; by zero if `sums` is
+  /// A weighted sum of displacement fields.
+  template <typename Fit>
+  struct Mixture
+  {
+    std::vector<std::pair<double, Fit>> parts;
+
+    Eigen::RowVector3d displacement(const Eigen::RowVector3d& x) const
+    {
+      Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
+      for (const auto& [weight, fit] : this->parts)
+      {
+        sum += weight * fit.displacement(x);
+      }
+      return sum;
+    }
+  };
+  Mixture<AffineFit> affineFit() const;
+  Mixture<MotionSums::RigidFit> rigidFit() const;
+
+private:
+  struct Part
+  {
+    MotionSums sums;
+    PrincipalDirections directions;
+    double weight;
+  };
+  template <typename Fit, typename Make>
+  Mixture<Fit> mixture(const Make& make) const;
+
+  std::vector<Part> parts_;
+  double left_ = 1;
+};
+
+/// Moves `nodes` with the nodes of `around` by the fit that `how` selects; by zero if `around` is
 /// empty.
-void extrapolate(const MotionSums& sums, const std::vector<Index>& nodes, UnattachedMotion how,
+void extrapolate(const MotionAround& around, const std::vector<Index>& nodes, UnattachedMotion how,
   BoundaryMotion& motion);
 }

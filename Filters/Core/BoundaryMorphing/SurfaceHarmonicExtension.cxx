@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "BoundaryMorphing/SurfaceHarmonicExtension.h"
 
-#include "BoundaryMorphing/MotionFit.h"
-#include "Solvers/MixedPrecisionMatrix.h"
+#include "Geometry/AffineFit.h"
 #include "Solvers/SpdSolver.h"
 #include "Support/ProgressRange.h"
 
@@ -139,12 +138,12 @@ private:
     }
     if (largestResidual > 1e-13 * largestMotion) // otherwise it is rounding
     {
-      CsrMatrix matrix(n, n);
-      matrix.setFromTriplets(entries.begin(), entries.end());
+      LinearEquations equations = { CsrMatrix(n, n),
+        this->motion_.rest(this->corners_, allColumns) };
+      equations.matrix.setFromTriplets(entries.begin(), entries.end());
       SpdSolver solver;
       ProgressRange first(monitor, 0, 0.5), second(monitor, 0.5, 1);
-      solver.prepare(
-        MixedPrecisionMatrix(matrix, first), this->motion_.rest(this->corners_, allColumns), first);
+      solver.prepare(std::move(equations), first);
       solver.solve(b, x, 1e-12, 2000, second);
     }
     for (Index i = 0; i < n; ++i)
@@ -164,7 +163,9 @@ void extendHarmonically(const BoundaryFaces& faces, const std::vector<Index>& fa
   const std::vector<Index>& fixed, const std::vector<Index>& free, BoundaryMotion& motion,
   Monitor& monitor)
 {
-  const AffineFit fit = affineFit(motion, fixed);
+  const AffineFit fit =
+    AffineLeastSquares(motion.rest(fixed, allColumns), motion.rest(free, allColumns))
+      .fit(motion.displacement(fixed, allColumns));
   Smoother(faces, free, fit, motion).run(faceIds, monitor);
 }
 }

@@ -4,8 +4,8 @@
 #include "Boundary/FaceQuality.h"
 #include "Boundary/FoldedFaces.h"
 #include "BoundaryMorphing/MidNodes.h"
-#include "BoundaryMorphing/MotionFit.h"
 #include "BoundaryMorphing/SurfaceMeshSmoother.h"
+#include "Geometry/AffineFit.h"
 
 #include <algorithm>
 #include <cmath>
@@ -184,7 +184,8 @@ private:
 /// Whether the surface's nodes move by one affine map, up to rounding.
 bool movesAffinely(const std::vector<Index>& nodes, const BoundaryMotion& motion)
 {
-  const AffineFit fit = affineFit(motion, nodes);
+  const AffineFit fit =
+    AffineLeastSquares(motion.rest(nodes, allColumns)).fit(motion.displacement(nodes, allColumns));
   double most = 0, off = 0;
   for (const Index node : nodes)
   {

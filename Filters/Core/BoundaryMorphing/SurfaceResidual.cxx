@@ -17,6 +17,7 @@ namespace
 {
 constexpr Index Grain = 1024;
 constexpr double Flat = 1e-12; // determinants and areas below this, relative, count as zero
+constexpr double Most = 0.5;   // the share of a direction from which the report counts it
 
 void requireFinite(const char* what, const Points& points)
 {
@@ -137,9 +138,8 @@ void SurfaceResidual::prepare(
   std::vector<Index> rows(prescribed.rows());
   std::iota(rows.begin(), rows.end(), Index(0));
   this->sites_ = InterpolationSites(prescribed, rows);
-  this->fit_ = AffineLeastSquares(this->sites_.coordinates());
-  this->weights_ =
-    inverseDistanceWeights(this->sites_, points, { this->numberOfNeighbors_ }, monitor);
+  this->fit_ = AffineLeastSquares(this->sites_.coordinates(), points);
+  this->weights_ = inverseDistanceWeights(this->sites_, points, this->numberOfNeighbors_, monitor);
   this->prepared_ = true;
 }
 
@@ -150,13 +150,13 @@ SurfaceResidual::Map SurfaceResidual::linearMap(const Points& displacement) cons
   Map map;
   map.centre = this->sites_.coordinates().colwise().mean();
   map.mean = fit.displacement(map.centre);
-  if (this->fit_.rank() < 2)
-  {
-    map.report.fit = Fit::Translation;
-    map.gradient.setZero();
-    return map;
-  }
-  map.gradient = fit.gradient();
+  // Points on a line tell no map of a surface. Those nearly on one tell it as far as their second
+  // direction counts.
+  const Eigen::RowVector3d& shares = this->fit_.directions().shares();
+  map.report.fit = shares[1] < Most   ? Fit::Translation
+                   : shares[0] < Most ? Fit::Plane
+                                      : Fit::Affine;
+  map.gradient = shares[1] * fit.gradient();
   return map;
 }
 
@@ -166,14 +166,14 @@ SurfaceResidual::Map SurfaceResidual::map(
 {
   const Points& sites = this->sites_.coordinates();
   Map map = this->linearMap(displacement);
-  if (map.report.fit == Fit::Translation)
+  const Eigen::RowVector3d& shares = this->fit_.directions().shares();
+  if (shares[1] == 0)
   {
     return map;
   }
   const Points moved = sites + displacement;
-  if (this->fit_.rank() == 2)
+  if (shares[0] < 1)
   {
-    map.report.fit = Fit::Plane;
     // Both planes' axes, areas and normals result from the same steps, so they agree bit for bit
     // without motion.
     const Eigen::Matrix3d axes = planeAxes(sites);
@@ -193,7 +193,8 @@ SurfaceResidual::Map SurfaceResidual::map(
     normal *= normal.dot(area) < 0 ? -1 : 1;
     movedNormal *= movedNormal.dot(movedArea) < 0 ? -1 : 1;
     const double scale = std::sqrt(movedArea.norm() / area.norm());
-    map.gradient += normal * (scale * movedNormal - normal).transpose();
+    map.gradient +=
+      shares[1] * (1 - shares[0]) * normal * (scale * movedNormal - normal).transpose();
   }
   const Eigen::Matrix3d A = Eigen::Matrix3d::Identity() + map.gradient;
   map.report.determinant = A.determinant();

@@ -16,7 +16,8 @@ namespace morph
 /// which would flatten a dome. There the normal is mapped to the normal of the best-fit plane of
 /// the moved points. It is scaled by the square root of the ratio of areas. X. Roca and J. Sarrate,
 /// "Least-squares approximation of affine mappings for sweep mesh generation", show why the plain
-/// functional fails.
+/// functional fails. Where the points are nearly in a plane, both maps count by the shares of
+/// PrincipalDirections.
 ///
 /// The result is not linear in the prescribed positions, so there is no adjoint.
 class SurfaceResidual
@@ -29,8 +30,8 @@ public:
   enum class Fit
   {
     Affine,      ///< prescribed points in space
-    Plane,       ///< prescribed points in a plane: affine in the plane, the normal mapped
-    Translation, ///< prescribed points on a line or at one place
+    Plane,       ///< prescribed points nearly in a plane: affine in the plane, the normal mapped
+    Translation, ///< prescribed points nearly on a line or at one place
     Similarity   ///< replaces a map that reflects or flattens: best rotation and scale
   };
 

@@ -4,10 +4,9 @@
 #include "Energies/CellBatchKernel.h"
 #include "Optimization/BlockCsr3f.h"
 #include "Support/Monitor.h"
-#include "Support/SimdDispatch.h"
+#include "Support/Simd.h"
 
 #include <algorithm>
-#include <cstring>
 #include <utility>
 #include <vector>
 
@@ -47,17 +46,11 @@ MORPH_SIMD_INLINE void separateCells(const SimdFloat4* entries, Index count, flo
   Index e = 0;
   for (; e + SimdWidth <= count; e += SimdWidth)
   {
-    const SimdFloat4 *in = entries + e, ab = __builtin_shufflevector(in[0], in[1], 0, 4, 1, 5),
-                     AB = __builtin_shufflevector(in[0], in[1], 2, 6, 3, 7),
-                     cd = __builtin_shufflevector(in[2], in[3], 0, 4, 1, 5),
-                     CD = __builtin_shufflevector(in[2], in[3], 2, 6, 3, 7),
-                     cell[] = { __builtin_shufflevector(ab, cd, 0, 1, 4, 5),
-                       __builtin_shufflevector(ab, cd, 2, 3, 6, 7),
-                       __builtin_shufflevector(AB, CD, 0, 1, 4, 5),
-                       __builtin_shufflevector(AB, CD, 2, 3, 6, 7) };
+    SimdFloat4 cell[SimdWidth];
+    transpose(entries + e, cell);
     for (Index lane = 0; lane < SimdWidth; ++lane)
     {
-      std::memcpy(to + lane * count + e, &cell[lane], sizeof(SimdFloat4));
+      store(cell[lane], to + lane * count + e);
     }
   }
   for (; e < count; ++e)
@@ -87,10 +80,10 @@ MORPH_SIMD_INLINE void addByCorners(const SimdMatrix (&block)[3][3], const int* 
   {
     for (int i = 0; i < 3; ++i)
     {
-      most = block[a][a][i][i] > most ? block[a][a][i][i] : most;
+      most = select(block[a][a][i][i] > most, block[a][a][i][i], most);
     }
   }
-  const SimdDouble4 factor = weight * (most > Largest ? Largest / most : SimdDouble4{} + 1.);
+  const SimdDouble4 factor = weight * select(most > Largest, Largest / most, SimdDouble4{} + 1.);
   SimdMatrix first = {};
   for (int b = 0; b < 3; ++b)
   {
@@ -132,7 +125,7 @@ MORPH_SIMD_INLINE void storeBlocks(const SimdMatrix* sum, Index blocks, float* t
     {
       for (Index i = 0; i < 3; ++i)
       {
-        entries[9 * k + 3 * j + i] = __builtin_convertvector(sum[k][j][i], SimdFloat4);
+        entries[9 * k + 3 * j + i] = narrowed(sum[k][j][i]);
       }
     }
   }

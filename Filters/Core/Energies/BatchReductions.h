@@ -4,7 +4,7 @@
 #include "Energies/CellBatches.h"
 #include "Mesh/GatherMap.h"
 #include "Support/Monitor.h"
-#include "Support/SimdDispatch.h"
+#include "Support/Simd.h"
 
 #include <algorithm>
 #include <vector>
@@ -40,7 +40,7 @@ Sum sumOfBlocks(const CellBatches& batches, Monitor& monitor, const Body& body)
 }
 }
 
-/// Sums Body::run(batch, batches, arguments..., sum) over all batches, see SimdDispatch.h. Batches
+/// Sums Body::run(batch, batches, arguments..., sum) over all batches, see Simd.h. Batches
 /// are summed in fixed blocks in order, so the result does not depend on threads.
 template <typename Body, typename Sum, typename... Arguments>
 Sum sumOverBatches(const CellBatches& batches, Monitor& monitor, const Arguments&... arguments)

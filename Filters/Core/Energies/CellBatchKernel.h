@@ -66,16 +66,14 @@ MORPH_SIMD_INLINE void storeAtPlaces(
 /// The target cells of a batch.
 struct SimdTargets
 {
-  using Mask = long long __attribute__((vector_size(32)));
   SimdVector x[8];
   SimdDouble4 factor;
-  Mask included;
+  const long long* included;
 
   MORPH_SIMD_INLINE SimdTargets(const CellBatches& batches, Index batch)
     : factor(load(batches.targets(batch).factor))
+    , included(batches.targets(batch).included)
   {
-    const long long(&bits)[SimdWidth] = batches.targets(batch).included;
-    this->included = Mask{ bits[0], bits[1], bits[2], bits[3] };
     const CellBatches::TargetCorners* corner = batches.targetCorners(batch);
     const int n = batches.corners(batch);
     for (int a = 0; a < n; ++a)
@@ -102,10 +100,10 @@ struct SimdTarget
     cofactor(D, normal);
     SimdDouble4 determinant;
     dot(D[0], normal[0], determinant);
-    const SimdTargets::Mask counts = (targets.included & (1ll << t)) != 0;
+    const SimdMask4 counts = hasBit(targets.included, t);
     const SimdDouble4 zero = {}, one = zero + 1.;
-    this->weight = counts ? tetrahedron.weight * targets.factor * determinant : zero;
-    const SimdDouble4 reciprocal = 1. / (counts ? determinant : one);
+    this->weight = select(counts, tetrahedron.weight * targets.factor * determinant, zero);
+    const SimdDouble4 reciprocal = 1. / select(counts, determinant, one);
     for (int j = 0; j < 3; ++j)
     {
       for (int i = 0; i < 3; ++i)
@@ -123,13 +121,13 @@ MORPH_SIMD_INLINE void jacobian(
   SimdMatrix D;
   edgesOf(x, corner, D);
   multiply(D, target.inverse, J);
-  const auto counts = target.weight > 0.;
+  const SimdMask4 counts = target.weight > 0.;
   const SimdDouble4 zero = {}, one = zero + 1.;
   for (int j = 0; j < 3; ++j)
   {
     for (int i = 0; i < 3; ++i)
     {
-      J[j][i] = counts ? J[j][i] : i == j ? one : zero;
+      J[j][i] = select(counts, J[j][i], i == j ? one : zero);
     }
   }
 }

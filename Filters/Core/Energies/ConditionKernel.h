@@ -19,7 +19,7 @@ MORPH_SIMD_INLINE void density(const T& I, const T& K, const T& D, T& kappa)
 {
   const T infinity = T{} + std::numeric_limits<double>::infinity();
   kappa = squareRoot(I) * squareRoot(K) / (3. * D);
-  kappa = D > 0. ? kappa : infinity;
+  kappa = select(D > 0., kappa, infinity);
   foldover::makeInfinite(kappa);
 }
 

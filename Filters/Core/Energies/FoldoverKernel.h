@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Support/SimdMath.h"
+#include "Support/Simd.h"
 
 #include <limits>
 
@@ -98,7 +98,7 @@ struct Regularised
     const double square = epsilon * epsilon;
     const T root = squareRoot(square + D * D);
     // The second form avoids the cancellation of the first.
-    this->chi = D > 0. ? (D + root) / 2. : square / (2. * (root - D));
+    this->chi = select(D > 0., (D + root) / 2., square / (2. * (root - D)));
     this->first = this->chi / root;
     this->second = square / (2. * root * root * root);
   }
@@ -109,7 +109,7 @@ template <typename T>
 MORPH_SIMD_INLINE void makeInfinite(T& value)
 {
   const T infinity = T{} + std::numeric_limits<double>::infinity();
-  value = value < infinity ? value : infinity;
+  value = select(value < infinity, value, infinity);
 }
 
 /// Computes the density. `I`: squared norm of J; `D`: its determinant.
@@ -117,7 +117,7 @@ template <typename T>
 MORPH_SIMD_INLINE void density(const Parameters<T>& p, const T& I, const T& D, T& phi)
 {
   const Regularised<T> r(D, p.epsilon);
-  const T root = inverseCubeRoot(r.chi);
+  const T root = 1. / cubeRoot(r.chi);
   phi = (1. - p.theta) / 3. * I * (root * root) + p.theta / 2. * (1. + D * D) / r.chi;
   makeInfinite(phi);
 }
@@ -135,7 +135,7 @@ MORPH_SIMD_INLINE void derivatives(
 {
   const T a = (1. - parameters.theta) / 3., b = parameters.theta / 2.;
   const Regularised<T> r(D, parameters.epsilon);
-  const T inverse = 1. / r.chi, root = inverseCubeRoot(r.chi), p = root * root;
+  const T inverse = 1. / r.chi, root = 1. / cubeRoot(r.chi), p = root * root;
   const T u = r.first * inverse, v = r.second * inverse;
   const T square = (1. + D * D) * inverse;
   const T shape = a * I * p;
@@ -156,8 +156,8 @@ MORPH_SIMD_INLINE void rotate(
 {
   const T gap = aqq - app, one = T{} + 1.;
   const T root = squareRoot(gap * gap + 4. * apq * apq);
-  const T sum = gap < 0. ? gap - root : gap + root;
-  const T tangent = 2. * apq / (sum == 0. ? one : sum);
+  const T sum = select(gap < 0., gap - root, gap + root);
+  const T tangent = 2. * apq / select(sum == 0., one, sum);
   const T c = 1. / squareRoot(1. + tangent * tangent), s = tangent * c;
   app -= tangent * apq;
   aqq += tangent * apq;
@@ -202,13 +202,13 @@ template <typename T>
 MORPH_SIMD_INLINE void descend(T& a, T& b, Vector3<T>& va, Vector3<T>& vb)
 {
   const auto swap = a < b;
-  const T first = swap ? b : a;
-  b = swap ? a : b;
+  const T first = select(swap, b, a);
+  b = select(swap, a, b);
   a = first;
   for (int i = 0; i < 3; ++i)
   {
-    const T x = swap ? vb[i] : va[i];
-    vb[i] = swap ? va[i] : vb[i];
+    const T x = select(swap, vb[i], va[i]);
+    vb[i] = select(swap, va[i], vb[i]);
     va[i] = x;
   }
 }
@@ -220,9 +220,9 @@ MORPH_SIMD_INLINE void perpendicular(const Vector3<T>& u, Vector3<T>& result)
   // Of the cross products with the axes, take a long one.
   const auto alongZ = u[2] * u[2] > u[0] * u[0];
   const T zero = T{};
-  result[0] = alongZ ? zero : -u[1];
-  result[1] = alongZ ? -u[2] : u[0];
-  result[2] = alongZ ? u[1] : zero;
+  result[0] = select(alongZ, zero, -u[1]);
+  result[1] = select(alongZ, -u[2], u[0]);
+  result[2] = select(alongZ, u[1], zero);
   T square;
   dot(result, result, square);
   const T inverse = 1. / squareRoot(square);
@@ -265,10 +265,10 @@ MORPH_SIMD_INLINE void signedSingularValues(
   dot(f[0], f[0], square);
   const T length = squareRoot(square);
   const auto some = length > 0.;
-  const T inverse = 1. / (some ? length : one);
+  const T inverse = 1. / select(some, length, one);
   for (int i = 0; i < 3; ++i)
   {
-    U[0][i] = some ? f[0][i] * inverse : V[0][i];
+    U[0][i] = select(some, f[0][i] * inverse, V[0][i]);
   }
   dot(f[1], U[0], along);
   Vector3<T> second;
@@ -279,12 +279,12 @@ MORPH_SIMD_INLINE void signedSingularValues(
   dot(second, second, square);
   const T across = squareRoot(square);
   const auto wide = across > 1e-14 * length;
-  const T scale = 1. / (wide ? across : one);
+  const T scale = 1. / select(wide, across, one);
   Vector3<T> other;
   perpendicular(U[0], other);
   for (int i = 0; i < 3; ++i)
   {
-    U[1][i] = wide ? second[i] * scale : other[i];
+    U[1][i] = select(wide, second[i] * scale, other[i]);
   }
   cross(U[0], U[1], U[2]);
   for (int j = 0; j < 3; ++j)
@@ -312,7 +312,7 @@ MORPH_SIMD_INLINE void makeSemiDefinite(Matrix3<T>& A)
   const T zero = T{};
   for (int i = 0; i < 3; ++i)
   {
-    e[i] = e[i] > 0. ? e[i] : zero;
+    e[i] = select(e[i] > 0., e[i], zero);
   }
   for (int j = 0; j < 3; ++j)
   {
@@ -320,7 +320,7 @@ MORPH_SIMD_INLINE void makeSemiDefinite(Matrix3<T>& A)
     {
       const T clamped =
         V[0][i] * V[0][j] * e[0] + V[1][i] * V[1][j] * e[1] + V[2][i] * V[2][j] * e[2];
-      A[j][i] = indefinite ? clamped : A[j][i];
+      A[j][i] = select(indefinite, clamped, A[j][i]);
     }
   }
 }
@@ -339,7 +339,7 @@ MORPH_SIMD_INLINE void projectedHessian(const Matrix3<T>& U, const Matrix3<T>& V
   const T zero = T{};
   for (int k = 0; k < 3; ++k)
   {
-    const T t = twist[k] > 0. ? twist[k] : zero, s = shear[k] > 0. ? shear[k] : zero;
+    const T t = select(twist[k] > 0., twist[k], zero), s = select(shear[k] > 0., shear[k], zero);
     sum[k] = (s + t) / 2.;
     difference[k] = (s - t) / 2.;
   }

@@ -39,8 +39,8 @@ struct BatchEnergy
       valueAt(density, J, determinant, value);
       const SimdDouble4& weight = target.weight;
       energy += weight * value;
-      least = ((weight > 0.) & (determinant < least)) ? determinant : least;
-      inverted += ((weight > 0.) & (determinant <= 0.)) ? one : zero;
+      least = select((weight > 0.) & (determinant < least), determinant, least);
+      inverted += select((weight > 0.) & (determinant <= 0.), one, zero);
     }
     for (int lane = 0; lane < SimdWidth; ++lane)
     {

@@ -91,8 +91,8 @@ struct Barrier
   {
     const SimdDouble4 one = SimdDouble4{} + 1., y = t * f, rest = 1. - y;
     const auto isInside = rest > 0.;
-    const SimdDouble4 r = 1. / (isInside ? rest : one), square = r * r;
-    this->h = isInside ? f * (1. - 0.5 * y) * square : one * Infinity;
+    const SimdDouble4 r = 1. / select(isInside, rest, one), square = r * r;
+    this->h = select(isInside, f * (1. - 0.5 * y) * square, one * Infinity);
     this->first = square * r;
     this->second = (3 * t) * (square * square);
   }
@@ -104,10 +104,10 @@ MORPH_SIMD_INLINE void distortion(const StiffenedDistortion::Bounds& bounds, dou
   double floor, const SimdDouble4& det, const SimdDouble4& byD, SimdDouble4& f)
 {
   const SimdDouble4 signedBound = widened(bounds.bound), zero = {};
-  const SimdDouble4 bound = signedBound < 0. ? -signedBound : signedBound;
-  const SimdDouble4 part = floor > bound ? bound / (zero + floor) : zero + 1.;
-  const auto isPositive = signedBound * det > 0.;
-  f = bound == 0. ? zero : isPositive ? ideal * part * part * byD : zero + Infinity;
+  const SimdDouble4 bound = select(signedBound < 0., -signedBound, signedBound);
+  const SimdDouble4 part = select(bound < floor, bound / (zero + floor), zero + 1.);
+  const SimdDouble4 ofValid = select(signedBound * det > 0., ideal * part * part * byD, zero + Infinity);
+  f = select(bound == 0., zero, ofValid);
 }
 
 /// One corner of each cell of a batch, or the centres.
@@ -147,7 +147,7 @@ struct Sample
     SimdDouble4 det;
     dot(this->e[0], this->n[0], det);
     const SimdDouble4 product = this->q[0] * this->q[1] * this->q[2], both = det * product;
-    const SimdDouble4 inverse = 1. / (both == 0. ? both + 1. : both), byProduct = inverse * det;
+    const SimdDouble4 inverse = 1. / select(both == 0., both + 1., both), byProduct = inverse * det;
     this->byDeterminant = inverse * product;
     for (int k = 0; k < 3; ++k)
     {
@@ -203,7 +203,7 @@ struct TetSample
     cross(this->e[0], this->e[1], this->n[2]);
     SimdDouble4 det;
     dot(this->e[0], this->n[0], det);
-    this->byDeterminant = 1. / (det == 0. ? det + 1. : det);
+    this->byDeterminant = 1. / select(det == 0., det + 1., det);
     const SimdDouble4 square = this->byDeterminant * this->byDeterminant;
     for (int a = 0; a < 4; ++a)
     {
@@ -216,7 +216,7 @@ struct TetSample
 
 MORPH_SIMD_INLINE void enlarge(SimdDouble4& largest, const SimdDouble4& f)
 {
-  largest = f > largest ? f : largest;
+  largest = select(f > largest, f, largest);
 }
 
 /// The second derivatives of a sample's h by its cosines: M, and the rows of dc/dx by edges. The
@@ -482,7 +482,7 @@ private:
     for (int k = 0; k < 6; ++k)
     {
       const int a = TetSample::Edges[k][0], b = TetSample::Edges[k][1];
-      const SimdDouble4 q = tet.q[k], byEdge = (slope[a] + slope[b]) / (q == 0. ? q + 1. : q);
+      const SimdDouble4 q = tet.q[k], byEdge = (slope[a] + slope[b]) / select(q == 0., q + 1., q);
       for (int i = 0; i < 3; ++i)
       {
         const SimdDouble4 force = byEdge * tet.e[k][i];
@@ -517,7 +517,7 @@ struct StiffenedDistortion::BatchHessian
       const Sample s(x, corner, samples.bounds[k], samples.ideal, samples.floor);
       SimdMatrix block[3][3];
       CosineModel(s, samples.level).blocks(block);
-      const SimdDouble4 counts = s.f > 0. ? one : one * 0.;
+      const SimdDouble4 counts = select(s.f > 0., one, one * 0.);
       for (int a = 0; a < 3; ++a)
       {
         const SimdDouble4 near = Proximity * counts * s.bySquare[a];

@@ -27,7 +27,7 @@ MORPH_SIMD_INLINE void missing(const SimdVector (&x)[8], const int* corner,
   SimdDouble4 determinant;
   dot(D[0], normal[0], determinant);
   const SimdDouble4 zero = {}, gap = margin - inverse * determinant;
-  result = ((inverse != 0.) & (gap > 0.)) ? gap : zero;
+  result = select((inverse != 0.) & (gap > 0.), gap, zero);
 }
 
 struct BatchValue

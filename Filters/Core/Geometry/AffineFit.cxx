@@ -4,8 +4,7 @@
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>
-#include <tuple>
-#include <utility>
+#include <cmath>
 
 namespace morph
 {
@@ -26,33 +25,84 @@ Eigen::RowVector3d meanOfRows(const Points& points)
   return sumOfRows(points) / static_cast<double>(std::max<Index>(points.rows(), 1));
 }
 
-/// Returns the pseudo-inverse of second moments, and their rank.
-std::pair<Eigen::Matrix3d, int> pseudoInverse(const Eigen::Matrix3d& moments)
+/// The leverage beyond that of the points up to which a direction counts whole.
+constexpr double MostLeverage = 8;
+/// Places count as at least so far from the points' plane or line, of the largest extent: what is
+/// less uneven is rounding.
+constexpr double LeastReach = 1e-5;
+constexpr double Flat = 1e-7;     // of the largest extent: the rounding of sums of squares
+constexpr double Extended = 1e-5; // of the largest extent
+}
+
+PrincipalDirections::PrincipalDirections(const Eigen::Matrix3d& spread, double count)
+  : count_(count)
 {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(moments);
-  Eigen::Vector3d inverse = Eigen::Vector3d::Zero();
-  int rank = 0;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(spread);
+  this->axes_ = solver.eigenvectors();
+  this->extent_ = (solver.eigenvalues() / std::max(count, 1.)).cwiseMax(0).cwiseSqrt().transpose();
+  this->limit(Eigen::RowVector3d::Ones(), Eigen::RowVector3d::Ones());
+}
+
+Eigen::RowVector3d PrincipalDirections::leverages(const Eigen::RowVector3d& arm) const
+{
+  const Eigen::RowVector3d x = arm * this->axes_;
+  Eigen::RowVector3d result;
   for (int j = 0; j < 3; ++j)
   {
-    if (AffineLeastSquares::isExtended(axes.eigenvalues()[j], axes.eigenvalues()[2]))
+    const double extent = std::max(this->extent_[j], Flat * this->extent_[2]);
+    double sum = 0;
+    for (int k = 0; k < 3; ++k)
     {
-      inverse[j] = 1 / axes.eigenvalues()[j];
-      ++rank;
+      // Of flat points even 0 / 0.
+      const double other = this->extent_[k];
+      const double term = other < extent ? x[k] * (other / extent) / extent : x[k] / other;
+      sum += other > 0 ? term * term : 0;
+    }
+    result[j] = std::sqrt(sum);
+  }
+  return result;
+}
+
+void PrincipalDirections::limit(const Eigen::RowVector3d& within, const Eigen::RowVector3d& reach)
+{
+  for (int j = 0; j < 3; ++j)
+  {
+    this->shares_[j] = 0;
+    if (this->extent_[j] > Flat * this->extent_[2])
+    {
+      const double least = LeastReach * this->extent_[2] / this->extent_[j];
+      const double beyond = std::max(reach[j], least) - within[j];
+      const double part = MostLeverage / std::max(beyond, MostLeverage);
+      this->shares_[j] = part * part;
     }
   }
-  return { axes.eigenvectors() * inverse.asDiagonal() * axes.eigenvectors().transpose(), rank };
-}
 }
 
-AffineFit::AffineFit(const Eigen::RowVector3d& centre, const Eigen::RowVector3d& mean,
-  const Eigen::Matrix3d& spread, const Eigen::Matrix3d& stretch)
-  : centre_(centre)
-  , mean_(mean)
-  , gradient_(pseudoInverse(spread).first * stretch)
+int PrincipalDirections::rank() const
 {
+  return static_cast<int>((this->extent_.array() > Extended * this->extent_[2]).count());
 }
 
-AffineLeastSquares::AffineLeastSquares(const Points& rest)
+Eigen::Matrix3d PrincipalDirections::inverse() const
+{
+  Eigen::Vector3d inverse = Eigen::Vector3d::Zero();
+  for (int j = 0; j < 3; ++j)
+  {
+    if (this->shares_[j] > 0)
+    {
+      inverse[j] = this->shares_[j] / (this->count_ * this->extent_[j] * this->extent_[j]);
+    }
+  }
+  return this->axes_ * inverse.asDiagonal() * this->axes_.transpose();
+}
+
+Eigen::Matrix3d PrincipalDirections::rest() const
+{
+  const Eigen::Vector3d rest = (1 - this->shares_.array()).matrix().transpose();
+  return this->axes_ * rest.asDiagonal() * this->axes_.transpose();
+}
+
+AffineLeastSquares::AffineLeastSquares(const Points& rest, const ConstPoints& places)
 {
   // Sum differences: sums of coordinates far from the origin would lose the digits that tell the
   // points apart.
@@ -70,21 +120,29 @@ AffineLeastSquares::AffineLeastSquares(const Points& rest)
   {
     Q.noalias() += this->arms_.row(i).transpose() * this->arms_.row(i);
   }
-  std::tie(this->inverse_, this->rank_) = pseudoInverse(Q);
+  this->directions_ = PrincipalDirections(Q, static_cast<double>(rest.rows()));
+  const auto largest = [&](const ConstPoints& of)
+  {
+    Eigen::RowVector3d leverages = Eigen::RowVector3d::Zero();
+    for (Index i = 0; i < of.rows(); ++i)
+    {
+      leverages = leverages.cwiseMax(this->directions_.leverages(of.row(i) - this->centre_));
+    }
+    return leverages;
+  };
+  this->directions_.limit(largest(rest), largest(places));
+  this->inverse_ = this->directions_.inverse();
 }
 
 AffineFit AffineLeastSquares::fit(const Points& displacement) const
 {
-  AffineFit fit;
-  fit.centre_ = this->centre_;
-  fit.mean_ = meanOfRows(displacement);
+  const Eigen::RowVector3d mean = meanOfRows(displacement);
   Eigen::Matrix3d P = Eigen::Matrix3d::Zero();
   for (Index i = 0; i < displacement.rows(); ++i)
   {
-    P.noalias() += this->arms_.row(i).transpose() * (displacement.row(i) - fit.mean_);
+    P.noalias() += this->arms_.row(i).transpose() * (displacement.row(i) - mean);
   }
-  fit.gradient_ = this->inverse_ * P;
-  return fit;
+  return { this->centre_, mean, this->inverse_, P };
 }
 
 void AffineLeastSquares::fitTranspose(

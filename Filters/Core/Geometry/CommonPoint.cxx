@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Geometry/CommonPoint.h"
 
-#include <CGAL/Gmpzf.h>
 #include <CGAL/QP_functions.h>
 #include <CGAL/QP_models.h>
+#include <CGAL/boost_mp.h>
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -73,7 +73,7 @@ bool findByProjection(const std::vector<HalfSpace>& halfSpaces)
   return false;
 }
 
-using Exact = CGAL::Gmpzf;
+using Exact = boost::multiprecision::cpp_rational;
 using ExactVector = std::array<Exact, 3>;
 
 ExactVector minus(const Eigen::RowVector3d& a, const Eigen::RowVector3d& b)

@@ -2,6 +2,7 @@
 #include "Geometry/CosphericalCells.h"
 
 #include "Geometry/MeanOfRows.h"
+#include "Support/Parallel.h"
 
 #include <Eigen/Geometry>
 
@@ -15,7 +16,6 @@ namespace morph
 {
 namespace
 {
-constexpr Index Grain = 4096;
 constexpr double OnSphere = 1e-6; // power distance / (longest edge)^2
 constexpr double SameArea = 1e-6; // relative
 
@@ -83,14 +83,8 @@ void CosphericalCells::measure(Monitor& monitor)
 {
   const Index n = static_cast<Index>(this->tetrahedra_.size());
   this->thickness_.resize(n);
-  monitor.parallelFor(n, Grain,
-    [&](Index first, Index last)
-    {
-      for (Index t = first; t < last; ++t)
-      {
-        this->thickness_[t] = thickness(this->sites_, this->tetrahedra_[t].sites);
-      }
-    });
+  parallel(n, monitor,
+    [&](Index t) { this->thickness_[t] = thickness(this->sites_, this->tetrahedra_[t].sites); });
   monitor.check();
 }
 
@@ -98,14 +92,8 @@ void CosphericalCells::findCells(Monitor& monitor)
 {
   const Index n = static_cast<Index>(this->tetrahedra_.size());
   std::vector<std::uint8_t> isSeed(n);
-  monitor.parallelFor(n, Grain,
-    [&](Index first, Index last)
-    {
-      for (Index t = first; t < last; ++t)
-      {
-        isSeed[t] = this->thickness_[t] > Flat && this->hasTie(static_cast<int>(t));
-      }
-    });
+  parallel(n, monitor,
+    [&](Index t) { isSeed[t] = this->thickness_[t] > Flat && this->hasTie(static_cast<int>(t)); });
   // The sphere of the thickest tetrahedron is the most accurate.
   std::vector<std::pair<double, int>> seeds;
   for (Index t = 0; t < n; ++t)

@@ -4,7 +4,7 @@
 #include "Geometry/CosphericalCells.h"
 #include "Geometry/MeanOfRows.h"
 #include "Support/Buckets.h"
-#include "Support/FirstTouch.h"
+#include "Support/Parallel.h"
 #include "Support/UnionFind.h"
 
 #include <algorithm>
@@ -191,14 +191,8 @@ Star starOf(const Points& sites, const CosphericalCells& cells, Index cell)
 std::vector<Star> starsOf(const Points& sites, const CosphericalCells& cells, Monitor& monitor)
 {
   std::vector<Star> stars(cells.size());
-  monitor.parallelFor(cells.size(), CellGrain,
-    [&](Index first, Index last)
-    {
-      for (Index cell = first; cell < last; ++cell)
-      {
-        stars[cell] = starOf(sites, cells, cell);
-      }
-    });
+  parallel(cells.size(), CellGrain, monitor,
+    [&](Index cell) { stars[cell] = starOf(sites, cells, cell); });
   monitor.check();
   return stars;
 }
@@ -255,7 +249,7 @@ std::vector<Tetrahedron> assemble(const std::vector<Tetrahedron>& old,
     first.push_back(first.back() + static_cast<Index>(star.triangles.size()));
   }
   std::vector<Tetrahedron> all;
-  resizeLarge(all, first.back(), monitor);
+  all.resize(first.back());
   for (std::size_t t = 0; t < old.size(); ++t)
   {
     if (place[t] != None)
@@ -268,19 +262,16 @@ std::vector<Tetrahedron> assemble(const std::vector<Tetrahedron>& old,
       }
     }
   }
-  monitor.parallelFor(static_cast<Index>(stars.size()), CellGrain,
-    [&](Index firstCell, Index lastCell)
+  parallel(static_cast<Index>(stars.size()), CellGrain, monitor,
+    [&](Index cell)
     {
-      for (Index cell = firstCell; cell < lastCell; ++cell)
+      const Star& star = stars[cell];
+      Index at = first[cell];
+      for (const Star::Triangle& triangle : star.triangles)
       {
-        const Star& star = stars[cell];
-        Index at = first[cell];
-        for (const Star::Triangle& triangle : star.triangles)
-        {
-          const Corners& c = triangle.corners;
-          const int third = triangle.polygon < 0 ? c[2] : star.polygons[triangle.polygon].mean;
-          all[at++] = { { c[0], c[1], third, star.mean }, { None, None, None, None } };
-        }
+        const Corners& c = triangle.corners;
+        const int third = triangle.polygon < 0 ? c[2] : star.polygons[triangle.polygon].mean;
+        all[at++] = { { c[0], c[1], third, star.mean }, { None, None, None, None } };
       }
     });
   return all;
@@ -359,17 +350,10 @@ Points withMeans(const Points& values, const Adjacency& means, Monitor& monitor)
 {
   const Index count = static_cast<Index>(means.offsets.size()) - 1;
   Points all(values.rows() + count, 3);
-  monitor.parallelFor(values.rows(), Grain,
-    [&](Index first, Index last)
-    { all.middleRows(first, last - first) = values.middleRows(first, last - first); });
-  monitor.parallelFor(count, Grain,
-    [&](Index first, Index last)
-    {
-      for (Index m = first; m < last; ++m)
-      {
-        all.row(values.rows() + m) = meanOfRows(values, means.begin(m), means.end(m));
-      }
-    });
+  parallel(values.rows(), monitor, [&](Index i) { all.row(i) = values.row(i); });
+  parallel(count, monitor,
+    [&](Index m)
+    { all.row(values.rows() + m) = meanOfRows(values, means.begin(m), means.end(m)); });
   return all;
 }
 }

@@ -2,6 +2,7 @@
 #include "Geometry/Delaunay.h"
 
 #include "Support/Error.h"
+#include "Support/Parallel.h"
 
 #include <CGAL/Delaunay_triangulation_3.h>
 #include <CGAL/Delaunay_triangulation_cell_base_3.h>
@@ -249,28 +250,25 @@ int Delaunay::startNear(const Eigen::RowVector3d& x) const
 Points Delaunay::circumcentres(Monitor& monitor) const
 {
   Points centres(static_cast<Index>(this->tetrahedra_.size()), 3);
-  monitor.parallelFor(centres.rows(), Grain,
-    [&](Index first, Index last)
+  parallel(centres.rows(), Grain, monitor,
+    [&](Index t)
     {
-      for (Index t = first; t < last; ++t)
+      const auto& s = this->tetrahedra_[t].sites;
+      const Eigen::RowVector3d origin = this->sites_.row(s[0]);
+      const Eigen::RowVector3d a = this->sites_.row(s[1]) - origin;
+      const Eigen::RowVector3d b = this->sites_.row(s[2]) - origin;
+      const Eigen::RowVector3d c = this->sites_.row(s[3]) - origin;
+      const double volume = a.dot(b.cross(c));
+      const double longest = std::max({ a.norm(), b.norm(), c.norm() });
+      if (volume > FlatVolume * longest * longest * longest)
       {
-        const auto& s = this->tetrahedra_[t].sites;
-        const Eigen::RowVector3d origin = this->sites_.row(s[0]);
-        const Eigen::RowVector3d a = this->sites_.row(s[1]) - origin;
-        const Eigen::RowVector3d b = this->sites_.row(s[2]) - origin;
-        const Eigen::RowVector3d c = this->sites_.row(s[3]) - origin;
-        const double volume = a.dot(b.cross(c));
-        const double longest = std::max({ a.norm(), b.norm(), c.norm() });
-        if (volume > FlatVolume * longest * longest * longest)
-        {
-          centres.row(t) = origin + (a.squaredNorm() * b.cross(c) + b.squaredNorm() * c.cross(a) +
-                                      c.squaredNorm() * a.cross(b)) /
-                                      (2 * volume);
-        }
-        else
-        {
-          centres.row(t) = exactCircumcentre(this->sites_, s);
-        }
+        centres.row(t) = origin + (a.squaredNorm() * b.cross(c) + b.squaredNorm() * c.cross(a) +
+                                    c.squaredNorm() * a.cross(b)) /
+                                    (2 * volume);
+      }
+      else
+      {
+        centres.row(t) = exactCircumcentre(this->sites_, s);
       }
     });
   return centres;

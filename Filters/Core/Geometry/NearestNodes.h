@@ -3,21 +3,16 @@
 
 #include "Support/Types.h"
 
+#include <algorithm>
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <vector>
 
 namespace morph
 {
-/// Exact k nearest nodes for many places at once. Nodes are ordered by (squared distance, node
-/// number), where the distance is (x - a)^2 + (y - b)^2 + (z - c)^2 as rounded. So a result depends
-/// neither on threads nor on the other places.
-///
-/// Places in sequence along a space-filling curve share most of their neighbors. For a block with
-/// centre m and radius r, the triangle inequality gives d_k(x) <= d_k(m) + |x - m|. So one k-d tree
-/// search with radius d_k(m) + 2 r finds all neighbors of the block's places. Each place then only
-/// compares distances in that short list.
+/// The nodes near a place, by nanoflann's k-d tree. Several threads may search at once. A result
+/// depends neither on the numbering of the nodes nor on other searches. Cost of a search: O(log
+/// #nodes) and the nodes found.
 class NearestNodes
 {
 public:
@@ -25,31 +20,22 @@ public:
   explicit NearestNodes(const Points& nodes);
   ~NearestNodes();
 
-  /// The neighbors of a place: `count` node numbers, ascending, and their squared distances.
-  struct Neighbors
-  {
-    const std::int32_t* nodes;
-    const double* squaredDistances;
-    Index count;
-  };
-  using Visit = std::function<void(Index row, const Neighbors& neighbors)>;
+  /// Returns the distance of the nearest node from `x`.
+  double distance(const Eigen::RowVector3d& x) const;
 
-  /// Calls visit(row, neighbors) for the places `x`.row(row), row = order[first] to order[last -
-  /// 1]. All calls come from the calling thread; several threads may search at once. `order` should
-  /// keep near places together (spatialOrder): another order is slower, with the same results. `k`
-  /// >= 1; if there are fewer nodes, all are neighbors.
-  void search(const Points& x, const std::vector<Index>& order, Index first, Index last, Index k,
-    const Visit& visit) const;
+  /// Sets `found` to the `k` nodes nearest to `x`, ascending, and to all others as far as the k-th,
+  /// to a relative 1e-9 and the rounding of coordinates: neither numbering nor axes, unit and
+  /// origin decide a tie. `k` >= 1; if there are fewer nodes,
+  /// all are neighbors.
+  void nearest(const Eigen::RowVector3d& x, Index k, std::vector<std::int32_t>& found) const;
 
-  /// Sets `found` to the nodes at most `radius` from `x`, ascending. Several threads may search at
-  /// once. Cost: O(log n) and the nodes found.
+  /// Sets `found` to the nodes at most `radius` from `x`, ascending.
   void within(const Eigen::RowVector3d& x, double radius, std::vector<std::int32_t>& found) const;
 
   Index size() const;
 
 private:
   struct Implementation;
-  class Run;
   std::unique_ptr<Implementation> implementation_;
 };
 }

@@ -36,6 +36,10 @@ Eigen::Matrix3d nearestRotation(const Eigen::Matrix3d& moment)
 RigidMotion fitRigidMotion(const Points& from, const Points& to)
 {
   RigidMotion motion;
+  if (from.rows() == 0)
+  {
+    return motion;
+  }
   // Differences from the first point keep the digits of a small body far from the origin.
   motion.from = from.row(0) + (from.rowwise() - from.row(0)).colwise().mean();
   motion.to = to.row(0) + (to.rowwise() - to.row(0)).colwise().mean();

@@ -25,7 +25,7 @@ struct RigidMotion
 Eigen::Matrix3d nearestRotation(const Eigen::Matrix3d& moment);
 
 /// Returns the rigid motion that takes the rows of `from` nearest to those of `to`, by least
-/// squares; both #points x 3, at least one. Points on a line leave the turn about it open: the
-/// smallest. Cost: two passes.
+/// squares; both #points x 3. Points on a line leave the turn about it open: the smallest. No point
+/// tells no motion: the identity. Cost: two passes.
 RigidMotion fitRigidMotion(const Points& from, const Points& to);
 }

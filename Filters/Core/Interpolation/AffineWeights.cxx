@@ -3,11 +3,9 @@
 
 #include "Geometry/AffineFit.h"
 #include "Geometry/NearestNodes.h"
-
-#include <Eigen/Eigenvalues>
+#include "Support/Parallel.h"
 
 #include <algorithm>
-#include <numeric>
 
 namespace morph
 {
@@ -16,12 +14,11 @@ namespace
 constexpr Index Grain = 64;
 constexpr Index FirstCount = 32;
 
-/// Sets `row` to the fit's weights at `x`. Returns false if the sites lie in a plane.
-bool fit(const Points& sites, const NearestNodes::Neighbors& near, const Eigen::RowVector3d& x,
-  AffineRow& row)
+/// Sets the weights of `row`, which has its sites, to those of the fit at `x`. `limits`: directions
+/// count by their shares. Returns false if the sites lie in a plane.
+bool fit(const Points& sites, const Eigen::RowVector3d& x, bool limits, AffineRow& row)
 {
-  row.sites.assign(near.nodes, near.nodes + near.count);
-  const double count = static_cast<double>(near.count);
+  const double count = static_cast<double>(row.sites.size());
   // Relative to the first site: coordinates far from the origin lose no digits.
   const Eigen::RowVector3d first = sites.row(row.sites[0]);
   Eigen::RowVector3d centre = Eigen::RowVector3d::Zero();
@@ -36,21 +33,18 @@ bool fit(const Points& sites, const NearestNodes::Neighbors& near, const Eigen::
     const Eigen::RowVector3d arm = sites.row(site) - centre;
     spread += arm.transpose() * arm;
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(spread);
-  const Eigen::Vector3d moments = axes.eigenvalues(); // ascending
-  if (!AffineLeastSquares::isExtended(moments[0], moments[2]))
+  PrincipalDirections directions(spread, count);
+  if (limits)
   {
-    return false;
+    directions.limit(Eigen::RowVector3d::Ones(), directions.leverages(x - centre));
   }
-  const Eigen::Vector3d slope =
-    axes.eigenvectors() *
-    (axes.eigenvectors().transpose() * (x - centre).transpose()).cwiseQuotient(moments);
+  const Eigen::Vector3d slope = directions.inverse() * (x - centre).transpose();
   row.weights.clear();
   for (const std::int32_t site : row.sites)
   {
     row.weights.push_back(1 / count + (sites.row(site) - centre).dot(slope));
   }
-  return true;
+  return directions.rank() == 3;
 }
 
 double largest(const std::vector<double>& weights)
@@ -69,22 +63,19 @@ std::vector<AffineRow> affineWeights(
 {
   const NearestNodes nearest(sites);
   std::vector<AffineRow> rows(places.rows());
-  std::vector<Index> order(places.rows());
-  std::iota(order.begin(), order.end(), Index(0));
-  monitor.parallelFor(places.rows(), Grain,
-    [&](Index begin, Index end)
+  parallel(places.rows(), Grain, monitor,
+    [&](Index i)
     {
-      for (Index i = begin; i < end; ++i)
+      bool isDone = false;
+      for (Index count = FirstCount; !isDone; count *= 2)
       {
-        bool isDone = false;
-        for (Index count = FirstCount; !isDone; count *= 2)
+        nearest.nearest(places.row(i), count, rows[i].sites);
+        const bool spans = fit(sites, places.row(i), false, rows[i]);
+        isDone = spans && largest(rows[i].weights) <= most;
+        if (!isDone && static_cast<Index>(rows[i].sites.size()) == sites.rows())
         {
-          nearest.search(places, order, i, i + 1, count,
-            [&](Index, const NearestNodes::Neighbors& near)
-            {
-              const bool spans = fit(sites, near, places.row(i), rows[i]);
-              isDone = (spans && largest(rows[i].weights) <= most) || near.count == sites.rows();
-            });
+          fit(sites, places.row(i), true, rows[i]);
+          isDone = true;
         }
       }
     });

@@ -2,6 +2,7 @@
 #include "Interpolation/InterpolationSites.h"
 
 #include "Support/Error.h"
+#include "Support/Parallel.h"
 #include "Support/UnionFind.h"
 
 #include <algorithm>
@@ -16,7 +17,6 @@ namespace morph
 {
 namespace
 {
-constexpr Index Grain = 4096;
 constexpr double RelativeTolerance = 1e-12; // of the diagonal
 
 /// A hash table of points by their cell in a regular grid. Its cost does not depend on which cells
@@ -215,14 +215,7 @@ Points InterpolationSites::average(const Points& prescribed, Monitor& monitor) c
     }
     return sum;
   };
-  monitor.parallelFor(this->size(), Grain,
-    [&](Index first, Index last)
-    {
-      for (Index s = first; s < last; ++s)
-      {
-        result.row(s) = averageOf(s);
-      }
-    });
+  parallel(this->size(), monitor, [&](Index s) { result.row(s) = averageOf(s); });
   return result;
 }
 

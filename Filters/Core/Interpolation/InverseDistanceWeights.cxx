@@ -1,116 +1,47 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Interpolation/InverseDistanceWeights.h"
 
-#include "Geometry/ConvexHullTest.h"
 #include "Geometry/NearestNodes.h"
-#include "Geometry/SpatialOrder.h"
 #include "Support/Error.h"
+#include "Support/Parallel.h"
 
 #include <algorithm>
 #include <cstdint>
-#include <iterator>
 #include <numeric>
 #include <sstream>
 #include <utility>
+#include <vector>
 
 namespace morph
 {
 namespace
 {
-constexpr Index Grain = 256;
-constexpr Index Batch = 64 * Grain; // places between two calls of the monitor
+constexpr Index BlockLength = 256; // places that are searched together
+constexpr Index Batch = 64;        // blocks between two calls of the monitor
 
-/// Places with the same number of neighbors, in the order of a space-filling curve.
-struct Group
+/// Fills a row of the weights of a place at the sites of its `columns`.
+void writeRow(const InterpolationSites& sites, const Eigen::RowVector3d& place, Index row,
+  WeightMatrix& weights)
 {
-  Index neighbors;
-  std::vector<Index> rows;
-};
-
-/// Searches a group's neighbors in several threads, which call visit(row, neighbors). `from`, `to`:
-/// progress.
-void searchGroup(const NearestNodes& nearest, const Points& places, const Group& group, double from,
-  double to, Monitor& monitor, const NearestNodes::Visit& visit)
-{
-  const Index n = static_cast<Index>(group.rows.size());
-  for (Index begin = 0; begin < n; begin += Batch)
+  const std::int32_t* column = weights.column(row);
+  double* weight = weights.weight(row);
+  const Index n = weights.entries(row);
+  for (Index i = 0; i < n; ++i)
   {
-    monitor.check();
-    monitor.progress(from + (to - from) * static_cast<double>(begin) / static_cast<double>(n));
-    monitor.parallelFor(std::min(Batch, n - begin), Grain,
-      [&](Index first, Index last)
-      { nearest.search(places, group.rows, begin + first, begin + last, group.neighbors, visit); });
+    weight[i] = (sites.coordinates().row(column[i]) - place).squaredNorm();
   }
-}
-
-/// Whether the neighbors of a place surround it, or a single one decides.
-bool surrounded(const InterpolationSites& prescribed, const Eigen::RowVector3d& x,
-  const NearestNodes::Neighbors& neighbors)
-{
-  const double* d = neighbors.squaredDistances;
-  if (*std::min_element(d, d + neighbors.count) <= prescribed.tolerance() * prescribed.tolerance())
-  {
-    return true;
-  }
-  const Points& sites = prescribed.coordinates();
-  Points around(neighbors.count, 3);
-  for (Index i = 0; i < neighbors.count; ++i)
-  {
-    around.row(i) = sites.row(neighbors.nodes[i]);
-  }
-  return insideConvexHull(x, around);
-}
-
-/// Moves places that their neighbors do not surround to groups of twice as many neighbors,
-/// repeatedly.
-std::vector<Group> grownGroups(const NearestNodes& nearest, const InterpolationSites& sites,
-  const Points& places, Group all, Monitor& monitor)
-{
-  std::vector<Group> groups;
-  std::vector<std::uint8_t> done(places.rows(), 0);
-  Group pending = std::move(all);
-  while (!pending.rows.empty())
-  {
-    if (pending.neighbors < sites.size())
-    {
-      searchGroup(nearest, places, pending, .1, .5, monitor,
-        [&](Index row, const NearestNodes::Neighbors& neighbors)
-        { done[row] = surrounded(sites, places.row(row), neighbors) ? 1 : 0; });
-    }
-    else
-    {
-      std::fill(done.begin(), done.end(), std::uint8_t(1));
-    }
-    Group rest{ std::min(2 * pending.neighbors, sites.size()), {} };
-    const auto isDone = [&](Index row) { return done[row] != 0; };
-    std::copy_if(pending.rows.begin(), pending.rows.end(), std::back_inserter(rest.rows),
-      [&](Index row) { return !isDone(row); });
-    pending.rows.erase(std::remove_if(pending.rows.begin(), pending.rows.end(),
-                         [&](Index row) { return !isDone(row); }),
-      pending.rows.end());
-    groups.push_back(std::move(pending));
-    pending = std::move(rest);
-  }
-  return groups;
-}
-
-void writeRow(
-  const NearestNodes::Neighbors& neighbors, double tolerance, std::int32_t* column, double* weight)
-{
-  const double* d = neighbors.squaredDistances;
-  const Index n = neighbors.count;
-  std::copy(neighbors.nodes, neighbors.nodes + n, column);
-  const double* least = std::min_element(d, d + n);
-  if (*least <= tolerance * tolerance)
+  double* nearest = std::min_element(weight, weight + n);
+  const double least = *nearest;
+  if (least <= sites.tolerance() * sites.tolerance())
   {
     std::fill(weight, weight + n, 0.);
-    weight[least - d] = 1;
+    *nearest = 1;
     return;
   }
   double sum = 0;
   for (Index i = 0; i < n; ++i)
   {
-    weight[i] = *least / d[i]; // at most one: no overflow near a site
+    weight[i] = least / weight[i]; // at most one: no overflow near a site
     sum += weight[i];
   }
   const double scale = 1 / sum;
@@ -134,51 +65,51 @@ void requireModerate(const Points& places)
 }
 }
 
-WeightMatrix inverseDistanceWeights(const InterpolationSites& sites, const Points& places,
-  const Neighborhood& neighborhood, Monitor& monitor)
+WeightMatrix inverseDistanceWeights(
+  const InterpolationSites& sites, const Points& places, Index neighbors, Monitor& monitor)
 {
   requireModerate(sites.coordinates());
   requireModerate(places);
-  const Index n = places.rows();
-  std::vector<Index> ids(n);
-  std::iota(ids.begin(), ids.end(), Index(0));
-  Group all{ std::min(neighborhood.count, sites.size()), spatialOrder(places, ids) };
-  const NearestNodes nearest(sites.coordinates());
+  const Index n = places.rows(), blocks = (n + BlockLength - 1) / BlockLength;
+  const NearestNodes nodes(sites.coordinates());
   monitor.check();
   monitor.progress(.1);
 
-  std::vector<Group> groups;
-  if (neighborhood.grows)
-  {
-    groups = grownGroups(nearest, sites, places, std::move(all), monitor);
-  }
-  else
-  {
-    groups.push_back(std::move(all));
-  }
+  const auto endOf = [=](Index block) { return std::min(n, (block + 1) * BlockLength); };
+  std::vector<std::vector<std::int32_t>> found(blocks);
   std::vector<Index> offsets(n + 1, 0);
-  for (const Group& group : groups)
+  for (Index begin = 0; begin < blocks; begin += Batch)
   {
-    for (Index row : group.rows)
-    {
-      offsets[row + 1] = group.neighbors;
-    }
+    monitor.check();
+    monitor.progress(.1 + .9 * static_cast<double>(begin) / static_cast<double>(blocks));
+    monitor.parallelFor(std::min(Batch, blocks - begin), 1,
+      [&](Index first, Index last)
+      {
+        std::vector<std::int32_t> near;
+        for (Index b = begin + first; b < begin + last; ++b)
+        {
+          for (Index row = b * BlockLength; row < endOf(b); ++row)
+          {
+            nodes.nearest(places.row(row), neighbors, near);
+            found[b].insert(found[b].end(), near.begin(), near.end());
+            offsets[row + 1] = static_cast<Index>(near.size());
+          }
+        }
+      });
   }
   std::partial_sum(offsets.begin(), offsets.end(), offsets.begin());
   WeightMatrix weights;
   weights.open(sites.size(), std::move(offsets));
-
-  double progress = neighborhood.grows ? .5 : .1;
-  const double left = (1 - progress) / static_cast<double>(std::max<Index>(1, weights.entries()));
-  for (const Group& group : groups)
-  {
-    const double next = progress + left * static_cast<double>(group.neighbors) *
-                                     static_cast<double>(group.rows.size());
-    searchGroup(nearest, places, group, progress, next, monitor,
-      [&](Index row, const NearestNodes::Neighbors& neighbors)
-      { writeRow(neighbors, sites.tolerance(), weights.column(row), weights.weight(row)); });
-    progress = next;
-  }
+  parallel(blocks, 1, monitor,
+    [&](Index b)
+    {
+      std::copy(found[b].begin(), found[b].end(), weights.column(b * BlockLength));
+      found[b] = {};
+      for (Index row = b * BlockLength; row < endOf(b); ++row)
+      {
+        writeRow(sites, places.row(row), row, weights);
+      }
+    });
   return weights;
 }
 }

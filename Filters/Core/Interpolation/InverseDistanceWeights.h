@@ -7,23 +7,15 @@
 
 namespace morph
 {
-/// The sites that have a weight at a place.
-struct Neighborhood
-{
-  /// the nearest, by (distance, site number); at least 1, and all where there are fewer
-  Index count = 80;
-  /// doubles `count` at a place until its neighbors' hull contains it or all sites are included
-  bool grows = false;
-};
-
 /// Computes the inverse distance weights |x - b_k|^-2 / sum_j |x - b_j|^-2 of the sites b_k nearest
-/// to x. The result has a row for each of the `places` (#places x 3) and ascending columns. A place
-/// within the tolerance of a site has weight 1 at the nearest site. The weights do not depend on
-/// threads or on the order of the places. Progress runs from 0.1 to 1.
+/// to x. `neighbors`: their number, at least 1; all sites where there are fewer. Sites as far as
+/// the last of them count, too (NearestNodes). The result has a row for each of the `places`
+/// (#places x 3) and ascending columns. A place within the tolerance of a site has weight 1 at the
+/// nearest site. The weights do not depend on threads or on the order of the places. Progress runs
+/// from 0.1 to 1.
 ///
 /// Throws Error if memory does not suffice, and for coordinates of 1e150 and beyond. Cost: O(log
-/// #sites + count) a place (NearestNodes). Growing neighborhoods take a second search over them and
-/// a hull test (insideConvexHull) for each size. Source: equation (6) of Staten et al. (IMR 2011).
-WeightMatrix inverseDistanceWeights(const InterpolationSites& sites, const Points& places,
-  const Neighborhood& neighborhood, Monitor& monitor);
+/// #sites + neighbors) a place. Source: equation (6) of Staten et al. (IMR 2011).
+WeightMatrix inverseDistanceWeights(
+  const InterpolationSites& sites, const Points& places, Index neighbors, Monitor& monitor);
 }

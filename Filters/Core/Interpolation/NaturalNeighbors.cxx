@@ -108,7 +108,7 @@ void NaturalNeighbors::findZone(const Vector& x, int inside, Workspace& work) co
 
 /// Numbers the zone's sites, adds its inner faces' shares and lists its border. Returns false where
 /// x is not inside the hull.
-bool NaturalNeighbors::visitFaces(const Vector& x, bool volumes, Workspace& work) const
+bool NaturalNeighbors::visitFaces(const Vector& x, Workspace& work) const
 {
   work.local_.clear();
   work.place_.clear();
@@ -136,7 +136,7 @@ bool NaturalNeighbors::visitFaces(const Vector& x, bool volumes, Workspace& work
     {
       const int next = cell.neighbors[k];
       const bool inner = next != Delaunay::Outside && work.zoneMark_[next] == work.query_;
-      if (inner && (next < t || !volumes))
+      if (inner && next < t)
       {
         continue; // each face once
       }
@@ -167,13 +167,10 @@ bool NaturalNeighbors::visitFaces(const Vector& x, bool volumes, Workspace& work
       {
         work.border_.push_back({ { a, b, c }, end });
       }
-      if (volumes)
-      {
-        const Vector n = centre.cross(end);
-        work.share_[a] += (B - C).dot(n);
-        work.share_[b] += (C - A).dot(n);
-        work.share_[c] += (A - B).dot(n);
-      }
+      const Vector n = centre.cross(end);
+      work.share_[a] += (B - C).dot(n);
+      work.share_[b] += (C - A).dot(n);
+      work.share_[c] += (A - B).dot(n);
     }
   }
   return true;
@@ -181,7 +178,7 @@ bool NaturalNeighbors::visitFaces(const Vector& x, bool volumes, Workspace& work
 
 /// Adds the faces between the new cell and the old ones. Each has an edge for every edge of the
 /// zone's border.
-void NaturalNeighbors::joinBorder(bool volumes, Workspace& work)
+void NaturalNeighbors::joinBorder(Workspace& work)
 {
   std::size_t room = std::max<std::size_t>(64, work.edges_.size());
   while (room < 4 * work.border_.size()) // three half-edges a face, two an edge
@@ -203,16 +200,8 @@ void NaturalNeighbors::joinBorder(bool volumes, Workspace& work)
       const Vector n = work.border_[f].vertex.cross(work.border_[edge.face].vertex);
       edge.face = -1;
       const Vector &V = work.place_[from], &W = work.place_[to];
-      if (volumes)
-      {
-        work.share_[from] += W.dot(n);
-        work.share_[to] -= V.dot(n);
-      }
-      else
-      {
-        work.share_[from] -= V.dot(n) / V.squaredNorm();
-        work.share_[to] += W.dot(n) / W.squaredNorm();
-      }
+      work.share_[from] += W.dot(n);
+      work.share_[to] -= V.dot(n);
     }
   }
 }
@@ -281,8 +270,7 @@ bool NaturalNeighbors::finish(Workspace& work)
   return true;
 }
 
-bool NaturalNeighbors::compute(
-  const Vector& x, int inside, Coordinates coordinates, Workspace& work) const
+bool NaturalNeighbors::compute(const Vector& x, int inside, Workspace& work) const
 {
   const Vector local = (x - this->outer_) - this->origin_;
   for (int site : this->cells_[inside].sites)
@@ -294,13 +282,12 @@ bool NaturalNeighbors::compute(
       return true;
     }
   }
-  const bool volumes = coordinates == Coordinates::Sibson;
   this->findZone(local, inside, work);
-  if (!this->visitFaces(local, volumes, work))
+  if (!this->visitFaces(local, work))
   {
     return false;
   }
-  joinBorder(volumes, work);
+  joinBorder(work);
   return finish(work);
 }
 }

@@ -11,26 +11,18 @@ namespace morph
 {
 /// Natural neighbor coordinates of a point among the sites of a tessellation.
 ///
-/// Sibson (Math. Proc. Camb. Phil. Soc. 87 (1980) 151-155): the volume that the point's Voronoi
-/// cell would take from the site's. Laplace (Belikov et al., Comput. Math. Math. Phys. 37 (1997)
-/// 9-15; Sukumar et al., IJNME 50 (2001) 1-27): the area of the face between both cells over their
-/// distance. Both are divided by their sum. The Voronoi diagram is unique, so they do not depend on
-/// the tessellation of cospherical sites.
+/// Sibson's coordinates (Math. Proc. Camb. Phil. Soc. 87 (1980) 151-155): the volume that the
+/// point's Voronoi cell would take from the site's, divided by the sum of these. The Voronoi
+/// diagram is unique, so they do not depend on the tessellation of cospherical sites.
 ///
 /// The neighbors are the sites of the tetrahedra whose circumscribed spheres contain the point (its
 /// conflict zone). New Voronoi vertices lie on the Voronoi edges that cross the zone's border. The
 /// point's power distances to the spheres at both ends determine where, so no sphere is fitted
-/// through the point. Volumes and areas are sums over the zone's faces. A face's contribution is
-/// linear in its dual edge, so the cost is linear in the zone.
+/// through the point. Volumes are sums over the zone's faces. A face's contribution is linear in
+/// its dual edge, so the cost is linear in the zone.
 class NaturalNeighbors
 {
 public:
-  enum class Coordinates
-  {
-    Sibson,
-    Laplace
-  };
-
   NaturalNeighbors() = default;
   /// Keeps a reference to `delaunay`, and 64 bytes a tetrahedron.
   NaturalNeighbors(const Delaunay& delaunay, Monitor& monitor);
@@ -77,8 +69,7 @@ public:
   /// happens on or outside the hull, or if the error in x exceeds 1e-8 of the distance to its
   /// neighbors. A smaller error is distributed over the weights, so they reproduce linear fields to
   /// rounding.
-  bool compute(
-    const Eigen::RowVector3d& x, int inside, Coordinates coordinates, Workspace& workspace) const;
+  bool compute(const Eigen::RowVector3d& x, int inside, Workspace& workspace) const;
 
   std::size_t memory() const { return sizeof(Cell) * this->cells_.size(); }
 
@@ -93,8 +84,8 @@ private:
 
   double power(const Cell& cell, const Eigen::RowVector3d& x, double squaredNorm) const;
   void findZone(const Eigen::RowVector3d& x, int inside, Workspace& workspace) const;
-  bool visitFaces(const Eigen::RowVector3d& x, bool volumes, Workspace& workspace) const;
-  static void joinBorder(bool volumes, Workspace& workspace);
+  bool visitFaces(const Eigen::RowVector3d& x, Workspace& workspace) const;
+  static void joinBorder(Workspace& workspace);
   static bool finish(Workspace& workspace);
 
   Eigen::RowVector3d outer_ = Eigen::RowVector3d::Zero(); ///< Delaunay::origin()

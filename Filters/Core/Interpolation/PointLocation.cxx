@@ -3,6 +3,7 @@
 
 #include "Geometry/SpatialOrder.h"
 #include "Support/Error.h"
+#include "Support/Parallel.h"
 
 #include <Eigen/LU>
 
@@ -148,35 +149,32 @@ PointLocation locatePoints(
   result.tetrahedron.resize(n);
   result.barycentric.resize(n, 4);
   std::vector<char> state(n, 0); // 1: outside, 2: not found
-  monitor.parallelFor((n + BlockLength - 1) / BlockLength, 1,
-    [&](Index firstBlock, Index lastBlock)
+  parallel((n + BlockLength - 1) / BlockLength, 1, monitor,
+    [&](Index block)
     {
-      for (Index block = firstBlock; block < lastBlock; ++block)
+      const Index first = block * BlockLength;
+      int here = delaunay.startNear(points.row(order[first]) - delaunay.origin());
+      Frame frame(delaunay, here);
+      for (Index i = first; i < std::min(n, first + BlockLength); ++i)
       {
-        const Index first = block * BlockLength;
-        int here = delaunay.startNear(points.row(order[first]) - delaunay.origin());
-        Frame frame(delaunay, here);
-        for (Index i = first; i < std::min(n, first + BlockLength); ++i)
+        const Row x = points.row(order[i]) - delaunay.origin();
+        const Index row = rowOf[order[i]];
+        const int found = delaunay.locate(x, here);
+        if (found != here) // several nodes lie in one tetrahedron
         {
-          const Row x = points.row(order[i]) - delaunay.origin();
-          const Index row = rowOf[order[i]];
-          const int found = delaunay.locate(x, here);
-          if (found != here) // several nodes lie in one tetrahedron
-          {
-            here = found;
-            frame = Frame(delaunay, here);
-          }
-          const Place at = place(delaunay, x, here, frame);
-          if (at.tetrahedron == Delaunay::Outside ||
-              residual(delaunay, at, x) > LinearPrecision * size)
-          {
-            state[row] = 2;
-            continue;
-          }
-          state[row] = at.barycentric.minCoeff() < -InsideTolerance ? 1 : 0;
-          result.tetrahedron[row] = at.tetrahedron;
-          result.barycentric.row(row) = at.barycentric;
+          here = found;
+          frame = Frame(delaunay, here);
         }
+        const Place at = place(delaunay, x, here, frame);
+        if (at.tetrahedron == Delaunay::Outside ||
+            residual(delaunay, at, x) > LinearPrecision * size)
+        {
+          state[row] = 2;
+          continue;
+        }
+        state[row] = at.barycentric.minCoeff() < -InsideTolerance ? 1 : 0;
+        result.tetrahedron[row] = at.tetrahedron;
+        result.barycentric.row(row) = at.barycentric;
       }
     });
   monitor.check();

@@ -2,6 +2,7 @@
 #include "Interpolation/RadialInterpolant.h"
 
 #include "Solvers/DenseCholesky.h"
+#include "Support/Parallel.h"
 #include "Support/ProgressRange.h"
 
 #include <Eigen/Householder>
@@ -12,7 +13,6 @@ namespace morph
 {
 namespace
 {
-constexpr Index Grain = 1024;
 constexpr Index ColumnGrain = 16;
 constexpr int Terms = 4; // 1, x, y, z
 
@@ -21,15 +21,12 @@ void fillLower(
 {
   const Index n = centres.rows();
   matrix.resize(n, n);
-  monitor.parallelFor(n, ColumnGrain,
-    [&](Index first, Index last)
+  parallel(n, ColumnGrain, monitor,
+    [&](Index j)
     {
-      for (Index j = first; j < last; ++j)
+      for (Index i = j; i < n; ++i)
       {
-        for (Index i = j; i < n; ++i)
-        {
-          matrix(i, j) = kernel((centres.row(i) - centres.row(j)).squaredNorm());
-        }
+        matrix(i, j) = kernel((centres.row(i) - centres.row(j)).squaredNorm());
       }
     });
 }
@@ -119,14 +116,11 @@ void RadialInterpolant::evaluate(
 {
   kernelSums(this->kernel_, targets, this->centres_, coefficients.ofKernels, values, monitor);
   const auto& p = coefficients.ofPolynomial;
-  monitor.parallelFor(targets.rows(), Grain,
-    [&](Index first, Index last)
+  parallel(targets.rows(), monitor,
+    [&](Index i)
     {
-      for (Index i = first; i < last; ++i)
-      {
-        values.row(i) +=
-          p.row(0) + targets(i, 0) * p.row(1) + targets(i, 1) * p.row(2) + targets(i, 2) * p.row(3);
-      }
+      values.row(i) +=
+        p.row(0) + targets(i, 0) * p.row(1) + targets(i, 1) * p.row(2) + targets(i, 2) * p.row(3);
     });
 }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Interpolation/RadialKernel.h"
 
-#include "Support/SimdDispatch.h"
-#include "Support/SimdMath.h"
+#include "Support/Parallel.h"
+#include "Support/Simd.h"
 
 #include <algorithm>
 #include <limits>
@@ -42,7 +42,8 @@ struct WendlandC2
   MORPH_SIMD_INLINE Real operator()(const Real& square) const
   {
     const Real q = squareRoot(square) * this->inverseRadius;
-    const Real inside = positivePart(1. - q), fourth = inside * inside * inside * inside;
+    const Real left = 1. - q, inside = select(left > 0., left, Real{}),
+               fourth = inside * inside * inside * inside;
     return fourth * (4. * q + 1.);
   }
 };
@@ -117,17 +118,9 @@ void sumOver(const Kernel& kernel, const Points& targets, const std::vector<Sour
   const std::vector<double> places = inBlocks(targets, blocks);
   const double pairs = static_cast<double>(Lanes * sources.size());
   const Index stretch = std::max<Index>(64, static_cast<Index>(PairsBetweenChecks / pairs));
-  for (Index begin = 0; begin < blocks; begin += stretch)
-  {
-    monitor.check();
-    const Index end = std::min(blocks, begin + stretch);
-    monitor.parallelFor(end - begin, 4,
-      [&](Index first, Index last) {
-        dispatchedFor<BlockSums<Kernel>>(
-          begin + first, begin + last, kernel, places, sources, sums);
-      });
-    monitor.progress(static_cast<double>(end) / static_cast<double>(blocks));
-  }
+  parallelBatches(monitor, blocks, stretch, 4,
+    [&](Index first, Index last)
+    { dispatchedFor<BlockSums<Kernel>>(first, last, kernel, places, sources, sums); });
 }
 }
 

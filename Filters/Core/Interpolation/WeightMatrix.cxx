@@ -2,8 +2,8 @@
 #include "Interpolation/WeightMatrix.h"
 
 #include "Support/Error.h"
-#include "Support/Prefetch.h"
-#include "Support/SimdDispatch.h"
+#include "Support/Parallel.h"
+#include "Support/Simd.h"
 
 #include <algorithm>
 #include <limits>
@@ -22,24 +22,20 @@ constexpr Index MostEntries = Index(1) << 36; // 800 GB: not even requested
 using PaddedPoints = WeightMatrix::PaddedPoints;
 
 /// Four numbers a site fill vector registers; three do not.
-using Four = double __attribute__((vector_size(32), aligned(8), may_alias));
-
-inline __attribute__((always_inline)) const Four& site(const double* sites, std::int32_t column)
+MORPH_SIMD_INLINE SimdDouble4 site(const double* sites, std::int32_t column)
 {
-  return *reinterpret_cast<const Four*>(sites + 4 * static_cast<Index>(column));
+  return load(sites + SimdWidth * static_cast<Index>(column));
 }
 
 /// Computes the weighted sum of `n` sites, three numbers each. Four partial sums hide the latency
 /// of an addition.
-inline __attribute__((always_inline)) void weightedSum(
+MORPH_SIMD_INLINE void weightedSum(
   const std::int32_t* column, const double* weight, Index n, const double* sites, double* sum)
 {
-  Four first = { 0, 0, 0, 0 }, second = first, third = first, fourth = first;
+  SimdDouble4 first = {}, second = first, third = first, fourth = first;
   Index e = 0;
   for (; n - e > 3; e += 4)
   {
-    prefetchAhead(weight, e);
-    prefetchAhead(column, e);
     first += weight[e] * site(sites, column[e]);
     second += weight[e + 1] * site(sites, column[e + 1]);
     third += weight[e + 2] * site(sites, column[e + 2]);
@@ -57,7 +53,7 @@ inline __attribute__((always_inline)) void weightedSum(
 
 struct MultiplyRow
 {
-  static inline __attribute__((always_inline)) void run(
+  static MORPH_SIMD_INLINE void run(
     Index row, const WeightMatrix& matrix, const PaddedPoints& sites, Points& free)
   {
     weightedSum(matrix.column(row), matrix.weight(row), matrix.entries(row), sites.data(),
@@ -112,14 +108,7 @@ void WeightMatrix::multiply(const Points& sites, Points& free, Monitor& monitor)
 PaddedPoints WeightMatrix::padded(const Points& sites, Monitor& monitor)
 {
   PaddedPoints result(sites.rows(), 4);
-  monitor.parallelFor(sites.rows(), Grain,
-    [&](Index first, Index last)
-    {
-      for (Index s = first; s < last; ++s)
-      {
-        result.row(s) << sites.row(s), 0;
-      }
-    });
+  parallel(sites.rows(), monitor, [&](Index s) { result.row(s) << sites.row(s), 0; });
   return result;
 }
 
@@ -138,26 +127,23 @@ void WeightMatrix::multiplyTranspose(const Points& free, Points& sites, Monitor&
     MostBlocks, std::max<Index>(1, this->entries() / (8 * std::max<Index>(1, this->columns()))));
   const Index length = (this->rows() + blocks - 1) / blocks;
   std::vector<Points> part(blocks);
-  monitor.parallelFor(blocks, 1,
-    [&](Index firstBlock, Index lastBlock)
+  parallel(blocks, 1, monitor,
+    [&](Index b)
     {
-      for (Index b = firstBlock; b < lastBlock; ++b)
+      part[b].setZero(this->columns(), 3);
+      const Index last = std::min(this->rows(), (b + 1) * length);
+      for (Index row = b * length; row < last; ++row)
       {
-        part[b].setZero(this->columns(), 3);
-        const Index last = std::min(this->rows(), (b + 1) * length);
-        for (Index row = b * length; row < last; ++row)
+        const std::int32_t* column = this->column(row);
+        const double* weight = this->weight(row);
+        const double* y = free.data() + 3 * row;
+        const Index n = this->entries(row);
+        for (Index e = 0; e < n; ++e)
         {
-          const std::int32_t* column = this->column(row);
-          const double* weight = this->weight(row);
-          const double* y = free.data() + 3 * row;
-          const Index n = this->entries(row);
-          for (Index e = 0; e < n; ++e)
-          {
-            double* at = part[b].data() + 3 * static_cast<Index>(column[e]);
-            at[0] += weight[e] * y[0];
-            at[1] += weight[e] * y[1];
-            at[2] += weight[e] * y[2];
-          }
+          double* at = part[b].data() + 3 * static_cast<Index>(column[e]);
+          at[0] += weight[e] * y[0];
+          at[1] += weight[e] * y[1];
+          at[2] += weight[e] * y[2];
         }
       }
     });

@@ -36,6 +36,8 @@ public:
   BodyMotions(const Mesh& rest, const ConnectedComponents& bodies, const NodePartition& partition,
     const Points& displacement, const Communicator& communicator)
     : rest_(rest)
+    , bodies_(bodies)
+    , free_(partition.free)
     , displacement_(displacement)
     , communicator_(communicator)
     , motions_(bodies.count)
@@ -158,23 +160,22 @@ private:
         const Row u = this->displacement_.row(corner.row);
         sum.noalias() += this->arm(corner).transpose() * (u - this->motions_[corner.body].mean);
       });
-    std::vector<int> ranks;
-    std::vector<Row> longest;
+    std::vector<PrincipalDirections> directions;
+    for (std::size_t b = 0; b < spread.size(); ++b)
+    {
+      directions.emplace_back(spread[b], this->motions_[b].corners);
+    }
+    this->limit(directions);
+    bool areTold = true;
     for (std::size_t b = 0; b < spread.size(); ++b)
     {
       Motion& motion = this->motions_[b];
-      const AffineFit fit(motion.centre, motion.mean, spread[b], stretch[b]);
-      motion.gradient = fit.gradient();
-      const Eigen::SelfAdjointEigenSolver<Matrix> axes(spread[b]);
-      longest.emplace_back(axes.eigenvectors().col(2).transpose());
-      int rank = 0;
-      for (int j = 0; j < 3; ++j)
-      {
-        rank += AffineLeastSquares::isExtended(axes.eigenvalues()[j], axes.eigenvalues()[2]);
-      }
-      ranks.push_back(motion.moved > 0 ? rank : 3); // what stays needs no completion
+      motion.gradient =
+        AffineFit(motion.centre, motion.mean, directions[b].inverse(), stretch[b]).gradient();
+      // What stays needs no completion.
+      areTold = areTold && (motion.moved == 0 || directions[b].shares().minCoeff() == 1);
     }
-    if (std::all_of(ranks.begin(), ranks.end(), [](int rank) { return rank == 3; }))
+    if (areTold)
     {
       return;
     }
@@ -182,38 +183,73 @@ private:
     const std::vector<Matrix> sides = this->sums<Matrix>(
       [&](const Corner& corner, Eigen::Map<Matrix>& sum)
       {
-        const Row& axis = longest[corner.body];
+        const Row axis = directions[corner.body].axes().col(2).transpose();
         const Row arm = this->arm(corner), side = arm - arm.dot(axis) * axis;
         sum.noalias() += side.transpose() * side;
       });
     for (std::size_t b = 0; b < sides.size(); ++b)
     {
+      const Row first = directions[b].axes().col(2).transpose();
       const Eigen::SelfAdjointEigenSolver<Matrix> axes(sides[b]);
-      complete(
-        this->motions_[b].gradient, ranks[b], longest[b], axes.eigenvectors().col(2).transpose());
+      Row second = axes.eigenvectors().col(2).transpose();
+      second -= second.dot(first) * first;
+      // A line leaves rounding, in any direction.
+      second = second.norm() > 0.5 ? Row(second.normalized()) : first.unitOrthogonal();
+      complete(this->motions_[b].gradient, directions[b].shares(), first, second);
     }
   }
 
-  /// Completes a gradient by a similarity, where the corners lie in a plane of these axes, or on
-  /// the line of the first. Positions are rows.
-  static void complete(Matrix& gradient, int rank, const Row& first, const Row& second)
+  /// Limits the directions of each body to what moves its free nodes.
+  void limit(std::vector<PrincipalDirections>& directions) const
   {
-    Matrix map = Matrix::Identity() + gradient;
-    const Row a = first * map, b = second * map, across = a.cross(b);
-    if (rank == 2 && across.norm() > 0)
+    // Of each body, the largest leverages of its corners, and those of its free nodes.
+    std::vector<double> largest(6 * directions.size(), 0);
+    const auto add = [&](Index node, Index body, Index first)
+    {
+      Eigen::Map<Row> most(largest.data() + 6 * body + first);
+      most = most.cwiseMax(
+        directions[body].leverages(this->rest_.points.row(node) - this->motions_[body].centre));
+    };
+    for (const Corner& corner : this->corners_)
+    {
+      add(corner.node, corner.body, 0);
+    }
+    for (const Index node : this->free_)
+    {
+      add(node, this->bodies_.ofNode[node], 3);
+    }
+    this->communicator_.maximum(largest.data(), static_cast<int>(largest.size()));
+    for (std::size_t b = 0; b < directions.size(); ++b)
+    {
+      const Eigen::Map<const Row> within(largest.data() + 6 * b), reach(within.data() + 3);
+      directions[b].limit(within, reach);
+    }
+  }
+
+  /// Completes a gradient by a similarity, as far as the corners lie in a plane of these axes, or
+  /// on the line of the first. `shares`: those of the gradient. Positions are rows.
+  static void complete(Matrix& gradient, const Row& shares, const Row& first, const Row& second)
+  {
+    const Row a = first + first * gradient;
+    if (shares[1] < 1 && a.norm() > 0)
+    {
+      const auto turn = Eigen::Quaterniond::FromTwoVectors(first.transpose(), a.transpose());
+      gradient += (1 - shares[1]) * second.transpose() *
+                  (a.norm() * second * turn.toRotationMatrix().transpose() - second);
+    }
+    const Row b = second + second * gradient, across = a.cross(b);
+    if (shares[0] < 1 && across.norm() > 0)
     {
       // The thickness scales with the sheet's lengths.
       const Row normal = first.cross(second);
-      gradient += normal.transpose() * (across / std::sqrt(across.norm()) - normal);
-    }
-    else if (rank == 1 && a.norm() > 0)
-    {
-      const auto turn = Eigen::Quaterniond::FromTwoVectors(first.transpose(), a.transpose());
-      gradient = a.norm() * turn.toRotationMatrix().transpose() - Matrix::Identity();
+      gradient +=
+        (1 - shares[0]) * normal.transpose() * (across / std::sqrt(across.norm()) - normal);
     }
   }
 
   const Mesh& rest_;
+  const ConnectedComponents& bodies_;
+  const std::vector<Index>& free_;
   const Points& displacement_;
   const Communicator& communicator_;
   std::vector<Corner> corners_;

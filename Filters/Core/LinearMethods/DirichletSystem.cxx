@@ -2,9 +2,7 @@
 #include "LinearMethods/DirichletSystem.h"
 
 #include "Mesh/UnknownOrdering.h"
-#include "Solvers/MixedPrecisionMatrix.h"
 #include "Support/Error.h"
-#include "Support/HugePages.h"
 
 #include <algorithm>
 #include <cmath>
@@ -29,7 +27,7 @@ void requireTolerance(double tolerance)
 }
 
 AffineGuess::AffineGuess(const Points& points, const NodePartition& partition,
-  const RowComponents& components, const CsrMatrix& coupling)
+  const std::vector<Index>& rows, const RowComponents& components, const CsrMatrix& coupling)
   : components_(components)
   , coupled_(components.count)
 {
@@ -41,8 +39,14 @@ AffineGuess::AffineGuess(const Points& points, const NodePartition& partition,
       columns.push_back(static_cast<int>(entry.col()));
     }
   }
-  for (std::vector<int>& columns : this->coupled_)
+  std::vector<std::vector<Index>> moved(components.count);
+  for (std::size_t row = 0; row < rows.size(); ++row)
   {
+    moved[components.of(static_cast<Index>(row))].push_back(rows[row]);
+  }
+  for (std::size_t c = 0; c < this->coupled_.size(); ++c)
+  {
+    std::vector<int>& columns = this->coupled_[c];
     std::sort(columns.begin(), columns.end());
     columns.erase(std::unique(columns.begin(), columns.end()), columns.end());
     columns.shrink_to_fit();
@@ -51,7 +55,7 @@ AffineGuess::AffineGuess(const Points& points, const NodePartition& partition,
     {
       places.row(i) = points.row(partition.prescribed[columns[i]]);
     }
-    this->leastSquares_.emplace_back(places);
+    this->leastSquares_.emplace_back(places, points(moved[c], allColumns));
   }
 }
 
@@ -85,9 +89,10 @@ AffineGuess::Fits AffineGuess::fits(const MultiVector& prescribed) const
 bool AffineGuess::agree(const Points& points, const NodePartition& partition,
   const MultiVector& prescribed, const Fits& fits, double tolerance) const
 {
-  Eigen::Array4d largest = Eigen::Array4d::Zero(), most = Eigen::Array4d::Zero();
+  bool all = true;
   for (std::size_t c = 0; c < this->coupled_.size(); ++c)
   {
+    Eigen::Array4d largest = Eigen::Array4d::Zero(), most = Eigen::Array4d::Zero();
     for (const int column : this->coupled_[c])
     {
       const MultiVectorRow& given = prescribed[column];
@@ -96,8 +101,9 @@ bool AffineGuess::agree(const Points& points, const NodePartition& partition,
       largest = largest.max(given.array().abs());
       most = most.max(off.array().abs());
     }
+    all = all && (most <= tolerance * largest).all(); // not for numbers that have overflowed
   }
-  return (most <= tolerance * largest).all(); // not for numbers that have overflowed
+  return all;
 }
 
 void AffineGuess::takeOff(const Points& points, const NodePartition& partition,
@@ -178,7 +184,7 @@ std::size_t AffineGuess::memory() const
 void firstGuess(const Points& points, const std::vector<Index>& rows, const AffineGuess& guess,
   const AffineGuess::Fits& fits, MultiVector& x, Monitor& monitor)
 {
-  resizeLarge(x, rows.size());
+  x.resize(rows.size());
   monitor.parallelFor(static_cast<Index>(rows.size()), Grain,
     [&](Index first, Index last)
     {
@@ -230,7 +236,7 @@ bool DirichletEquations::solve(const MultiVector& prescribed, double tolerance, 
 }
 
 double affineResidual(const Points& points, const std::vector<Index>& rows,
-  const NodePartition& partition, const MixedPrecisionMatrix& interior, const CsrMatrix& coupling,
+  const NodePartition& partition, const CsrMatrix& interior, const CsrMatrix& coupling,
   Monitor& monitor)
 {
   const auto count = static_cast<Index>(rows.size());
@@ -252,7 +258,10 @@ double affineResidual(const Points& points, const std::vector<Index>& rows,
             sum += term;
             size += term.abs();
           };
-          interior.forRow(i, [&](int column, int k) { add(interior.value(k), rows[column]); });
+          for (CsrMatrix::InnerIterator entry(interior, i); entry; ++entry)
+          {
+            add(entry.value(), rows[entry.col()]);
+          }
           for (CsrMatrix::InnerIterator entry(coupling, static_cast<int>(i)); entry; ++entry)
           {
             add(entry.value(), partition.prescribed[entry.col()]);

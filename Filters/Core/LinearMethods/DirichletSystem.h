@@ -29,9 +29,10 @@ class AffineGuess
 {
 public:
   AffineGuess() = default;
-  /// `components`: of A_I, copied; `coupling`: A_B. Cost: one pass over A_B.
-  AffineGuess(const Points& points, const NodePartition& partition, const RowComponents& components,
-    const CsrMatrix& coupling);
+  /// `rows`: the nodes of A_I's rows; `components`: of A_I, copied; `coupling`: A_B. Cost: one pass
+  /// over A_B and the rows.
+  AffineGuess(const Points& points, const NodePartition& partition, const std::vector<Index>& rows,
+    const RowComponents& components, const CsrMatrix& coupling);
 
   /// The fit of each component, for the columns of a MultiVector.
   class Fits
@@ -57,7 +58,7 @@ public:
   Fits fits(const MultiVector& prescribed) const;
   int component(Index row) const { return this->components_.of(row); }
   /// Whether the fits give the displacements of all coupled nodes, to `tolerance` of the largest of
-  /// each column. Cost: one pass over these nodes.
+  /// each column and component. Cost: one pass over these nodes.
   bool agree(const Points& points, const NodePartition& partition, const MultiVector& prescribed,
     const Fits& fits, double tolerance) const;
 
@@ -89,7 +90,6 @@ void firstGuess(const Points& points, const std::vector<Index>& rows, const Affi
   const AffineGuess::Fits& fits, MultiVector& x, Monitor& monitor);
 
 struct DirichletEquations;
-class MixedPrecisionMatrix;
 
 /// affineResidual() of equations, computed when it is first asked for: only affine motions ask.
 class AffineResidual
@@ -111,15 +111,15 @@ struct DirichletEquations
   const Points& points; ///< undeformed
   const NodePartition& partition;
   const std::vector<Index>& rows;
-  const MixedPrecisionMatrix& interior; ///< A_I
-  const CsrMatrix& coupling;            ///< A_B
+  const CsrMatrix& interior; ///< A_I
+  const CsrMatrix& coupling; ///< A_B
   const AffineGuess& guess;
   bool isUniform;                       ///< affine motions solve them, but for rounding
   const AffineResidual& affineResidual; ///< asked where they are uniform
 
-  /// Solves to `tolerance`, and sets `x`, #rows. `solver(rhs, x)` solves A_I X = rhs from the guess
-  /// x. Returns false where the guess is the solution to a hundredth of the tolerance. `solver` is
-  /// not called then, as a pass over the matrix takes longer than all else.
+  /// Solves to `tolerance` by solveEach(), and sets `x`, #rows. Returns false where the guess is
+  /// the solution to a hundredth of the tolerance. `solver` is not called then, as a pass over the
+  /// matrix takes longer than all else.
   bool solve(const MultiVector& prescribed, double tolerance, MultiVector& x, Monitor& monitor,
     const std::function<void(const RightHandSide&, MultiVector&)>& solver) const;
 };
@@ -127,7 +127,7 @@ struct DirichletEquations
 /// By how much affine motions miss the equations: the largest residual of a row, of the sum of its
 /// terms' absolute values. About 1e-15 is rounding. Cost: one pass over both matrices.
 double affineResidual(const Points& points, const std::vector<Index>& rows,
-  const NodePartition& partition, const MixedPrecisionMatrix& interior, const CsrMatrix& coupling,
+  const NodePartition& partition, const CsrMatrix& interior, const CsrMatrix& coupling,
   Monitor& monitor);
 
 /// Reorders rows from NodePartition::free's order to the matrix order, and back. `free`: #free x 3,

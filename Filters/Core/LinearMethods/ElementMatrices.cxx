@@ -5,8 +5,7 @@
 #include "Mesh/CellShape.h"
 #include "Mesh/SimplicialDecomposition.h"
 #include "Quality/ScaledJacobian.h"
-#include "Solvers/RowChunks.h"
-#include "Support/HugePages.h"
+#include "Support/Parallel.h"
 
 #include <cmath>
 
@@ -14,9 +13,6 @@ namespace morph
 {
 namespace
 {
-constexpr Index Grain = 4096;
-constexpr int MostBands = 8;
-constexpr Index LeastRows = ChunkRows * ChunksOfArena; // of a band
 
 /// Sets K of a star, eliminates its centre, and sets the centre's weights. Returns false where the
 /// centre has no stiffness.
@@ -107,16 +103,10 @@ Matrices starMatrices(const Mesh& mesh, const Adjacency& around, CellMatrix& cel
     result.start.push_back(entries);
     entries += triangleSize(static_cast<int>(stars.nodes().end(s) - stars.nodes().begin(s)));
   }
-  resizeUndefined(result.K, entries);
+  result.K.resize(entries);
   std::vector<std::uint8_t> isUsable(stars.size(), 1);
-  monitor.parallelFor(stars.size(), Grain,
-    [&](Index first, Index last)
-    {
-      for (Index s = first; s < last; ++s)
-      {
-        isUsable[s] = starMatrix(mesh, around, cell, stars, s, result.of(s));
-      }
-    });
+  parallel(stars.size(), monitor,
+    [&](Index s) { isUsable[s] = starMatrix(mesh, around, cell, stars, s, result.of(s)); });
   for (Index s = 0; s < stars.size(); ++s)
   {
     if (!isUsable[s])
@@ -127,120 +117,31 @@ Matrices starMatrices(const Mesh& mesh, const Adjacency& around, CellMatrix& cel
   return result;
 }
 
-CellMatrices::CellMatrices(const Mesh& mesh, const std::vector<int>& starOf,
-  const std::vector<int>& column, Index rows, CellMatrix& cell, Monitor& monitor)
-  : mesh_(mesh)
-  , cell_(cell)
-  , bandRows_((rows / MostBands / LeastRows + 1) * LeastRows)
-  , rows_(rows)
-  , bands_(mesh.numberOfCells())
+Matrices cellMatrices(
+  const Mesh& mesh, const std::vector<int>& starOf, CellMatrix& cell, Monitor& monitor)
 {
-  this->matrices_.start.resize(mesh.numberOfCells());
-  monitor.parallelFor(mesh.numberOfCells(), Grain,
-    [&](Index first, Index last)
-    {
-      for (Index c = first; c < last; ++c)
-      {
-        const bool isInStar = !starOf.empty() && starOf[c] >= 0;
-        this->bands_[c] = isInStar ? Bands() : this->bandsOf(c, column);
-      }
-    });
-  this->findBlocks();
-}
-
-void CellMatrices::findBlocks()
-{
-  this->blocks_.resize(this->size());
-  const Index cells = this->mesh_.numberOfCells();
-  for (Index first = 0; first < cells; first += Grain)
+  const auto entriesOf = [&](Index c)
   {
-    std::vector<std::uint8_t> has(this->size(), 0);
-    for (Index c = first; c < std::min(cells, first + Grain); ++c)
-    {
-      for (int band = this->bands_[c].first; band <= this->bands_[c].last; ++band)
-      {
-        has[band] = 1;
-      }
-    }
-    for (int band = 0; band < this->size(); ++band)
-    {
-      if (has[band])
-      {
-        this->blocks_[band].push_back(first / Grain);
-      }
-    }
-  }
-}
-
-void CellMatrices::compute(int band, Monitor& monitor)
-{
-  const Index cells = this->mesh_.numberOfCells();
-  const std::vector<Index>& blocks = this->blocks_[band];
-  std::vector<Index> blockStart(blocks.size() + 1, 0);
-  const auto forCells = [&](const auto& use)
-  {
-    monitor.parallelFor(static_cast<Index>(blocks.size()), 1,
-      [&](Index first, Index last)
-      {
-        for (Index block = first; block < last; ++block)
-        {
-          Index at = blockStart[block];
-          const Index firstCell = blocks[block] * Grain;
-          for (Index c = firstCell; c < std::min(cells, firstCell + Grain); ++c)
-          {
-            if (this->bands_[c].first <= band && band <= this->bands_[c].last)
-            {
-              use(c, at);
-              at += this->entries(c);
-            }
-          }
-          blockStart[block] = at;
-        }
-      });
+    const bool isInStar = !starOf.empty() && starOf[c] >= 0;
+    return isInStar ? 0 : triangleSize(numberOfCorners(cellShape(mesh.types[c])->shape));
   };
-  forCells([](Index, Index) {});
-  Index before = 0;
-  for (Index& start : blockStart)
+  Matrices result;
+  result.start.resize(mesh.numberOfCells());
+  Index entries = 0;
+  for (Index c = 0; c < mesh.numberOfCells(); ++c)
   {
-    const Index size = start;
-    start = before;
-    before += size;
+    result.start[c] = entries;
+    entries += entriesOf(c);
   }
-  if (before > this->matrices_.K.size())
-  {
-    this->matrices_.K.resize(0); // lets go of the memory first
-    resizeUndefined(this->matrices_.K, before);
-  }
-  forCells(
-    [&](Index c, Index at)
+  result.K.resize(entries);
+  parallel(mesh.numberOfCells(), monitor,
+    [&](Index c)
     {
-      this->matrices_.start[c] = at;
-      this->cell_.compute(c, this->matrices_.of(c));
+      if (entriesOf(c) > 0)
+      {
+        cell.compute(c, result.of(c));
+      }
     });
-}
-
-Index CellMatrices::entries(Index cell) const
-{
-  return triangleSize(numberOfCorners(cellShape(this->mesh_.types[cell])->shape));
-}
-
-CellMatrices::Bands CellMatrices::bandsOf(Index cell, const std::vector<int>& column) const
-{
-  const CellShape& shape = *cellShape(this->mesh_.types[cell]);
-  Bands bands;
-  for (int k = 0; k < numberOfCorners(shape.shape); ++k)
-  {
-    const int row = column[this->mesh_.cell(cell)[shape.cornerNode[k]]];
-    if (row >= 0 && row < this->rows_)
-    {
-      const auto band = static_cast<std::int8_t>(this->bandOf(row));
-      const bool isFirst = bands.first > bands.last;
-      bands.first = isFirst ? band : std::min(bands.first, band);
-      bands.last = isFirst ? band : std::max(bands.last, band);
-    }
-  }
-  // A cell without a row is computed for its sign.
-  const bool isEmpty = bands.first > bands.last;
-  return isEmpty && this->entries(cell) > 0 ? Bands{ 0, 0 } : bands;
+  return result;
 }
 }

@@ -50,44 +50,8 @@ private:
 Matrices starMatrices(const Mesh& mesh, const Adjacency& around, CellMatrix& cell,
   CentreStars& stars, std::vector<Index>& singularCentres, Monitor& monitor);
 
-/// The matrices of the cells around the rows of one band at a time, as those of all cells of a
-/// hexahedral mesh would take 0.3 kB a node. Cells of two bands are computed twice, with the same
-/// result. A band has an eighth of the rows, and at least 65,536.
-class CellMatrices
-{
-public:
-  /// `starOf`: CentreStars::ofCell(); `column`: of each node, which is its row if it is less than
-  /// `rows`, or -1.
-  CellMatrices(const Mesh& mesh, const std::vector<int>& starOf, const std::vector<int>& column,
-    Index rows, CellMatrix& cell, Monitor& monitor);
-
-  /// Number of bands; at least one. The first one has the cells without a row, too.
-  int size() const { return this->rows_ == 0 ? 1 : this->bandOf(this->rows_ - 1) + 1; }
-  Index firstRow(int band) const { return band * this->bandRows_; }
-  Index lastRow(int band) const { return std::min(this->rows_, this->firstRow(band + 1)); }
-
-  /// Computes the matrices of a band; the others are lost.
-  void compute(int band, Monitor& monitor);
-  const double* of(Index cell) const { return this->matrices_.of(cell); }
-
-private:
-  /// The first and last band of a cell's rows; none by default.
-  struct Bands
-  {
-    std::int8_t first = 1, last = 0;
-  };
-
-  int bandOf(Index row) const { return static_cast<int>(row / this->bandRows_); }
-  Index entries(Index cell) const;
-  /// Finds the blocks of cells in which each band has cells.
-  void findBlocks();
-  Bands bandsOf(Index cell, const std::vector<int>& column) const;
-
-  const Mesh& mesh_;
-  CellMatrix& cell_;
-  Index bandRows_, rows_;
-  std::vector<Bands> bands_;
-  std::vector<std::vector<Index>> blocks_; ///< of each band, so that threads share its cells evenly
-  Matrices matrices_;
-};
+/// Returns the matrices of all cells, without those in stars. `starOf`: CentreStars::ofCell(). They
+/// take 0.3 kB a cell of a hexahedral mesh.
+Matrices cellMatrices(
+  const Mesh& mesh, const std::vector<int>& starOf, CellMatrix& cell, Monitor& monitor);
 }

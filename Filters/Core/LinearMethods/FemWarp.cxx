@@ -5,7 +5,6 @@
 #include "LinearMethods/StiffnessFactors.h"
 #include "Mesh/Topology.h"
 #include "Mesh/UnknownOrdering.h"
-#include "Solvers/MixedPrecisionMatrix.h"
 #include "Support/Error.h"
 #include "Support/ProgressRange.h"
 
@@ -72,14 +71,15 @@ void FemWarp::doPrepare(const Mesh& rest, Monitor& monitor)
   monitor.check();
   monitor.progress(0.6);
 
-  const Points coordinates = rest.points(this->rows(), allColumns);
+  LinearEquations equations;
+  equations.matrix.swap(system.interior);
+  equations.coordinates = rest.points(this->rows(), allColumns);
   this->coupling_.swap(system.coupling);
   this->affineResidual_.reset();
   try
   {
     ProgressRange last(monitor, 0.6, 1);
-    this->solver_.prepare(
-      MixedPrecisionMatrix(std::move(system.interior), last), coordinates, last);
+    this->solver_.prepare(std::move(equations), last);
   }
   catch (const SingularRows& error)
   {
@@ -90,7 +90,8 @@ void FemWarp::doPrepare(const Mesh& rest, Monitor& monitor)
     }
     throwSingular(nodes);
   }
-  this->guess_ = AffineGuess(rest.points, partition, this->solver_.components(), this->coupling_);
+  this->guess_ =
+    AffineGuess(rest.points, partition, this->rows(), this->solver_.components(), this->coupling_);
 }
 
 EvaluateReport FemWarp::solve(const MultiVector& prescribed, MultiVector& x, Monitor& monitor) const
@@ -99,17 +100,13 @@ EvaluateReport FemWarp::solve(const MultiVector& prescribed, MultiVector& x, Mon
   const DirichletEquations equations = { this->restPoints(), this->partition(), this->rows(),
     this->solver_.matrix(), this->coupling_, this->guess_, this->isUniform_,
     this->affineResidual_ };
-  const bool iterates = equations.solve(prescribed, this->tolerance_, x, monitor,
+  equations.solve(prescribed, this->tolerance_, x, monitor,
     [&](const RightHandSide& rhs, MultiVector& solution)
     {
       report = this->solver_.solve(rhs, solution, this->tolerance_, MaxIterations, monitor);
       reportRounding(report, this->tolerance_, monitor);
     });
-  if (!iterates)
-  {
-    return { 0, 0, static_cast<double>((sizeof(MultiVectorRow) + 24) * x.size()), {} };
-  }
-  return { report.iterations, report.relativeResidual, report.bytesMoved, {} };
+  return { report.iterations, report.relativeResidual, {} };
 }
 
 EvaluateReport FemWarp::displace(const Points& prescribed, Points& free, Monitor& monitor) const
@@ -148,7 +145,7 @@ EvaluateReport FemWarp::displaceTranspose(
     this->guess_.addTranspose(this->restPoints(), this->partition(), this->rows(), this->coupling_,
       rhs, solution, prescribed);
   }
-  return { report.iterations, report.relativeResidual, report.bytesMoved, {} };
+  return { report.iterations, report.relativeResidual, {} };
 }
 
 std::size_t FemWarp::memory() const

@@ -3,12 +3,11 @@
 
 #include "LinearMethods/ElementMatrices.h"
 #include "LinearMethods/ElementStiffness.h"
-#include "LinearMethods/SplitRows.h"
 #include "Mesh/CellShape.h"
 #include "Mesh/SimplicialDecomposition.h"
 #include "Mesh/Topology.h"
 #include "Quality/ScaledJacobian.h"
-#include "Solvers/LocalColumnMap.h"
+#include "Solvers/AssembleRows.h"
 #include "Support/Error.h"
 
 #include <algorithm>
@@ -20,8 +19,6 @@ namespace morph
 {
 namespace
 {
-constexpr std::size_t MostIds = 100; // in a warning
-
 /// Whether two corners of a cell coincide, as in a hexahedron that is used as a wedge.
 bool isCollapsed(const Mesh& mesh, Index cell)
 {
@@ -59,96 +56,58 @@ struct TriangleTable
   }
 };
 
-/// Sorts the columns of one row.
-class ColumnRanks
-{
-public:
-  /// Returns for each of the distinct `columns` its rank.
-  const std::vector<int>& of(const std::vector<int>& columns)
-  {
-    const int n = static_cast<int>(columns.size());
-    this->ranks_.resize(n);
-    if (n > MostCounted)
-    {
-      this->sorted_ = columns;
-      std::sort(this->sorted_.begin(), this->sorted_.end());
-      for (int i = 0; i < n; ++i)
-      {
-        this->ranks_[i] = static_cast<int>(
-          std::lower_bound(this->sorted_.begin(), this->sorted_.end(), columns[i]) -
-          this->sorted_.begin());
-      }
-      return this->ranks_;
-    }
-    const int* all = columns.data();
-    for (int i = 0; i < n; ++i)
-    {
-      int less = 0;
-      for (int j = 0; j < n; ++j)
-      {
-        less += all[j] < all[i];
-      }
-      this->ranks_[i] = less;
-    }
-    return this->ranks_;
-  }
-
-private:
-  static constexpr int MostCounted = 96; // counting has no branches to mispredict, unlike sorting
-
-  std::vector<int> ranks_, sorted_;
-};
-
 /// Gathers the rows of the free nodes from their cells, in ascending order of the cells. So the
 /// sums do not depend on threads. Stars come last in all rows, so that the matrix is symmetric to
 /// the last bit, except where edges of cells are collapsed.
-SplitChunks gatherRows(const Mesh& mesh, const Adjacency& around, const std::vector<Index>& free,
+SplitMatrix gatherRows(const Mesh& mesh, Adjacency& around, const std::vector<Index>& free,
   const std::vector<Index>& prescribed, const std::vector<double>& factors, CentreStars& stars,
   FemWarpSystem& system, Monitor& monitor)
 {
   // Columns of [A_I A_B]: the free nodes by row, then the prescribed nodes.
   const Index rows = static_cast<Index>(free.size());
-  const Index columns = static_cast<Index>(prescribed.size());
+  const Index columns = rows + static_cast<Index>(prescribed.size());
   std::vector<int> column(mesh.numberOfNodes(), -1);
-  for (Index i = 0; i < rows; ++i)
-  {
-    column[free[i]] = static_cast<int>(i);
-  }
   for (Index i = 0; i < columns; ++i)
   {
-    column[prescribed[i]] = static_cast<int>(rows + i);
+    column[i < rows ? free[i] : prescribed[i - rows]] = static_cast<int>(i);
   }
 
   CellMatrix cellMatrix(mesh, factors, system.cellSign);
   const Matrices ofStars =
     starMatrices(mesh, around, cellMatrix, stars, system.singularCentres, monitor);
-  CellMatrices ofCells(mesh, stars.ofCell(), column, rows, cellMatrix, monitor);
-
-  // Visits the cells and stars around a row's free node, once for every corner that is this node.
-  // A visit gets the nodes and the matrix, and the index of the corner's entries.
-  const TriangleTable triangle;
   const std::vector<int>& starOf = stars.ofCell();
+  Matrices ofCells = cellMatrices(mesh, starOf, cellMatrix, monitor);
+  system.hasBadCells = cellMatrix.isAnyBad();
+  monitor.check();
+  monitor.progress(0.3);
+
+  const TriangleTable triangle;
   int same[CentreStars::MostNodes];
   std::iota(std::begin(same), std::end(same), 0);
-  const auto visit = [&](Index row, const auto& onCorner)
+  // Adds the row of a corner of a cell or star with this matrix.
+  const auto addCorner = [&](SparseRow& row, const Index* nodes, const int* cornerNode, int n,
+                           const double* K, std::ptrdiff_t own)
   {
-    const Index node = free[row];
+    const std::uint8_t* entry = triangle.at[n][own];
+    for (int a = 0; a < n; ++a)
+    {
+      row.add(column[nodes[cornerNode[a]]], K[entry[a]]);
+    }
+  };
+  const MakeRow makeRow = [&](Index i, SparseRow& row)
+  {
+    const Index node = free[i];
     for (const Index* cell = around.begin(node); cell != around.end(node); ++cell)
     {
-      if (!starOf.empty() && starOf[*cell] >= 0)
-      {
-        continue;
-      }
       const CellShape& shape = *cellShape(mesh.types[*cell]);
-      const int* cornerNode = shape.cornerNode;
       const Index* nodes = mesh.cell(*cell);
-      const double* K = ofCells.of(*cell);
-      const int n = shape.numberOfCorners;
+      const bool isInStar = !starOf.empty() && starOf[*cell] >= 0;
+      const int n = isInStar ? 0 : shape.numberOfCorners;
       for (int own = 0; own < n; ++own)
       {
-        if (nodes[cornerNode[own]] == node) // true more than once in a collapsed cell
+        if (nodes[shape.cornerNode[own]] == node) // true more than once in a collapsed cell
         {
-          onCorner(nodes, cornerNode, n, K, triangle.at[n][own]);
+          addCorner(row, nodes, shape.cornerNode, n, ofCells.of(*cell), own);
         }
       }
     }
@@ -161,78 +120,17 @@ SplitChunks gatherRows(const Mesh& mesh, const Adjacency& around, const std::vec
       const Index* nodes = stars.nodes().begin(*star);
       const auto n = static_cast<int>(stars.nodes().end(*star) - nodes);
       const auto own = std::lower_bound(nodes, nodes + n, node) - nodes;
-      onCorner(nodes, same, n, ofStars.of(*star), triangle.at[n][own]);
+      addCorner(row, nodes, same, n, ofStars.of(*star), own);
     }
   };
-
-  const auto makeRows = [&]
+  const auto allMade = [&]
   {
-    return [&, local = LocalColumnMap(), ranks = ColumnRanks(), columnsHere = std::vector<int>(),
-             values = std::vector<double>()](Index row, SplitRows& chunk) mutable
-    {
-      values.clear();
-      local.clear();
-      visit(row,
-        [&](const Index* nodes, const int* cornerNode, int n, const double* K,
-          const std::uint8_t* entry)
-        {
-          int index[CentreStars::MostNodes];
-          for (int a = 0; a < n; ++a)
-          {
-            index[a] = local.localIndex(column[nodes[cornerNode[a]]]);
-          }
-          // adding any number to -0 gives this number, also for zeros
-          values.resize(local.size(), -0.);
-          double* sums = values.data();
-          for (int a = 0; a < n; ++a)
-          {
-            sums[index[a]] += K[entry[a]];
-          }
-        });
-      columnsHere.resize(values.size());
-      int inside = 0;
-      for (std::size_t k = 0; k < values.size(); ++k)
-      {
-        columnsHere[k] = local.column(static_cast<int>(k));
-        inside += columnsHere[k] < rows;
-      }
-      const int outside = static_cast<int>(values.size()) - inside;
-      const std::vector<int>& rank = ranks.of(columnsHere);
-      const auto open = [](SplitRows::Part& part, int size)
-      {
-        const std::size_t before = part.column.size();
-        part.size.push_back(size);
-        part.column.resize(before + size);
-        part.value.resize(before + size);
-        return before;
-      };
-      const std::size_t firstInside = open(chunk.interior, inside);
-      const std::size_t firstOutside = open(chunk.coupling, outside);
-      for (std::size_t k = 0; k < values.size(); ++k)
-      {
-        const bool isInside = rank[k] < inside; // the free nodes' columns come first
-        SplitRows::Part& part = isInside ? chunk.interior : chunk.coupling;
-        const std::size_t at = isInside ? firstInside + rank[k] : firstOutside + rank[k] - inside;
-        part.column[at] = static_cast<int>(isInside ? columnsHere[k] : columnsHere[k] - rows);
-        part.value[at] = values[k];
-      }
-    };
+    ofCells = {};
+    around = {};
   };
-
-  SplitChunks chunks(rows, columns);
-  for (int band = 0; band < ofCells.size(); ++band)
-  {
-    monitor.check();
-    monitor.progress(0.5 * band / ofCells.size());
-    ofCells.compute(band, monitor);
-    monitor.check();
-    monitor.progress(0.5 * (band + 0.6) / ofCells.size());
-    splitRows(ofCells.firstRow(band), ofCells.lastRow(band), chunks, monitor, makeRows);
-  }
-  system.hasBadCells = cellMatrix.isAnyBad();
-  return chunks;
+  return assembleRows(
+    rows, rows, columns, monitor, [&] { return makeRow; }, allMade);
 }
-
 }
 
 FemWarpSystem femWarpSystem(const Mesh& mesh, const std::vector<Index>& rows,
@@ -247,13 +145,11 @@ FemWarpSystem femWarpSystem(const Mesh& mesh, Adjacency around, const std::vecto
   Monitor& monitor)
 {
   FemWarpSystem system;
-  // Frees the elements' matrices here, before rows are joined.
-  SplitChunks chunks = gatherRows(mesh, around, rows, prescribed, factors, stars, system, monitor);
-  around = {};
+  SplitMatrix matrix = gatherRows(mesh, around, rows, prescribed, factors, stars, system, monitor);
   monitor.check();
   monitor.progress(0.5);
-  system.interior = std::move(chunks.interior);
-  joinRows(std::move(chunks.coupling), system.coupling, monitor);
+  system.interior.swap(matrix.inside); // Eigen 3.4 would copy on a move
+  system.coupling.swap(matrix.outside);
   return system;
 }
 
@@ -296,13 +192,13 @@ std::string describe(const BadCells& bad)
   std::string text = "The reference mesh has";
   if (!bad.inverted.empty())
   {
-    text += " " + std::to_string(bad.inverted.size()) + " inverted cells: ids " +
-            listIds(bad.inverted, MostIds);
+    text +=
+      " " + std::to_string(bad.inverted.size()) + " inverted cells: ids " + listIds(bad.inverted);
   }
   if (!bad.flat.empty())
   {
     text += std::string(bad.inverted.empty() ? " " : ", and ") + std::to_string(bad.flat.size()) +
-            " cells of zero volume or nearly so: ids " + listIds(bad.flat, MostIds);
+            " cells of zero volume or nearly so: ids " + listIds(bad.flat);
   }
   text += ".";
   if (!bad.absolute.empty())

@@ -3,7 +3,6 @@
 
 #include "LinearMethods/CentreStars.h"
 #include "Mesh/Mesh.h"
-#include "Solvers/ChunkedMatrix.h"
 #include "Solvers/CsrMatrix.h"
 #include "Support/Monitor.h"
 
@@ -16,8 +15,8 @@ namespace morph
 /// The equations of FEMWARP, A_I U_I + A_B U_B = 0.
 struct FemWarpSystem
 {
-  ChunkedMatrix interior; ///< A_I, #rows x #rows
-  CsrMatrix coupling;     ///< A_B, #rows x #prescribed
+  CsrMatrix interior; ///< A_I, #rows x #rows
+  CsrMatrix coupling; ///< A_B, #rows x #prescribed
 
   std::vector<std::int8_t> cellSign;  ///< #cells, from elementStiffness()
   bool hasBadCells = false;           ///< some cell may be inverted or flat; see badCells()

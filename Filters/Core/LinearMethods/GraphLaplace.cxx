@@ -2,7 +2,6 @@
 #include "LinearMethods/GraphLaplace.h"
 
 #include "Mesh/CellEdges.h"
-#include "Solvers/MixedPrecisionMatrix.h"
 #include "Solvers/SpdSolver.h"
 #include "Support/ProgressRange.h"
 
@@ -74,12 +73,12 @@ Points graphLaplaceMesh(
     add(first, last);
     add(last, first);
   }
-  CsrMatrix matrix(n, n);
-  matrix.setFromTriplets(entries.begin(), entries.end());
+  // All edges count alike: the nodes' places say nothing.
+  LinearEquations equations = { CsrMatrix(n, n), Points::Zero(n, 3) };
+  equations.matrix.setFromTriplets(entries.begin(), entries.end());
   SpdSolver solver;
   ProgressRange preparing(monitor, 0, 0.5), solving(monitor, 0.5, 1);
-  // All edges count alike: the nodes' places say nothing.
-  solver.prepare(MixedPrecisionMatrix(matrix, preparing), Points(Points::Zero(n, 3)), preparing);
+  solver.prepare(std::move(equations), preparing);
   solver.solve(b, x, Tolerance, MaxIterations, solving);
   Points result = points;
   for (Index i = 0; i < n; ++i)

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "LinearMethods/LogBarrierSystem.h"
 
-#include "LinearMethods/SplitRows.h"
 #include "Mesh/Topology.h"
+#include "Solvers/AssembleRows.h"
 
 #include <algorithm>
 #include <utility>
@@ -35,87 +35,57 @@ struct Tally
     }
   }
 };
-
-/// Appends a row with minus `weights` at `columns`, and 1 on the diagonal.
-void append(SplitRows& chunk, int row, int rows, const std::vector<int>& columns,
-  const std::vector<double>& weights)
-{
-  SplitRows::Part& inside = chunk.interior;
-  SplitRows::Part& outside = chunk.coupling;
-  const std::size_t before = inside.column.size(), outsideBefore = outside.column.size();
-  const auto put = [](SplitRows::Part& part, int column, double value)
-  {
-    part.column.push_back(column);
-    part.value.push_back(value);
-  };
-  std::size_t i = 0;
-  for (; i < columns.size() && columns[i] < row; ++i)
-  {
-    put(inside, columns[i], -weights[i]);
-  }
-  put(inside, row, 1);
-  for (; i < columns.size() && columns[i] < rows; ++i)
-  {
-    put(inside, columns[i], -weights[i]);
-  }
-  for (; i < columns.size(); ++i)
-  {
-    put(outside, columns[i] - rows, -weights[i]);
-  }
-  inside.size.push_back(static_cast<int>(inside.column.size() - before));
-  outside.size.push_back(static_cast<int>(outside.column.size() - outsideBefore));
-}
 }
 
 LogBarrierSystem logBarrierSystem(const Mesh& mesh, const std::vector<Index>& rows,
-  const std::vector<Index>& prescribed, bool relax, const std::vector<double>& factors,
-  Monitor& monitor)
+  const std::vector<Index>& prescribed, bool relax, Monitor& monitor)
 {
   const Adjacency around = nodeToCells(mesh, monitor);
   const WeightColumns columns(mesh.numberOfNodes(), rows, prescribed);
   monitor.check();
   monitor.progress(0.1);
 
+  struct Outcome
+  {
+    NodeWeights::Kind kind;
+    int steps;
+  };
   const Index n = static_cast<Index>(rows.size());
-  std::vector<Tally> tallies(chunksOf(n));
-  SplitChunks chunks(n, static_cast<Index>(prescribed.size()));
-  splitRows(0, n, chunks, monitor,
-    [&]
+  std::vector<Outcome> outcomes(rows.size());
+  const auto makeRows = [&]() -> MakeRow
+  {
+    return [&, weights = NodeWeights(mesh, around, columns)](Index i, SparseRow& row) mutable
     {
-      return [&, weights = NodeWeights(mesh, around, columns, factors)](
-               Index i, SplitRows& chunk) mutable
+      const NodeWeights::Kind kind = weights.compute(rows[i], relax);
+      outcomes[i] = { kind, weights.iterations() };
+      row.add(static_cast<int>(i), 1);
+      for (std::size_t k = 0; kind != NodeWeights::Kind::None && k < weights.columns().size(); ++k)
       {
-        const NodeWeights::Kind kind = weights.compute(rows[i], relax);
-        tallies[i / ChunkRows].count(rows[i], kind, weights.iterations());
-        if (kind == NodeWeights::Kind::None)
-        {
-          append(chunk, static_cast<int>(i), static_cast<int>(n), {}, {});
-        }
-        else
-        {
-          append(
-            chunk, static_cast<int>(i), static_cast<int>(n), weights.columns(), weights.weights());
-        }
-      };
-    });
+        row.add(weights.columns()[k], -weights.weights()[k]);
+      }
+    };
+  };
+  SplitMatrix matrix =
+    assembleRows(n, n, n + static_cast<Index>(prescribed.size()), monitor, makeRows);
   monitor.check();
   monitor.progress(0.5);
 
-  LogBarrierSystem system;
-  Index iterations = 0;
-  for (const Tally& tally : tallies)
+  Tally tally;
+  for (Index i = 0; i < n; ++i)
   {
-    system.outside.insert(system.outside.end(), tally.outside.begin(), tally.outside.end());
-    system.empty.insert(system.empty.end(), tally.empty.begin(), tally.empty.end());
-    system.twoRing += tally.twoRing;
-    system.affine += tally.affine;
-    system.stiffness += tally.stiffness;
-    system.mostIterations = std::max(system.mostIterations, tally.mostIterations);
-    iterations += tally.iterations;
+    tally.count(rows[i], outcomes[i].kind, outcomes[i].steps);
   }
-  system.meanIterations = n > 0 ? static_cast<double>(iterations) / static_cast<double>(n) : 0;
-  system.interior = std::move(chunks.interior);
-  joinRows(std::move(chunks.coupling), system.coupling, monitor);
+  LogBarrierSystem system;
+  system.outside = std::move(tally.outside);
+  system.empty = std::move(tally.empty);
+  system.twoRing = tally.twoRing;
+  system.affine = tally.affine;
+  system.stiffness = tally.stiffness;
+  system.mostIterations = tally.mostIterations;
+  system.meanIterations =
+    n > 0 ? static_cast<double>(tally.iterations) / static_cast<double>(n) : 0;
+  system.interior.swap(matrix.inside); // Eigen 3.4 would copy on a move
+  system.coupling.swap(matrix.outside);
   return system;
 }
 }

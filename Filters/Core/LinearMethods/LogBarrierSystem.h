@@ -3,7 +3,6 @@
 
 #include "LinearMethods/NodeWeights.h"
 #include "Mesh/Mesh.h"
-#include "Solvers/ChunkedMatrix.h"
 #include "Solvers/CsrMatrix.h"
 #include "Support/Monitor.h"
 
@@ -14,8 +13,8 @@ namespace morph
 /// The equations of LBWARP, (I - W_I) U_I - W_B U_B = 0; their rows sum to zero.
 struct LogBarrierSystem
 {
-  ChunkedMatrix interior; ///< I - W_I, #rows x #rows
-  CsrMatrix coupling;     ///< -W_B, #rows x #prescribed
+  CsrMatrix interior; ///< I - W_I, #rows x #rows
+  CsrMatrix coupling; ///< -W_B, #rows x #prescribed
 
   /// nodes without log-barrier weights among their neighbors, in the order of the rows
   std::vector<Index> outside;
@@ -26,9 +25,8 @@ struct LogBarrierSystem
 };
 
 /// Computes the equations. `rows`: the free nodes in the order of the matrix rows. With `relax`,
-/// nodes outside take the fall-backs of NodeWeights::Kind; otherwise all are in `empty`. `factors`:
-/// the stiffness of the cells; none: 1. Cost: 1 to 2 microseconds a node of a hexahedral mesh.
+/// nodes outside take the fall-backs of NodeWeights::Kind; otherwise all are in `empty`. Cost: 1 to
+/// 2 microseconds a node of a hexahedral mesh.
 LogBarrierSystem logBarrierSystem(const Mesh& mesh, const std::vector<Index>& rows,
-  const std::vector<Index>& prescribed, bool relax, const std::vector<double>& factors,
-  Monitor& monitor);
+  const std::vector<Index>& prescribed, bool relax, Monitor& monitor);
 }

@@ -2,10 +2,8 @@
 #include "LinearMethods/LogBarrierWarp.h"
 
 #include "LinearMethods/LogBarrierSystem.h"
-#include "LinearMethods/StiffnessFactors.h"
 #include "Mesh/Topology.h"
 #include "Mesh/UnknownOrdering.h"
-#include "Solvers/MixedPrecisionMatrix.h"
 #include "Support/Error.h"
 #include "Support/ProgressRange.h"
 
@@ -56,11 +54,8 @@ void LogBarrierWarp::doPrepare(const Mesh& rest, Monitor& monitor)
     this->rows_ = {};
   }
   const bool relax = this->outsideHull_ == OutsideHull::Relax;
-  const std::vector<double> factors =
-    stiffnessFactors(rest, partition.prescribed, this->stiffness(), monitor);
-  this->isUniform_ = factors.empty();
   LogBarrierSystem system =
-    logBarrierSystem(rest, this->rows(), partition.prescribed, relax, factors, monitor);
+    logBarrierSystem(rest, this->rows(), partition.prescribed, relax, monitor);
   requireWeights(system, relax);
   this->meanWeightIterations_ = system.meanIterations;
   this->mostWeightIterations_ = system.mostIterations;
@@ -78,33 +73,33 @@ void LogBarrierWarp::doPrepare(const Mesh& rest, Monitor& monitor)
   monitor.check();
   monitor.progress(0.6);
 
-  const Points coordinates = rest.points(this->rows(), allColumns);
+  LinearEquations equations;
+  equations.matrix.swap(system.interior);
+  equations.coordinates = rest.points(this->rows(), allColumns);
   this->coupling_.swap(system.coupling);
   this->affineResidual_.reset();
   ProgressRange last(monitor, 0.6, 1);
-  this->solver_.prepare(MixedPrecisionMatrix(std::move(system.interior), last), coordinates, last);
-  this->guess_ = AffineGuess(rest.points, partition, this->solver_.components(), this->coupling_);
+  this->solver_.prepare(std::move(equations), last);
+  this->guess_ =
+    AffineGuess(rest.points, partition, this->rows(), this->solver_.components(), this->coupling_);
 }
 
-EvaluateReport LogBarrierWarp::report(const GeneralSolver::Report& solved, Monitor& monitor) const
+EvaluateReport LogBarrierWarp::report(const SolveReport& solved, Monitor& monitor) const
 {
   reportRounding(solved, this->tolerance_, monitor);
   EvaluateReport result;
   result.iterations = solved.iterations;
   result.relativeResidual = solved.relativeResidual;
-  result.bytesMoved = solved.bytesMoved;
   result.statistics = this->outsideCounts_;
-  result.statistics.push_back({ "FallBackIterations", solved.fallBackIterations });
   return result;
 }
 
 EvaluateReport LogBarrierWarp::solve(
   const MultiVector& prescribed, MultiVector& x, Monitor& monitor) const
 {
-  GeneralSolver::Report solved;
+  SolveReport solved;
   const DirichletEquations equations = { this->restPoints(), this->partition(), this->rows(),
-    this->solver_.matrix(), this->coupling_, this->guess_, this->isUniform_,
-    this->affineResidual_ };
+    this->solver_.matrix(), this->coupling_, this->guess_, true, this->affineResidual_ };
   equations.solve(prescribed, this->tolerance_, x, monitor,
     [&](const RightHandSide& rhs, MultiVector& solution)
     { solved = this->solver_.solve(rhs, solution, this->tolerance_, MaxIterations, monitor); });
@@ -135,14 +130,9 @@ EvaluateReport LogBarrierWarp::displaceTranspose(
   // M = (I - W_I)^-1 W_B, so M^T g = W_B^T (I - W_I)^-T g.
   const Points rhs = permute(free, this->rows(), this->partition());
   Points solution = Points::Zero(free.rows(), 3);
-  const GeneralSolver::Report solved =
+  const SolveReport solved =
     this->solver_.solveTransposed(rhs, solution, this->tolerance_, MaxIterations, monitor);
   prescribed -= this->coupling_.transpose() * solution;
-  if (!this->isUniform_)
-  {
-    this->guess_.addTranspose(this->restPoints(), this->partition(), this->rows(), this->coupling_,
-      rhs, solution, prescribed);
-  }
   return this->report(solved, monitor);
 }
 

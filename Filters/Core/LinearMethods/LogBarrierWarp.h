@@ -2,7 +2,7 @@
 #pragma once
 
 #include "LinearMethods/DirichletSystem.h"
-#include "Morpher/CellStiffness.h"
+#include "Morpher/Morpher.h"
 #include "Solvers/GeneralSolver.h"
 
 #include <vector>
@@ -19,15 +19,10 @@ namespace morph
 /// hull of its neighbors, whatever its cells are like. For a node on a face of the hull they exist
 /// as a limit (see LogBarrierWeights.h).
 ///
-/// With a stiffness other than Uniform, each weight is multiplied by the mean stiffness of the
-/// cells that both nodes share, and a node's weights are divided by their sum. Affine motions are
-/// then no solution, so that their least-squares fit is taken off first. The hull no longer bounds
-/// nodes.
-///
 /// prepare(): one pass over the nodes; keeps about 0.5 kB a node of a hexahedral mesh. evaluate():
 /// 6 to 20 applications of the preconditioner to 1e-10, nearly independent of the mesh's size.
 /// applyTranspose(): as evaluate(); the first call also makes the transposed system, 0.4 kB a node.
-class LogBarrierWarp : public StiffMorpher
+class LogBarrierWarp : public LinearMorpher
 {
 public:
   /// The treatment of a node outside its neighbors' hull, at an inverted or strongly concave place
@@ -71,8 +66,8 @@ public:
 
 protected:
   void doPrepare(const Mesh& rest, Monitor& monitor) override;
-  /// The report counts OutsideHullNodes, the TwoRingNodes, AffineNodes and StiffnessNodes among
-  /// them, and the solver's FallBackIterations.
+  /// The report counts OutsideHullNodes, and the TwoRingNodes, AffineNodes and StiffnessNodes among
+  /// them.
   EvaluateReport displace(const Points& prescribed, Points& free, Monitor& monitor) const override;
   EvaluateReport displaceFields(
     const FourFields& prescribed, FourFields& free, Monitor& monitor) const override;
@@ -82,7 +77,7 @@ protected:
 private:
   /// Sets `x` to the displacements of the rows.
   EvaluateReport solve(const MultiVector& prescribed, MultiVector& x, Monitor& monitor) const;
-  EvaluateReport report(const GeneralSolver::Report& solved, Monitor& monitor) const;
+  EvaluateReport report(const SolveReport& solved, Monitor& monitor) const;
 
   double tolerance_ = 1e-10;
   OutsideHull outsideHull_ = OutsideHull::Error;
@@ -90,7 +85,6 @@ private:
   GeneralSolver solver_;
   CsrMatrix coupling_;
   AffineGuess guess_;
-  bool isUniform_ = true;
   AffineResidual affineResidual_;
   double meanWeightIterations_ = 0;
   int mostWeightIterations_ = 0;

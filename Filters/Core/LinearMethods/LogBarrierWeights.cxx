@@ -185,6 +185,11 @@ void LogBarrierWeights::minimise(Dual& dual, int k, int dimension, double limit,
       const double H[6] = { xx.sum(), xy.sum(), xz.sum(), dimension < 2 ? 1 : yy.sum(), yz.sum(),
         dimension < 3 ? 1 : zz.sum() };
       decrement = newtonStep(H, g, step);
+      if (!step.allFinite())
+      {
+        dual.status = Status::OnBoundary; // mu is normal to a face of the hull, to rounding
+        return;
+      }
     }
     dual.mu += decrement > DampedAbove ? Eigen::Vector3d(step / (1 + decrement)) : step;
     ++dual.iterations;

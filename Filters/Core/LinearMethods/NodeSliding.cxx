@@ -9,11 +9,14 @@ namespace morph
 namespace
 {
 constexpr int MostHalvings = 4;
+constexpr double Tolerance = 1e-11;
+constexpr int MaxIterations = 5000;
 }
 
-NodeSliding::NodeSliding(const Equations& equations, const Nodes& nodes, const Surfaces& surfaces,
-  const Communicator& communicator)
-  : equations_(equations)
+NodeSliding::NodeSliding(const LinearSolver& solver, const Points& b, const Nodes& nodes,
+  const Surfaces& surfaces, const Communicator& communicator)
+  : solver_(solver)
+  , b_(b)
   , nodes_(nodes)
   , surfaces_(surfaces)
   , communicator_(communicator)
@@ -30,12 +33,19 @@ double NodeSliding::norm(const Points& rows) const
   return std::sqrt(this->communicator_.sum(rows.squaredNorm()));
 }
 
-void NodeSliding::settle(State& state) const
+void NodeSliding::solve(const RowConstraints& constraints, Points& x, Monitor& monitor) const
+{
+  solveConstrained(this->solver_, this->b_, constraints, x, Tolerance, MaxIterations, monitor,
+    this->communicator_);
+}
+
+void NodeSliding::settle(State& state, Monitor& monitor) const
 {
   const RowConstraints held = { this->nodes_.rows,
     std::vector<Eigen::Matrix3d>(this->nodes_.rows.size(), Eigen::Matrix3d::Zero()) };
-  this->equations_.solve(held, state.x);
-  state.force = this->equations_.b - this->equations_.product(state.x);
+  this->solve(held, state.x, monitor);
+  this->solver_.product(state.x, state.force, monitor);
+  state.force = this->b_ - state.force;
   double sum = 0;
   for (std::size_t k = 0; k < this->nodes_.rows.size(); ++k)
   {
@@ -53,10 +63,9 @@ std::vector<NodeSliding::Round> NodeSliding::run(int rounds, Points& x, Monitor&
   std::vector<Round> result;
   State now;
   now.x = x;
-  this->settle(now);
+  this->settle(now, monitor);
   const double before = now.pull;
-  const double rounding =
-    10 * Tolerance * std::max(this->norm(this->equations_.b), this->norm(now.force));
+  const double rounding = 10 * Tolerance * std::max(this->norm(this->b_), this->norm(now.force));
   for (int round = 0; round < rounds && now.pull > rounding; ++round)
   {
     monitor.check();
@@ -66,7 +75,7 @@ std::vector<NodeSliding::Round> NodeSliding::run(int rounds, Points& x, Monitor&
       along.directions.push_back(this->surfaces_.directions(i, this->place(i, now.x)));
     }
     Points wanted = now.x;
-    this->equations_.solve(along, wanted);
+    this->solve(along, wanted, monitor);
 
     Round done;
     bool isBetter = false;
@@ -86,7 +95,7 @@ std::vector<NodeSliding::Round> NodeSliding::run(int rounds, Points& x, Monitor&
         done.change = std::max(done.change, (to - from).norm());
       }
       done.change = this->communicator_.maximum(done.change);
-      this->settle(next);
+      this->settle(next, monitor);
       isBetter = next.pull < now.pull;
     }
     if (!isBetter)

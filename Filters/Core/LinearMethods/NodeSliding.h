@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solvers/SpdSolver.h"
+#include "Solvers/LinearSolver.h"
 #include "Support/Communicator.h"
 #include "Support/Monitor.h"
 #include "Support/Types.h"
@@ -42,19 +42,9 @@ public:
     Points rest;           ///< #rows x 3
   };
 
-  struct Equations
-  {
-    Points b; ///< #rows x 3
-    /// SpdSolver::solveConstrained() for b, to `Tolerance`.
-    std::function<void(const RowConstraints& constraints, Points& x)> solve;
-    std::function<Points(const Points& x)> product; ///< A x
-  };
-  static constexpr double Tolerance = 1e-11;
-  static constexpr int MaxIterations = 5000;
-
-  /// Holds all arguments by reference.
-  NodeSliding(const Equations& equations, const Nodes& nodes, const Surfaces& surfaces,
-    const Communicator& communicator = Communicator::alone());
+  /// `solver`: of A; `b`: #rows x 3. Holds all arguments by reference.
+  NodeSliding(const LinearSolver& solver, const Points& b, const Nodes& nodes,
+    const Surfaces& surfaces, const Communicator& communicator = Communicator::alone());
 
   /// Takes at most so many rounds. `x`: #rows x 3 displacements, which are read at the sliding
   /// nodes. Nodes without a pull keep their bits.
@@ -67,12 +57,14 @@ private:
     Points x, force; ///< #rows x 3
     double pull = 0; ///< the norm of the force along the surfaces
   };
+  void solve(const RowConstraints& constraints, Points& x, Monitor& monitor) const;
   /// Finds the other unknowns, the sliding nodes' being given.
-  void settle(State& state) const;
+  void settle(State& state, Monitor& monitor) const;
   Row place(Index i, const Points& x) const;
   double norm(const Points& rows) const;
 
-  const Equations& equations_;
+  const LinearSolver& solver_;
+  const Points& b_;
   const Nodes& nodes_;
   const Surfaces& surfaces_;
   const Communicator& communicator_;

@@ -27,12 +27,10 @@ WeightColumns::WeightColumns(
   }
 }
 
-NodeWeights::NodeWeights(const Mesh& mesh, const Adjacency& around, const WeightColumns& columns,
-  const std::vector<double>& factors)
+NodeWeights::NodeWeights(const Mesh& mesh, const Adjacency& around, const WeightColumns& columns)
   : mesh_(&mesh)
   , around_(&around)
   , numbers_(&columns)
-  , factors_(&factors)
 {
 }
 
@@ -46,8 +44,7 @@ void NodeWeights::gather(Index node)
     for (int k = 0; k < n; ++k)
     {
       const int column = this->numbers_->ofNode[nodes[k]];
-      const int known = this->met_.size();
-      if (this->met_.localIndex(column) == known)
+      if (this->met_.add(column, 0))
       {
         this->columns_.push_back(column);
       }
@@ -157,46 +154,13 @@ bool NodeWeights::stiffness(Index node)
   return diagonal > 0 && std::isfinite(1 / diagonal);
 }
 
-void NodeWeights::stiffen(Index node)
-{
-  this->sum_.assign(this->columns_.size(), 0);
-  this->count_.assign(this->columns_.size(), 0);
-  const int own = this->numbers_->ofNode[node];
-  for (const Index* cell = this->around_->begin(node); cell != this->around_->end(node); ++cell)
-  {
-    const Index* nodes = this->mesh_->cell(*cell);
-    const int n = cellShape(this->mesh_->types[*cell])->numberOfCorners;
-    for (int k = 0; k < n; ++k)
-    {
-      const int column = this->numbers_->ofNode[nodes[k]];
-      if (column != own)
-      {
-        const auto place = std::lower_bound(this->columns_.begin(), this->columns_.end(), column) -
-                           this->columns_.begin();
-        this->sum_[place] += (*this->factors_)[*cell];
-        ++this->count_[place];
-      }
-    }
-  }
-  double total = 0;
-  for (std::size_t i = 0; i < this->weights_.size(); ++i)
-  {
-    this->weights_[i] *= this->sum_[i] / this->count_[i];
-    total += this->weights_[i];
-  }
-  for (double& w : this->weights_)
-  {
-    w /= total;
-  }
-}
-
 NodeWeights::Kind NodeWeights::compute(Index node, bool relax)
 {
   const auto oneRing = [&]
   {
     this->columns_.clear();
     this->met_.clear();
-    this->met_.localIndex(this->numbers_->ofNode[node]);
+    this->met_.add(this->numbers_->ofNode[node], 0);
     this->gather(node);
     std::sort(this->columns_.begin(), this->columns_.end());
     this->takeOffsets(node);
@@ -205,10 +169,6 @@ NodeWeights::Kind NodeWeights::compute(Index node, bool relax)
   oneRing();
   if (this->logBarrier())
   {
-    if (!this->factors_->empty())
-    {
-      this->stiffen(node);
-    }
     return Kind::OneRing;
   }
   if (!relax)

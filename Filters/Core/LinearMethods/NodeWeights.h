@@ -4,7 +4,7 @@
 #include "LinearMethods/LogBarrierWeights.h"
 #include "Mesh/Mesh.h"
 #include "Mesh/Topology.h"
-#include "Solvers/LocalColumnMap.h"
+#include "Solvers/AssembleRows.h"
 
 #include <array>
 #include <vector>
@@ -35,14 +35,11 @@ public:
     None       ///< no weights: only OneRing was allowed, or every cell around has zero volume
   };
 
-  /// The arguments must outlive this object. `around`: nodeToCells(mesh). `factors`: the stiffness
-  /// of each cell; none: 1.
-  NodeWeights(const Mesh& mesh, const Adjacency& around, const WeightColumns& columns,
-    const std::vector<double>& factors);
+  /// The arguments must outlive this object. `around`: nodeToCells(mesh).
+  NodeWeights(const Mesh& mesh, const Adjacency& around, const WeightColumns& columns);
 
   /// Computes the weights of `node`. With `relax` the kinds are tried in order, otherwise only the
-  /// first. Those of the first kind are then multiplied by the mean stiffness of the cells that
-  /// both nodes share, and divided by their sum.
+  /// first.
   Kind compute(Index node, bool relax);
 
   /// Ascending, without the node's own column.
@@ -59,20 +56,16 @@ private:
   bool logBarrier();
   bool leastNormAffine();
   bool stiffness(Index node);
-  void stiffen(Index node);
 
   const Mesh* mesh_;
   const Adjacency* around_;
   const WeightColumns* numbers_;
-  const std::vector<double>* factors_;
 
   LogBarrierWeights solver_;
   std::vector<int> columns_;
   std::vector<double> weights_;
   std::vector<std::array<double, 3>> offsets_;
-  std::vector<double> sum_; ///< per column: of the factors of shared cells
-  std::vector<int> count_;  ///< per column: shared cells
   int iterations_ = 0;
-  LocalColumnMap met_; ///< the node's own column and those gathered
+  SparseRow met_; ///< the node's own column and those gathered
 };
 }

@@ -40,7 +40,7 @@ void RadialBasis::setNumberOfCentres(Index count)
 
 void RadialBasis::requireSpace() const
 {
-  const int rank = AffineLeastSquares(this->sites_.coordinates()).rank();
+  const int rank = AffineLeastSquares(this->sites_.coordinates()).directions().rank();
   if (rank < 3)
   {
     const char* where[] = { "coincide", "lie on one line", "lie in one plane" };
@@ -102,8 +102,6 @@ void RadialBasis::doPrepare(const Mesh& rest, Monitor& monitor)
 EvaluateReport RadialBasis::report(double residual) const
 {
   EvaluateReport report;
-  report.bytesMoved = static_cast<double>(this->memory()) +
-                      sizeof(double) * static_cast<double>(this->freePlaces_.size());
   // Counts are whole numbers; rounded up, so that 0 means none.
   const double millionths = std::min(std::ceil(1e6 * residual / this->extent_), 1e18);
   report.statistics = { { "Centers", this->centres() },

@@ -4,7 +4,6 @@
 #include "Geometry/CosphericalStars.h"
 #include "Interpolation/AffineWeights.h"
 #include "Interpolation/PointLocation.h"
-#include "LinearMethods/BridgingTetrahedra.h"
 #include "Support/Error.h"
 #include "Support/ReproducibleSum.h"
 
@@ -146,9 +145,6 @@ void SimplexLinear::doPrepare(const Mesh& rest, Monitor& monitor)
   this->used_ = usedTetrahedra(enclosing, far, this->delaunay_.tetrahedra().size());
   this->affine_ = static_cast<Index>(far.size());
   this->extrapolated_ = static_cast<Index>(enclosing.extrapolated.size());
-  this->bridging_ = static_cast<Index>(bridgingTetrahedra(
-    rest, this->partition().prescribed, this->sites_, this->delaunay_, this->used_, monitor)
-                                         .size());
 }
 
 EvaluateReport SimplexLinear::displace(
@@ -174,15 +170,7 @@ EvaluateReport SimplexLinear::displace(
       return Index(!(Delaunay::sixVolumes(tetrahedron, moved) > 0));
     });
   EvaluateReport report;
-  // Sites are averaged. With the means they are copied, padded, and added to their displacements.
-  // A tetrahedron in use is read with its number and its four corners.
-  constexpr double Averaged = 48, Site = 48 + 56 + 72,
-                   Used = sizeof(int) + sizeof(Delaunay::Tetrahedron) + 4 * 24;
-  report.bytesMoved =
-    static_cast<double>(this->weights_.memory()) + 24. * static_cast<double>(free.rows()) +
-    Averaged * static_cast<double>(this->sites_.size()) + Site * static_cast<double>(moved.rows()) +
-    Used * static_cast<double>(this->used_.size());
-  report.statistics = { { "FoldedTetrahedra", folded }, { "BridgingTetrahedra", this->bridging_ },
+  report.statistics = { { "FoldedTetrahedra", folded },
     { "ExtrapolatedNodes", this->extrapolated_ }, { "AffineNodes", this->affine_ } };
   return report;
 }

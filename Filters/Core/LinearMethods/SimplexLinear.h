@@ -21,10 +21,9 @@ namespace morph
 /// renumbering nor turning the mesh has an effect beyond rounding.
 ///
 /// Counts: `FoldedTetrahedra`, with free nodes and without positive volume after the motion, which
-/// invert cells. `BridgingTetrahedra`, with free nodes and an edge that leaves the mesh.
-/// `ExtrapolatedNodes`, outside the prescribed nodes' convex hull by more than rounding.
-/// `AffineNodes`, those of them whose tetrahedron would give a weight above 10. They follow the
-/// affine fit to the nearest sites instead (AffineWeights.h).
+/// invert cells. `ExtrapolatedNodes`, outside the prescribed nodes' convex hull by more than
+/// rounding. `AffineNodes`, those of them whose tetrahedron would give a weight above 10. They
+/// follow the affine fit to the nearest sites instead (AffineWeights.h).
 ///
 /// prepare(): about 5 microseconds a site and 1 a free node. It keeps 56 bytes a free node and 50 a
 /// tetrahedron. It throws Error of kind Singular if the prescribed nodes lie in one plane.
@@ -56,6 +55,5 @@ private:
   std::vector<int> used_; ///< tetrahedra with free nodes, ascending
   Index extrapolated_ = 0;
   Index affine_ = 0;
-  Index bridging_ = 0;
 };
 }

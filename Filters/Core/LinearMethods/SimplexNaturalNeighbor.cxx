@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "LinearMethods/SimplexNaturalNeighbor.h"
 
-#include "Geometry/FarthestPoints.h"
-#include "Geometry/NearestNodes.h"
 #include "Geometry/SpatialOrder.h"
 #include "Support/ProgressRange.h"
 
 #include <algorithm>
 #include <atomic>
 #include <chrono>
-#include <cmath>
 #include <sstream>
 #include <utility>
 
@@ -19,11 +16,8 @@ namespace
 {
 constexpr Index BlockLength = 128;
 constexpr Index Samples = 64;
-constexpr Index LeastSites = 64;             // of a level
-constexpr double Ratio = 1.4142135623730951; // of the spacings of two levels
-constexpr double MostOfAll = 0.6;            // of the sites
 // of the transposed product: fixed, so that results do not depend on threads
-constexpr Index Sums = 32;
+constexpr Index PartialSums = 32;
 
 /// Calls work(first, last) in parallel on ranges that cover [0, blocks). A block takes microseconds
 /// or milliseconds, so the blocks between two chances to cancel go by the clock; the ranges do not
@@ -46,30 +40,6 @@ void inStretches(Index blocks, Monitor& monitor, Work&& work)
   }
 }
 
-/// Sorts by site, and adds the weights of each site.
-void joinEqualSites(std::vector<std::int32_t>& sites, std::vector<double>& weights)
-{
-  std::vector<std::pair<std::int32_t, double>> entries(sites.size());
-  for (std::size_t i = 0; i < sites.size(); ++i)
-  {
-    entries[i] = { sites[i], weights[i] };
-  }
-  std::stable_sort(
-    entries.begin(), entries.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-  sites.clear();
-  weights.clear();
-  for (const auto& [site, weight] : entries)
-  {
-    if (!sites.empty() && sites.back() == site)
-    {
-      weights.back() += weight;
-      continue;
-    }
-    sites.push_back(site);
-    weights.push_back(weight);
-  }
-}
-
 /// Returns the indices in `ids` in spatial order of the nodes.
 std::vector<Index> placesInOrder(const Points& points, const std::vector<Index>& ids)
 {
@@ -82,148 +52,6 @@ std::vector<Index> placesInOrder(const Points& points, const std::vector<Index>&
 }
 }
 
-SimplexNaturalNeighbor::Workspace::Workspace(const SimplexNaturalNeighbor& method)
-  : all(method.neighbors_)
-{
-  for (const Level& level : method.levels_)
-  {
-    this->levels.emplace_back(level.neighbors);
-  }
-}
-
-/// They depend on the sites alone, so they are the same on all ranks.
-void SimplexNaturalNeighbor::buildLevels(Monitor& monitor)
-{
-  this->levels_.clear();
-  if (!(this->coarsening_ > 0))
-  {
-    return;
-  }
-  const Points& sites = this->sites_.coordinates();
-  const FarthestPoints far = farthestPoints(sites, monitor);
-  double spacing = (sites.colwise().maxCoeff() - sites.colwise().minCoeff()).norm();
-  for (Index count = 0; count < sites.rows(); spacing /= Ratio)
-  {
-    // Distances do not increase after the fourth point.
-    count = 4;
-    while (count < sites.rows() && far.distances[count] > spacing)
-    {
-      ++count;
-    }
-    const bool isSmaller =
-      static_cast<double>(count) < MostOfAll * static_cast<double>(sites.rows());
-    if (count < LeastSites || !isSmaller)
-    {
-      if (count >= LeastSites)
-      {
-        break;
-      }
-      continue;
-    }
-    Level level;
-    level.spacing = spacing;
-    level.sites.assign(far.order.begin(), far.order.begin() + count);
-    std::sort(level.sites.begin(), level.sites.end());
-    Points own(count, 3);
-    for (Index i = 0; i < count; ++i)
-    {
-      own.row(i) = sites.row(level.sites[i]);
-    }
-    level.delaunay.build(own, monitor);
-    level.neighbors = NaturalNeighbors(level.delaunay, monitor);
-    this->levels_.push_back(std::move(level));
-  }
-  std::reverse(this->levels_.begin(), this->levels_.end());
-}
-
-void SimplexNaturalNeighbor::measureDistances(Monitor& monitor)
-{
-  this->distances_.assign(this->levels_.empty() ? 0 : this->order_.size(), 0);
-  if (this->levels_.empty())
-  {
-    return;
-  }
-  const NearestNodes nearest(this->sites_.coordinates());
-  Points places(static_cast<Index>(this->order_.size()), 3);
-  for (Index i = 0; i < places.rows(); ++i)
-  {
-    places.row(i) = this->restPoints().row(this->partition().free[i]);
-  }
-  monitor.parallelFor(places.rows(), BlockLength,
-    [&](Index first, Index last)
-    {
-      nearest.search(places, this->order_, first, last, 1,
-        [&](Index row, const NearestNodes::Neighbors& found)
-        { this->distances_[row] = std::sqrt(found.squaredDistances[0]); });
-    });
-}
-
-/// Adds `factor` times the weights among a level's sites. Returns false where there are none.
-bool SimplexNaturalNeighbor::levelWeights(
-  Index place, std::size_t number, double factor, Workspace& work) const
-{
-  const Level& level = this->levels_[number];
-  NaturalNeighbors::Workspace& own = work.levels[number];
-  const Eigen::RowVector3d x = this->restPoints().row(this->partition().free[place]);
-  const Eigen::RowVector3d local = x - level.delaunay.origin();
-  const int inside = level.delaunay.locate(local, level.delaunay.startNear(local));
-  if (!level.neighbors.compute(x, inside, this->coordinates_, own))
-  {
-    return false;
-  }
-  for (std::size_t i = 0; i < own.sites.size(); ++i)
-  {
-    work.sites.push_back(level.sites[own.sites[i]]);
-    work.weights.push_back(factor * own.weights[i]);
-  }
-  return true;
-}
-
-/// Returns false where all sites are to be used.
-bool SimplexNaturalNeighbor::coarseWeights(Index place, Workspace& work) const
-{
-  const double spacing = this->coarsening_ * this->distances_[place];
-  std::size_t count = 0; // of levels that are fine enough
-  while (count < this->levels_.size() && this->levels_[count].spacing <= spacing)
-  {
-    ++count;
-  }
-  for (std::size_t level = count; level-- > 0;)
-  {
-    // From the next finer level's weights to this one's, while the spacing grows to the next.
-    const double share =
-      level + 1 == count ? std::min(1., (spacing / this->levels_[level].spacing - 1) / (Ratio - 1))
-                         : 1;
-    work.sites.clear();
-    work.weights.clear();
-    if (share > 0 && !this->levelWeights(place, level, share, work))
-    {
-      continue;
-    }
-    if (share < 1)
-    {
-      const std::size_t before = work.sites.size();
-      if (level > 0 && this->levelWeights(place, level - 1, 1 - share, work))
-      {
-        return true;
-      }
-      work.sites.resize(before);
-      work.weights.resize(before);
-      if (level > 0 || !this->allWeights(place, work.all))
-      {
-        return false;
-      }
-      for (std::size_t i = 0; i < work.all.sites.size(); ++i)
-      {
-        work.sites.push_back(work.all.sites[i]);
-        work.weights.push_back((1 - share) * work.all.weights[i]);
-      }
-    }
-    return true;
-  }
-  return false;
-}
-
 Index SimplexNaturalNeighbor::blocks() const
 {
   return (static_cast<Index>(this->order_.size()) + BlockLength - 1) / BlockLength;
@@ -232,25 +60,11 @@ Index SimplexNaturalNeighbor::blocks() const
 /// Computes the weights into the workspace; returns false if they are barycentric coordinates.
 bool SimplexNaturalNeighbor::weightsOf(Index place, Workspace& work) const
 {
-  if (!this->levels_.empty() && this->coarseWeights(place, work))
-  {
-    joinEqualSites(work.sites, work.weights);
-    return true;
-  }
-  const bool isNatural = this->allWeights(place, work.all);
-  work.sites = work.all.sites;
-  work.weights = work.all.weights;
-  return isNatural;
-}
-
-/// As weightsOf(), among all sites.
-bool SimplexNaturalNeighbor::allWeights(Index place, NaturalNeighbors::Workspace& work) const
-{
   const Eigen::RowVector3d x = this->restPoints().row(this->partition().free[place]);
   const int inside = this->enclosing_.tetrahedron[place];
   const auto barycentric = this->enclosing_.barycentric.row(place);
   if (barycentric.minCoeff() >= -PointLocation::InsideTolerance &&
-      this->neighbors_.compute(x, inside, this->coordinates_, work))
+      this->neighbors_.compute(x, inside, work))
   {
     return true;
   }
@@ -262,7 +76,7 @@ bool SimplexNaturalNeighbor::allWeights(Index place, NaturalNeighbors::Workspace
 
 double SimplexNaturalNeighbor::estimateMemory() const
 {
-  Workspace work(*this);
+  Workspace work(this->neighbors_);
   const Index n = static_cast<Index>(this->order_.size());
   const Index samples = std::min(n, Samples);
   std::size_t entries = 0;
@@ -310,7 +124,7 @@ Index SimplexNaturalNeighbor::forEachBlock(
     }
     return barycentric;
   }
-  Workspace work(*this);
+  Workspace work(this->neighbors_);
   for (Index block = first; block < last; ++block)
   {
     WeightMatrix weights;
@@ -329,8 +143,6 @@ void SimplexNaturalNeighbor::doPrepare(const Mesh& rest, Monitor& monitor)
   this->enclosing_ = locatePoints(this->delaunay_, rest.points, free, monitor);
   this->neighbors_ = NaturalNeighbors(this->delaunay_, monitor);
   this->order_ = placesInOrder(rest.points, free);
-  this->buildLevels(monitor);
-  this->measureDistances(monitor);
   monitor.progress(0.05);
 
   const double estimate = this->estimateMemory();
@@ -352,7 +164,7 @@ void SimplexNaturalNeighbor::doPrepare(const Mesh& rest, Monitor& monitor)
   inStretches(static_cast<Index>(stored.size()), weighting,
     [&](Index first, Index last)
     {
-      Workspace work(*this);
+      Workspace work(this->neighbors_);
       for (Index block = first; block < last; ++block)
       {
         barycentric += this->computeBlock(block, work, stored[block]);
@@ -384,11 +196,6 @@ EvaluateReport SimplexNaturalNeighbor::displace(
         });
     });
   EvaluateReport report;
-  report.bytesMoved = 72. * static_cast<double>(free.rows());
-  for (const WeightMatrix& weights : this->stored_)
-  {
-    report.bytesMoved += static_cast<double>(weights.memory());
-  }
   report.statistics = { { "BarycentricNodes", barycentric },
     { "ExtrapolatedNodes", static_cast<Index>(this->enclosing_.extrapolated.size()) },
     { "WeightsStored", this->stored_.empty() ? 0 : 1 } };
@@ -399,9 +206,9 @@ EvaluateReport SimplexNaturalNeighbor::displaceTranspose(
   const Points& free, Points& prescribed, Monitor& monitor) const
 {
   const Index blocks = this->blocks();
-  const Index length = (blocks + Sums - 1) / Sums;
-  std::vector<Points> part(Sums);
-  monitor.parallelFor(Sums, 1,
+  const Index length = (blocks + PartialSums - 1) / PartialSums;
+  std::vector<Points> part(PartialSums);
+  monitor.parallelFor(PartialSums, 1,
     [&](Index firstSum, Index lastSum)
     {
       Monitor serial;
@@ -423,7 +230,7 @@ EvaluateReport SimplexNaturalNeighbor::displaceTranspose(
       }
     });
   monitor.check();
-  for (Index k = 1; k < Sums; ++k)
+  for (Index k = 1; k < PartialSums; ++k)
   {
     part[0] += part[k];
   }
@@ -435,7 +242,7 @@ void SimplexNaturalNeighbor::forEachNode(
   const std::function<void(Index, const std::vector<std::int32_t>&, const std::vector<double>&)>&
     use) const
 {
-  Workspace work(*this);
+  Workspace work(this->neighbors_);
   for (Index place : this->order_)
   {
     this->weightsOf(place, work);
@@ -451,12 +258,6 @@ std::size_t SimplexNaturalNeighbor::memory() const
   for (const WeightMatrix& weights : this->stored_)
   {
     bytes += weights.memory();
-  }
-  bytes += sizeof(double) * this->distances_.size();
-  for (const Level& level : this->levels_)
-  {
-    bytes += level.neighbors.memory() + level.sites.size() * (sizeof(std::int32_t) + 24) +
-             sizeof(Delaunay::Tetrahedron) * level.delaunay.tetrahedra().size();
   }
   return bytes;
 }

@@ -24,13 +24,6 @@ namespace morph
 /// takes the barycentric coordinates of simplex-linear if it is on or outside the prescribed nodes'
 /// convex hull, or if rounding spoils its weights.
 ///
-/// Coarsening bounds the neighbors' number, for large meshes. A node at the distance d from the
-/// nearest site takes the neighbors among a subset of the sites: each site is within `coarsening` d
-/// of one in the subset. So the motion of single sites reaches only the nodes near them. Subsets
-/// have 1 / sqrt(2) of each other's spacing (FarthestPoints.h). Weights are blended between two of
-/// them, so they stay continuous. They still sum to 1 and reproduce affine motions. A subset
-/// whose hull does not contain the node is left out for the next finer.
-///
 /// Counts: `BarycentricNodes`, which take these coordinates; `ExtrapolatedNodes`, outside the hull
 /// by more than rounding; `WeightsStored`, 1 or 0.
 ///
@@ -41,12 +34,6 @@ namespace morph
 class SimplexNaturalNeighbor : public LinearMorpher
 {
 public:
-  using Coordinates = NaturalNeighbors::Coordinates;
-  /// Call it before prepare(). Default Sibson.
-  void setCoordinates(Coordinates coordinates) { this->coordinates_ = coordinates; }
-  /// Sets the spacing of the sites that a node sees, over its distance from the nearest site. 0:
-  /// all sites. Range [0, 1]. Call it before prepare(). Default 0.
-  void setCoarsening(double coarsening) { this->coarsening_ = coarsening; }
   /// Sets the maximum number of bytes for the weights. Call it before prepare(). Default 4e9.
   void setMemoryLimit(std::size_t bytes) { this->memoryLimit_ = bytes; }
 
@@ -67,29 +54,8 @@ protected:
     const Points& free, Points& prescribed, Monitor& monitor) const override;
 
 private:
-  /// A subset of the sites.
-  struct Level
-  {
-    double spacing;                  ///< no site is farther from the subset
-    std::vector<std::int32_t> sites; ///< ascending
-    Delaunay delaunay;
-    NaturalNeighbors neighbors;
-  };
-  /// Buffers of one thread, for all sites and for each level, and its result.
-  struct Workspace
-  {
-    explicit Workspace(const SimplexNaturalNeighbor& method);
-    NaturalNeighbors::Workspace all;
-    std::vector<NaturalNeighbors::Workspace> levels;
-    std::vector<std::int32_t> sites;
-    std::vector<double> weights;
-  };
+  using Workspace = NaturalNeighbors::Workspace; ///< buffers of one thread, and its result
 
-  void buildLevels(Monitor& monitor);
-  void measureDistances(Monitor& monitor);
-  bool levelWeights(Index place, std::size_t level, double factor, Workspace& workspace) const;
-  bool coarseWeights(Index place, Workspace& workspace) const;
-  bool allWeights(Index place, NaturalNeighbors::Workspace& workspace) const;
   Index blocks() const;
   double estimateMemory() const;
   bool weightsOf(Index position, Workspace& workspace) const;
@@ -97,11 +63,7 @@ private:
   Index forEachBlock(
     Index first, Index last, const std::function<void(Index, const WeightMatrix&)>& use) const;
 
-  Coordinates coordinates_ = Coordinates::Sibson;
   std::size_t memoryLimit_ = 4000000000;
-  double coarsening_ = 0;
-  std::vector<Level> levels_; ///< the finest first, each with sqrt(2) of the spacing of the last
-  std::vector<double> distances_; ///< of each free node from the nearest site; empty without levels
   InterpolationSites sites_;
   Delaunay delaunay_;
   NaturalNeighbors neighbors_;

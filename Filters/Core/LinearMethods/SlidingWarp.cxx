@@ -4,7 +4,6 @@
 #include "LinearMethods/FemWarpSystem.h"
 #include "Mesh/Topology.h"
 #include "Mesh/UnknownOrdering.h"
-#include "Solvers/MixedPrecisionMatrix.h"
 #include "Support/Error.h"
 
 #include <utility>
@@ -21,11 +20,12 @@ void SlidingWarp::prepare(const Mesh& rest, const std::vector<Index>& prescribed
   this->rows_ = unknownOrdering(rest, partition.free);
   FemWarpSystem system = femWarpSystem(rest, this->rows_, partition.prescribed, {}, monitor);
   this->coupling_.swap(system.coupling);
-  const Points coordinates = rest.points(this->rows_, allColumns);
+  LinearEquations equations;
+  equations.matrix.swap(system.interior);
+  equations.coordinates = rest.points(this->rows_, allColumns);
   try
   {
-    this->solver_.prepare(
-      MixedPrecisionMatrix(std::move(system.interior), monitor), coordinates, monitor);
+    this->solver_.prepare(std::move(equations), monitor);
   }
   catch (const SingularRows& error)
   {
@@ -66,20 +66,14 @@ std::vector<SlidingWarp::Round> SlidingWarp::slide(
   const NodeSliding::Nodes nodes = { this->slidingRow_, this->points_(this->sliding_, allColumns) };
   const Points prescribed =
     moved(this->prescribed_, allColumns) - this->points_(this->prescribed_, allColumns);
-  NodeSliding::Equations equations;
-  equations.b = -(this->coupling_ * prescribed);
-  equations.solve = [&](const RowConstraints& constraints, Points& x)
-  {
-    this->solver_.solveConstrained(
-      equations.b, constraints, x, NodeSliding::Tolerance, NodeSliding::MaxIterations, monitor);
-  };
-  equations.product = [&](const Points& x) { return this->solver_.product(x, monitor); };
+  const Points b = -(this->coupling_ * prescribed);
   Points x = Points::Zero(static_cast<Index>(this->rows_.size()), 3);
   for (Index i = 0; i < count; ++i)
   {
     x.row(this->slidingRow_[i]) = moved.row(this->sliding_[i]) - nodes.rest.row(i);
   }
-  std::vector<Round> result = NodeSliding(equations, nodes, surfaces).run(rounds, x, monitor);
+  std::vector<Round> result =
+    NodeSliding(this->solver_, b, nodes, surfaces).run(rounds, x, monitor);
   for (Index i = 0; !result.empty() && i < count; ++i)
   {
     const Row displacement = x.row(this->slidingRow_[i]);

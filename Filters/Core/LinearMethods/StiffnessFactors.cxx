@@ -2,7 +2,6 @@
 #include "LinearMethods/StiffnessFactors.h"
 
 #include "Geometry/NearestNodes.h"
-#include "Geometry/SpatialOrder.h"
 #include "Mesh/CellShape.h"
 #include "Mesh/SimplicialDecomposition.h"
 #include "Support/Error.h"
@@ -11,7 +10,6 @@
 #include <cmath>
 #include <functional>
 #include <iterator>
-#include <numeric>
 #include <string>
 
 namespace morph
@@ -62,28 +60,15 @@ std::vector<double> volumes(const Mesh& mesh, Monitor& monitor)
 std::vector<double> wallDistances(const Mesh& mesh, const Points& walls, Monitor& monitor)
 {
   const NearestNodes nearest(walls);
-  Points centres = Points::Zero(mesh.numberOfCells(), 3);
-  std::vector<double> distance = ofCells(mesh, monitor,
+  return ofCells(mesh, monitor,
     [&](Index c)
     {
       const CellShape& shape = *cellShape(mesh.types[c]);
-      double corners[8][3];
+      double corners[8][3] = {};
       copyCorners(mesh, c, shape, mesh.points, corners[0]);
-      centres.row(c) =
-        Eigen::Map<const Points>(corners[0], shape.numberOfCorners, 3).colwise().mean();
-      return 1.;
+      return nearest.distance(
+        Eigen::Map<const Points>(corners[0], shape.numberOfCorners, 3).colwise().mean());
     });
-  std::vector<Index> all(mesh.numberOfCells());
-  std::iota(all.begin(), all.end(), Index(0));
-  const std::vector<Index> order = spatialOrder(centres, all);
-  monitor.parallelFor(mesh.numberOfCells(), Grain,
-    [&](Index first, Index last)
-    {
-      nearest.search(centres, order, first, last, 1,
-        [&](Index c, const NearestNodes::Neighbors& found)
-        { distance[c] *= std::sqrt(found.squaredDistances[0]); });
-    });
-  return distance;
 }
 
 /// Returns 1 / value^exponent; values below `least` of the mean count as this.

@@ -13,20 +13,6 @@ namespace morph
 namespace
 {
 constexpr Index Grain = 1024;
-
-void warnIfInsideOut(const AffineFit& fit, Monitor& monitor)
-{
-  const double determinant = (Eigen::Matrix3d::Identity() + fit.gradient()).determinant();
-  if (!(determinant > 0))
-  {
-    std::ostringstream text;
-    text << "The affine map fitted to the boundary's motion has determinant " << determinant
-         << ": it reflects or flattens the mesh. Move the boundary in smaller steps, or use a "
-            "method that follows "
-            "the mesh's cells.";
-    monitor.warn(text.str());
-  }
-}
 }
 
 void WeightedResidual::setNumberOfNeighbors(Index count)
@@ -41,20 +27,33 @@ void WeightedResidual::setNumberOfNeighbors(Index count)
 void WeightedResidual::doPrepare(const Mesh& rest, Monitor& monitor)
 {
   this->sites_ = InterpolationSites(rest.points, this->partition().prescribed);
-  this->fit_ = AffineLeastSquares(this->sites_.coordinates());
   this->freePlaces_ = rest.points(this->partition().free, allColumns);
+  this->fit_ = AffineLeastSquares(this->sites_.coordinates(), this->freePlaces_);
   monitor.check();
 
-  this->weights_ = inverseDistanceWeights(this->sites_, this->freePlaces_,
-    { this->numberOfNeighbors_, this->adaptiveNeighbors_ }, monitor);
+  this->weights_ =
+    inverseDistanceWeights(this->sites_, this->freePlaces_, this->numberOfNeighbors_, monitor);
 }
 
 EvaluateReport WeightedResidual::report() const
 {
   EvaluateReport report;
-  report.bytesMoved = static_cast<double>(this->weights_.memory()) +
-                      sizeof(double) * static_cast<double>(4 * this->freePlaces_.size());
   return report;
+}
+
+void WeightedResidual::warnOf(const Points& prescribed, Monitor& monitor) const
+{
+  const AffineFit fit = this->fit_.fit(this->sites_.average(prescribed, monitor));
+  const double determinant = (Eigen::Matrix3d::Identity() + fit.gradient()).determinant();
+  if (!(determinant > 0))
+  {
+    std::ostringstream text;
+    text << "The affine map fitted to the boundary's motion has determinant " << determinant
+         << ": it reflects or flattens the mesh. Move the boundary in smaller steps, or use a "
+            "method that follows "
+            "the mesh's cells.";
+    monitor.warn(text.str());
+  }
 }
 
 EvaluateReport WeightedResidual::displace(
@@ -62,7 +61,6 @@ EvaluateReport WeightedResidual::displace(
 {
   Points residual = this->sites_.average(prescribed, monitor);
   const AffineFit fit = this->fit_.fit(residual);
-  warnIfInsideOut(fit, monitor);
   for (Index s = 0; s < residual.rows(); ++s)
   {
     residual.row(s) -= fit.displacement(this->sites_.coordinates().row(s));

@@ -22,8 +22,8 @@ namespace morph
 ///
 /// It is exact for affine motions of prescribed nodes that do not all lie in one plane. If they do,
 /// the fit of minimum norm keeps the method linear, and nodes off the plane move as their
-/// projections. A free node within 1e-12 of the size of a site has the site's displacement. The n
-/// nearest are the smallest by (distance, site number). The map is not continuous in x: where the
+/// projections. A free node within 1e-12 of the size of a site has the site's displacement. Sites
+/// as far as the n-th nearest count, too (NearestNodes). The map is not continuous in x: where the
 /// n-th neighbor changes, u jumps by its share of the residual. On fine meshes, nodes on either
 /// side of the middle depend on different walls, so this method inverts cells first.
 ///
@@ -38,14 +38,6 @@ public:
   void setNumberOfNeighbors(Index count);
   Index numberOfNeighbors() const { return this->numberOfNeighbors_; }
 
-  /// Doubles a node's number of neighbors until they surround it or all prescribed nodes are used.
-  /// They surround it if their convex hull contains it (insideConvexHull()). A node in the middle
-  /// then depends on the walls on all sides. Default off, as in the paper. Neighborhoods become a
-  /// share of all prescribed nodes, so memory and time grow: on a cube of 50^3 cells from 80 to
-  /// 1,100 neighbors, 1.6 GB, and 20 times the time of prepare().
-  void setAdaptiveNeighbors(bool on) { this->adaptiveNeighbors_ = on; }
-  bool adaptiveNeighbors() const { return this->adaptiveNeighbors_; }
-
   /// Returns the sites of the weights' columns.
   const InterpolationSites& sites() const { return this->sites_; }
   /// #free x #sites, rows in the order of NodePartition::free.
@@ -56,6 +48,7 @@ public:
 protected:
   void doPrepare(const Mesh& rest, Monitor& monitor) override;
   /// Warns where the fit reflects or flattens the mesh: the result is then rarely useful.
+  void warnOf(const Points& prescribed, Monitor& monitor) const override;
   EvaluateReport displace(const Points& prescribed, Points& free, Monitor& monitor) const override;
   EvaluateReport displaceTranspose(
     const Points& free, Points& prescribed, Monitor& monitor) const override;
@@ -64,7 +57,6 @@ private:
   EvaluateReport report() const;
 
   Index numberOfNeighbors_ = 80;
-  bool adaptiveNeighbors_ = false;
   InterpolationSites sites_;
   AffineLeastSquares fit_;
   Points freePlaces_; ///< #free x 3

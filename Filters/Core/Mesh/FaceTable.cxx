@@ -2,6 +2,7 @@
 #include "Mesh/FaceTable.h"
 
 #include "Mesh/Polyhedra.h"
+#include "Support/Parallel.h"
 
 #include <algorithm>
 #include <numeric>
@@ -96,14 +97,11 @@ FaceTable faceTable(const Mesh& mesh, Monitor& monitor)
   table.first.resize(faces);
   table.uses.resize(faces);
   std::vector<Index> sorted = values;
-  monitor.parallelFor(faces, 4096,
-    [&](Index begin, Index end)
+  parallel(faces, monitor,
+    [&](Index f)
     {
-      for (Index f = begin; f < end; ++f)
-      {
-        std::sort(
-          sorted.begin() + table.corners.offsets[f], sorted.begin() + table.corners.offsets[f + 1]);
-      }
+      std::sort(
+        sorted.begin() + table.corners.offsets[f], sorted.begin() + table.corners.offsets[f + 1]);
     });
   // A collapsed face may have no corners left but one, never none.
   const auto lowestCorner = [&](Index face) { return sorted[table.corners.offsets[face]]; };

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Mesh/GatherMap.h"
 
+#include "Support/Parallel.h"
+
 namespace morph
 {
 std::vector<std::int32_t> inverseIndex(const std::vector<Index>& ids, Index nodes)
@@ -15,20 +17,16 @@ std::vector<std::int32_t> inverseIndex(const std::vector<Index>& ids, Index node
 
 void gatherSum(const Adjacency& places, const Points& parts, Points& result, Monitor& monitor)
 {
-  constexpr Index Grain = 4096;
   result.resize(static_cast<Index>(places.offsets.size()) - 1, 3);
-  monitor.parallelFor(result.rows(), Grain,
-    [&](Index first, Index last)
+  parallel(result.rows(), monitor,
+    [&](Index row)
     {
-      for (Index row = first; row < last; ++row)
+      Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
+      for (const Index* place = places.begin(row); place != places.end(row); ++place)
       {
-        Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
-        for (const Index* place = places.begin(row); place != places.end(row); ++place)
-        {
-          sum += parts.row(*place);
-        }
-        result.row(row) = sum;
+        sum += parts.row(*place);
       }
+      result.row(row) = sum;
     });
 }
 }

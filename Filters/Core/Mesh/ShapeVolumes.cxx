@@ -4,7 +4,7 @@
 #include "Mesh/CellShape.h"
 #include "Mesh/Polyhedra.h"
 #include "Mesh/SimplicialDecomposition.h"
-#include "Support/FirstTouch.h"
+#include "Support/Parallel.h"
 
 namespace morph
 {
@@ -28,23 +28,19 @@ const int ShapeVolumes::Shapes = static_cast<int>(Shape::Polyhedron) + 1;
 ShapeVolumes shapeVolumes(const Mesh& mesh, const ConnectedComponents& bodies,
   const std::vector<std::uint8_t>& skip, Monitor& monitor)
 {
-  constexpr Index Grain = 4096;
-  auto volume = largeVector<double>(mesh.numberOfCells(), 0., monitor);
-  monitor.parallelFor(mesh.numberOfCells(), Grain,
-    [&](Index first, Index last)
+  std::vector<double> volume(mesh.numberOfCells(), 0.);
+  parallel(mesh.numberOfCells(), monitor,
+    [&](Index c)
     {
-      for (Index c = first; c < last; ++c)
+      if (isPolyhedron(mesh, c))
       {
-        if (isPolyhedron(mesh, c))
-        {
-          volume[c] = polyhedronVolume(mesh, c, mesh.points);
-        }
-        else if (const CellShape* shape = volumeShape(mesh, c))
-        {
-          double corners[8][3];
-          copyCorners(mesh, c, *shape, mesh.points, corners[0]);
-          volume[c] = signedVolume(shape->shape, corners);
-        }
+        volume[c] = polyhedronVolume(mesh, c, mesh.points);
+      }
+      else if (const CellShape* shape = volumeShape(mesh, c))
+      {
+        double corners[8][3];
+        copyCorners(mesh, c, *shape, mesh.points, corners[0]);
+        volume[c] = signedVolume(shape->shape, corners);
       }
     });
   ShapeVolumes sums;

@@ -8,7 +8,7 @@
 #include "Mesh/ShapeVolumes.h"
 #include "Mesh/ShapeWindings.h"
 #include "Support/Buckets.h"
-#include "Support/FirstTouch.h"
+#include "Support/Parallel.h"
 #include "Support/UnionFind.h"
 
 #include <algorithm>
@@ -22,8 +22,6 @@ namespace morph
 {
 namespace
 {
-constexpr Index Grain = 4096;
-
 const CellShape* volumeShape(const Mesh& mesh, Index cell)
 {
   const CellShape* shape = cellShape(mesh.types[cell]);
@@ -341,32 +339,24 @@ ConnectedComponents connectedComponents(const Mesh& mesh, Monitor& monitor)
   constexpr Index None = -1;
   const Index nodes = mesh.numberOfNodes(), cells = mesh.numberOfCells();
   UnionFind<Index> bodies(nodes);
-  monitor.parallelFor(cells, Grain,
-    [&](Index first, Index last)
+  parallel(cells, monitor,
+    [&](Index c)
     {
-      for (Index c = first; c < last; ++c)
+      const CellShape* shape = volumeShape(mesh, c);
+      const Index corners = shape ? cornerCount(mesh, c, *shape) : 0;
+      for (Index k = 1, root = corners > 0 ? mesh.cell(c)[0] : None; k < corners; ++k)
       {
-        const CellShape* shape = volumeShape(mesh, c);
-        const Index corners = shape ? cornerCount(mesh, c, *shape) : 0;
-        for (Index k = 1, root = corners > 0 ? mesh.cell(c)[0] : None; k < corners; ++k)
-        {
-          root = bodies.join(root, mesh.cell(c)[k]);
-        }
+        root = bodies.join(root, mesh.cell(c)[k]);
       }
     });
 
   // Each cell gets its root, and the roots numbers in the order of their first cell.
   ConnectedComponents result;
-  resizeLarge(result.ofCell, cells);
-  monitor.parallelFor(cells, Grain,
-    [&](Index first, Index last)
-    {
-      for (Index c = first; c < last; ++c)
-      {
-        result.ofCell[c] = volumeShape(mesh, c) ? bodies.root(mesh.cell(c)[0]) : None;
-      }
-    });
-  auto number = largeVector<Index>(nodes, None, monitor);
+  result.ofCell.resize(cells);
+  parallel(cells, monitor,
+    [&](Index c)
+    { result.ofCell[c] = volumeShape(mesh, c) ? bodies.root(mesh.cell(c)[0]) : None; });
+  std::vector<Index> number(nodes, None);
   for (const Index root : result.ofCell)
   {
     if (root != None && number[root] == None)
@@ -374,23 +364,11 @@ ConnectedComponents connectedComponents(const Mesh& mesh, Monitor& monitor)
       number[root] = result.count++;
     }
   }
-  monitor.parallelFor(cells, Grain,
-    [&](Index first, Index last)
-    {
-      for (Index c = first; c < last; ++c)
-      {
-        result.ofCell[c] = result.ofCell[c] == None ? None : number[result.ofCell[c]];
-      }
-    });
-  resizeLarge(result.ofNode, nodes);
-  monitor.parallelFor(nodes, Grain,
-    [&](Index first, Index last)
-    {
-      for (Index i = first; i < last; ++i)
-      {
-        result.ofNode[i] = number[bodies.root(i)];
-      }
-    });
+  parallel(cells, monitor,
+    [&](Index c)
+    { result.ofCell[c] = result.ofCell[c] == None ? None : number[result.ofCell[c]]; });
+  result.ofNode.resize(nodes);
+  parallel(nodes, monitor, [&](Index i) { result.ofNode[i] = number[bodies.root(i)]; });
   return result;
 }
 

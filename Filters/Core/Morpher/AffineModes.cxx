@@ -22,7 +22,6 @@ void AffineModes::prepare(const LinearMorpher& method, const AffineFields& field
   scaled.col(0) *= unit;
   this->modes_ = method.fields(scaled, monitor, &this->report_);
   this->modes_.col(0) /= unit;
-  this->report_.bytesMoved = 80. * static_cast<double>(this->modes_.rows());
   this->given_ = fields; // last: what throws above leaves nothing prepared
 }
 

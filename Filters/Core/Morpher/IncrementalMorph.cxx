@@ -81,11 +81,14 @@ SubStepResult takeSubSteps(const Points& rest, const SubStepLimits& limits,
 
 SubStepResult morphIncrementally(const Mesh& rest, const Points& reference,
   const NodePartition& partition, const std::vector<std::int8_t>& orientation,
-  const BoundaryPath& path, const std::function<std::unique_ptr<Morpher>()>& make,
-  const SubStepLimits& limits, Monitor& whole)
+  const InvertedBefore& before, const BoundaryPath& path,
+  const std::function<std::unique_ptr<Morpher>()>& make, const SubStepLimits& limits,
+  Monitor& whole)
 {
   ProgressRange monitor(whole, 0, 1);
-  const std::vector<Index> atRest = invertedCells(rest, rest.points, orientation, monitor);
+  const auto inverted = [&](const Points& points)
+  { return before.added(points, invertedCells(rest, points, orientation, monitor)); };
+  const std::vector<Index> atRest = inverted(rest.points);
   if (!atRest.empty())
   {
     throw Error("The undeformed mesh has inverted or degenerate cells, so there is no valid mesh "
@@ -103,7 +106,7 @@ SubStepResult morphIncrementally(const Mesh& rest, const Points& reference,
     morpher->prepare(valid, partition, first);
     SubStepAttempt made;
     made.report = morpher->evaluate(path(time), made.moved, second);
-    made.inverted = invertedCells(rest, made.moved, orientation, monitor);
+    made.inverted = inverted(made.moved);
     return made;
   };
   return takeSubSteps(rest.points, limits, attempt, monitor);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "Morpher/Morpher.h"
+#include "Quality/InvertedBefore.h"
 
 #include <cstdint>
 #include <functional>
@@ -58,11 +59,13 @@ SubStepResult takeSubSteps(const Points& rest, const SubStepLimits& limits,
 
 /// Follows the path by takeSubSteps(), with a method prepared on the last valid mesh. `make`:
 /// creates the method with its options, not prepared; it gets setReference(`reference`), #nodes x
-/// 3. `orientation`: #cells, of the undeformed mesh. Throws Error for an undeformed mesh with
-/// inverted cells, and errors of prepare() at the first attempt. Cost: prepare() and evaluate() for
-/// each of at most `limits.attempts`, of which at most `limits.failures` fail.
+/// 3. `orientation`: #cells, of the undeformed mesh. Cells of `before` that are no worse do not
+/// count as inverted. Throws Error for an undeformed mesh with other inverted cells, and errors of
+/// prepare() at the first attempt. Cost: prepare() and evaluate() for each of at most
+/// `limits.attempts`, of which at most `limits.failures` fail.
 SubStepResult morphIncrementally(const Mesh& rest, const Points& reference,
   const NodePartition& partition, const std::vector<std::int8_t>& orientation,
-  const BoundaryPath& path, const std::function<std::unique_ptr<Morpher>()>& make,
-  const SubStepLimits& limits, Monitor& monitor);
+  const InvertedBefore& before, const BoundaryPath& path,
+  const std::function<std::unique_ptr<Morpher>()>& make, const SubStepLimits& limits,
+  Monitor& monitor);
 }

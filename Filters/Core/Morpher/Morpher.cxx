@@ -3,7 +3,6 @@
 
 #include "Mesh/IndexLimits.h"
 #include "Support/Error.h"
-#include "Support/HugePages.h"
 #include "Support/ProgressRange.h"
 #include "Support/ReproducibleSum.h"
 
@@ -93,7 +92,7 @@ Morpher::~Morpher() = default;
 void Morpher::prepare(const Mesh& rest, const NodePartition& partition, Monitor& monitor)
 {
   auto points = std::make_shared<Points>();
-  resizeUndefined(*points, rest.points.rows(), 3);
+  points->resize(rest.points.rows(), 3);
   *points = rest.points;
   this->prepareFor(rest, std::move(points), std::make_shared<NodePartition>(partition), monitor);
 }
@@ -132,6 +131,10 @@ void Morpher::prepareFor(const Mesh& rest, std::shared_ptr<const Points> points,
 
 // NOLINTNEXTLINE(performance-unnecessary-value-param): for methods that keep it
 void Morpher::setReference(Points)
+{
+}
+
+void Morpher::warnOf(const Points&, Monitor&) const
 {
 }
 
@@ -187,6 +190,7 @@ EvaluateReport Morpher::evaluate(
   ProgressRange whole(monitor, 0, 1);
   if (freeDisplacement.rows() > 0)
   {
+    this->warnOf(displacement, monitor);
     report = this->displace(displacement, freeDisplacement, whole);
   }
   if (reproducibleSum(freeDisplacement.rows(), monitor, Index(0),
@@ -203,7 +207,7 @@ EvaluateReport Morpher::evaluate(
                         prescribed.data() < moved.data() + moved.size();
   Points fresh;
   Points& result = moved.rows() == this->restPoints().rows() && !overlaps ? moved : fresh;
-  resizeUndefined(result, this->restPoints().rows(), 3);
+  result.resize(this->restPoints().rows(), 3);
   if (this->higherOrderNodes_.empty())
   {
     monitor.parallelFor(freeDisplacement.rows(), Grain,
@@ -237,11 +241,6 @@ EvaluateReport Morpher::evaluate(
   {
     moved.swap(fresh);
   }
-  // A free node's displacement is read to check it. Then it is read again, with the node's number
-  // and its undeformed place, and the place is written. A prescribed place becomes a displacement,
-  // and is copied.
-  report.bytesMoved += 104. * static_cast<double>(freeDisplacement.rows()) +
-                       136. * static_cast<double>(displacement.rows());
   monitor.progress(1);
   return report;
 }
@@ -306,7 +305,6 @@ EvaluateReport LinearMorpher::displaceFields(
   free << three, fourth.col(0);
   report.iterations = std::max(report.iterations, other.iterations);
   report.relativeResidual = std::max(report.relativeResidual, other.relativeResidual);
-  report.bytesMoved += other.bytesMoved;
   return report;
 }
 

@@ -27,7 +27,6 @@ struct EvaluateReport
 {
   int iterations = 0;          ///< of the iterative solver, 0 for direct formulas
   double relativeResidual = 0; ///< maximum over the three coordinates, 0 for direct formulas
-  double bytesMoved = 0;       ///< estimated memory traffic, for benchmarks
   /// the same names always for a method; empty where no node is free
   std::vector<Statistic> statistics;
 };
@@ -77,6 +76,9 @@ protected:
   /// displacements.
   virtual EvaluateReport displace(
     const Points& prescribed, Points& free, Monitor& monitor) const = 0;
+  /// Warns of what is wrong with a motion as a whole, `prescribed` as above. evaluate() calls it.
+  /// Modes are none: only their sums are.
+  virtual void warnOf(const Points& prescribed, Monitor& monitor) const;
 
   HigherOrderNodes higherOrderNodes_;
 

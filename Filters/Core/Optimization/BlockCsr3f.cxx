@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Optimization/BlockCsr3f.h"
 
+#include "Solvers/ConjugateGradients.h"
 #include "Support/Error.h"
 #include "Support/Simd.h"
-#include "Support/SimdDispatch.h"
-#include "Support/SimdMath.h"
 
 #include <Eigen/Cholesky>
 
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <cstring>
+#include <functional>
 #include <iterator>
 #include <numeric>
 #include <string>
@@ -31,28 +30,6 @@ MORPH_SIMD_INLINE void readBlock(const float* block, SimdDouble4 (&column)[3])
   {
     column[j] = widened(block + 3 * j);
   }
-}
-
-MORPH_SIMD_INLINE void read(const double* from, SimdDouble4& x)
-{
-  std::memcpy(&x, from, sizeof(x));
-}
-
-MORPH_SIMD_INLINE void write(const SimdDouble4& x, double* to)
-{
-  std::memcpy(to, &x, sizeof(x));
-}
-
-/// Sums the first three lanes of each product column[j] * x, whose fourth lane is 0, in lane j.
-MORPH_SIMD_INLINE void addTransposed(
-  const SimdDouble4 (&column)[3], const SimdDouble4& x, SimdDouble4& sum)
-{
-  const SimdDouble4 a = column[0] * x, b = column[1] * x, c = column[2] * x, zero = {};
-  const SimdDouble4 ab =
-    __builtin_shufflevector(a, b, 0, 4, 2, 6) + __builtin_shufflevector(a, b, 1, 5, 3, 7);
-  const SimdDouble4 c0 =
-    __builtin_shufflevector(c, zero, 0, 4, 2, 6) + __builtin_shufflevector(c, zero, 1, 5, 3, 7);
-  sum += __builtin_shufflevector(ab, c0, 0, 1, 4, 5) + __builtin_shufflevector(ab, c0, 2, 3, 6, 7);
 }
 }
 
@@ -78,13 +55,14 @@ struct BlockCsr3f::ChunkProduct
     const Chunk chunk(matrix, number);
     const Index rows = chunk.own + chunk.copies, firstCopy = matrix.copyOffsets_[number];
     double *in = work.data(), *out = in + 4 * rows;
+    const SimdDouble4 zero = {};
     for (Index i = 0; i < rows; ++i)
     {
       const Index row =
         i < chunk.own ? chunk.begin + i : matrix.copyRow_[firstCopy + i - chunk.own];
       const double* from = x.data() + 3 * row;
-      write(SimdDouble4{ from[0], from[1], from[2], 0 }, in + 4 * i);
-      write(SimdDouble4{}, out + 4 * i);
+      store(SimdDouble4{ from[0], from[1], from[2], 0 }, in + 4 * i);
+      store(SimdDouble4{}, out + 4 * i);
     }
     const std::int32_t* column =
       matrix.pattern_.columns.data() + matrix.pattern_.offsets[chunk.begin];
@@ -92,8 +70,8 @@ struct BlockCsr3f::ChunkProduct
     for (Index i = 0; i < chunk.own; ++i)
     {
       const float* end = matrix.blocks(chunk.begin + i + 1);
-      SimdDouble4 own, entries[3], sum[3];
-      read(in + 4 * i, own);
+      const SimdDouble4 own = load(in + 4 * i);
+      SimdDouble4 entries[3], sum[3];
       readBlock(block, entries);
       for (int j = 0; j < 3; ++j)
       {
@@ -108,14 +86,11 @@ struct BlockCsr3f::ChunkProduct
         {
           sum[j] += entries[j] * other[j];
         }
-        SimdDouble4 transposed;
-        read(result, transposed);
-        addTransposed(entries, own, transposed);
-        write(transposed, result);
+        // Lane j of the transposed block's product is the sum of column j times `own`.
+        store(load(result) + sumsOf(entries[0] * own, entries[1] * own, entries[2] * own, zero),
+          result);
       }
-      SimdDouble4 whole;
-      read(out + 4 * i, whole);
-      write(whole + (sum[0] + sum[1] + sum[2]), out + 4 * i);
+      store(load(out + 4 * i) + (sum[0] + sum[1] + sum[2]), out + 4 * i);
     }
     for (Index i = 0; i < rows; ++i)
     {
@@ -269,66 +244,6 @@ std::vector<BlockCsr3f::InverseBlock> BlockCsr3f::inverseDiagonal(
   return inverse;
 }
 
-namespace
-{
-/// Preconditioned conjugate gradients from x = 0. `isDefinite`: becomes false where it ended at a
-/// direction that shows matrix or preconditioner not to be positive definite.
-template <typename Precondition>
-int conjugateGradients(const BlockCsr3f& A, const Precondition& precondition, const Points& b,
-  Points& x, double tolerance, int most, Monitor& monitor, const CopiedRows& copies,
-  bool& isDefinite)
-{
-  const Index n = A.rows();
-  x.setZero(n, 3);
-  Points r = b, z(n, 3), p(n, 3), Ap(n, 3);
-  precondition(r, z);
-  p = z;
-  double rz = copies.dot(r, z, monitor);
-  const double goal = tolerance * tolerance * copies.dot(b, b, monitor);
-  int iteration = 0;
-  while (iteration < most && rz > 0)
-  {
-    monitor.check();
-    A.multiply(p, Ap, monitor);
-    copies.add(Ap);
-    const double curvature = copies.dot(p, Ap, monitor);
-    if (!(curvature > 0))
-    {
-      break;
-    }
-    ++iteration;
-    const double alpha = rz / curvature;
-    monitor.parallelFor(n, Grain,
-      [&](Index first, Index last)
-      {
-        const Index rows = last - first;
-        x.middleRows(first, rows) += alpha * p.middleRows(first, rows);
-        r.middleRows(first, rows) -= alpha * Ap.middleRows(first, rows);
-      });
-    if (iteration == most || copies.dot(r, r, monitor) <= goal)
-    {
-      return iteration;
-    }
-    precondition(r, z);
-    const double next = copies.dot(r, z, monitor);
-    const double beta = next / rz;
-    rz = next;
-    monitor.parallelFor(n, Grain,
-      [&](Index first, Index last)
-      {
-        const Index rows = last - first;
-        p.middleRows(first, rows) = z.middleRows(first, rows) + beta * p.middleRows(first, rows);
-      });
-  }
-  isDefinite = false;
-  if (iteration == 0)
-  {
-    x = z; // no curvature at all: the preconditioned gradient is still a direction
-  }
-  return iteration;
-}
-}
-
 /// Symmetric: a step by the diagonal blocks, the correction of the whole mesh, and a step again.
 class BlockCsr3f::TwoLevels
 {
@@ -407,7 +322,31 @@ int BlockCsr3f::solve(const Points& b, Points& x, double tolerance, int most, Mo
 {
   const std::vector<InverseBlock> inverse = this->inverseDiagonal(monitor, copies);
   int iterations = 0;
-  bool isDefinite = whole != nullptr;
+  const auto run = [&](const PointsSystem::Operator& precondition, double part)
+  {
+    x.setZero(this->rows(), 3);
+    PointsSystem system = { [&](const Points& from, Points& to)
+      {
+        this->multiply(from, to, monitor);
+        copies.add(to);
+      },
+      precondition, [&](const Points& v, const Points& w) { return copies.dot(v, w, monitor); }, b,
+      x, monitor };
+    system.r = b;
+    system.z.resize(this->rows(), 3);
+    Sums norm2 = system.one(copies.dot(b, b, monitor));
+    SolverGoal goal;
+    goal.goal2 = part * part * norm2;
+    goal.mostIterations = most;
+    int made = 0;
+    const bool isDefinite = runConjugateGradients(system, norm2, goal, made, monitor);
+    if (!isDefinite && made == 0)
+    {
+      x = system.z; // no curvature at all: the preconditioned gradient is still a direction
+    }
+    iterations += made;
+    return isDefinite;
+  };
   if (whole)
   {
     if (whole->rows() != this->rows())
@@ -415,25 +354,19 @@ int BlockCsr3f::solve(const Points& b, Points& x, double tolerance, int most, Mo
       throw Error("The preconditioner has " + std::to_string(whole->rows()) + " rows, the matrix " +
                   std::to_string(this->rows()) + ".");
     }
-    iterations = conjugateGradients(*this, TwoLevels(*this, *whole, inverse, monitor), b, x,
-      wholeTolerance, most, monitor, copies, isDefinite);
-  }
-  if (!isDefinite)
-  {
-    const auto byBlocks = [&](const Points& from, Points& to)
+    const TwoLevels levels(*this, *whole, inverse, monitor);
+    if (run(std::cref(levels), wholeTolerance))
     {
-      monitor.parallelFor(this->rows(), Grain,
-        [&](Index first, Index last)
-        {
-          for (Index row = first; row < last; ++row)
-          {
-            inverse[row].multiply(from.data() + 3 * row, to.data() + 3 * row);
-          }
-        });
-    };
-    iterations +=
-      conjugateGradients(*this, byBlocks, b, x, tolerance, most, monitor, copies, isDefinite);
+      return iterations;
+    }
   }
+  run(
+    [&](const Points& from, Points& to)
+    {
+      parallel(this->rows(), monitor,
+        [&](Index row) { inverse[row].multiply(from.data() + 3 * row, to.data() + 3 * row); });
+    },
+    tolerance);
   return iterations;
 }
 }

@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Optimization/Descent.h"
 #include "Support/Simd.h"
-#include "Support/SimdDispatch.h"
-#include "Support/SimdMath.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <limits>
 
 namespace morph
@@ -26,23 +23,17 @@ Index blocksOf(const Points& points)
   return (points.rows() + BlockRows - 1) / BlockRows;
 }
 
-MORPH_SIMD_INLINE void loadAt(const double* from, SimdDouble4& to)
-{
-  std::memcpy(&to, from, sizeof(to));
-}
-
 /// Adds the products of `count` numbers.
 MORPH_SIMD_INLINE void addProduct(const double* a, const double* b, Index count, double& result)
 {
-  SimdDouble4 sum[2] = {}, x, y;
+  SimdDouble4 sum[2] = {};
   Index k = 0;
   for (; k + 2 * SimdWidth <= count; k += 2 * SimdWidth)
   {
     for (int half = 0; half < 2; ++half)
     {
-      loadAt(a + k + half * SimdWidth, x);
-      loadAt(b + k + half * SimdWidth, y);
-      sum[half] += x * y;
+      const Index at = k + half * SimdWidth;
+      sum[half] += load(a + at) * load(b + at);
     }
   }
   for (; k < count; ++k)

@@ -3,19 +3,15 @@
 
 #include "Mesh/CellShape.h"
 #include "Quality/CornerNodes.h"
-#include "Support/SimdDispatch.h"
-#include "Support/SimdMath.h"
+#include "Support/Simd.h"
 
 #include <cmath>
-#include <cstring>
 #include <limits>
 
 namespace morph
 {
 namespace
 {
-using Mask = decltype(SimdDouble4{} < SimdDouble4{});
-
 /// A vector in each of four cells.
 struct Vector4
 {
@@ -64,20 +60,20 @@ MORPH_SIMD_INLINE SimdDouble4 cornerDeterminant(
 }
 
 /// Scales the vectors to length 1. Clears the lanes of `good` where that is no ordinary number.
-MORPH_SIMD_INLINE void normalize(Vector4& a, const SimdDouble4& length, Mask& good)
+MORPH_SIMD_INLINE void normalize(Vector4& a, const SimdDouble4& length, SimdMask4& good)
 {
-  good &= (length > 1e-150) & (length < std::numeric_limits<double>::infinity());
+  good = good & (length > 1e-150) & (length < std::numeric_limits<double>::infinity());
   a = { a.x / length, a.y / length, a.z / length };
 }
 
 MORPH_SIMD_INLINE SimdDouble4 least(const SimdDouble4& a, const SimdDouble4& b)
 {
-  return b < a ? b : a;
+  return select(b < a, b, a);
 }
 
 MORPH_SIMD_INLINE SimdDouble4 greatest(const SimdDouble4& a, const SimdDouble4& b)
 {
-  return a < b ? b : a;
+  return select(a < b, b, a);
 }
 
 template <int Corners>
@@ -95,7 +91,7 @@ struct Hexes
   {
     Vector4 x[8];
     loadCorners(cells, x);
-    Mask good = ~Mask{};
+    SimdMask4 good = !SimdMask4{};
     Vector4 r = x[1] - x[0] + x[2] - x[3] + x[5] - x[4] + x[6] - x[7];
     Vector4 s = x[3] - x[0] + x[2] - x[1] + x[7] - x[4] + x[6] - x[5];
     Vector4 t = x[4] - x[0] + x[5] - x[1] + x[6] - x[2] + x[7] - x[3];
@@ -124,8 +120,8 @@ struct Hexes
       }
       minimum = least(minimum, cornerDeterminant(outgoing[0], outgoing[1], outgoing[2]));
     }
-    std::memcpy(scaledJacobian, &minimum, sizeof(minimum));
-    isGood = !any(~good);
+    store(minimum, scaledJacobian);
+    isGood = !any(!good);
   }
 };
 
@@ -143,9 +139,9 @@ struct Tets
     const SimdDouble4 longest = greatest(
       greatest(greatest(l01 * l02 * l03, l01 * l12 * l13), l02 * l12 * l23), l03 * l13 * l23);
     const SimdDouble4 value = std::sqrt(2.0) * determinant(e01, e02, e03) / longest;
-    std::memcpy(scaledJacobian, &value, sizeof(value));
+    store(value, scaledJacobian);
     const SimdDouble4 sum = l01 + l02 + l03 + l12 + l13 + l23; // NaN, too, is not below infinity
-    isGood = !any(~((shortest > 1e-150) & (sum < std::numeric_limits<double>::infinity())));
+    isGood = !any(!((shortest > 1e-150) & (sum < std::numeric_limits<double>::infinity())));
   }
 };
 }

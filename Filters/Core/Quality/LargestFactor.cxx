@@ -6,7 +6,9 @@
 #include "Quality/PolynomialRoot.h"
 #include "Quality/QuadraticJacobian.h"
 #include "Quality/QuadraticMap.h"
+#include "Support/Parallel.h"
 
+#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -20,7 +22,9 @@ namespace morph
 namespace
 {
 using Vector = Eigen::Vector3d;
-constexpr Index Grain = 256;
+constexpr Index Batch = 64; // cells, of some milliseconds at most
+constexpr Index Grain = 8;
+constexpr int MostSteps = 4000; // of a cell, for slivers that shear without end
 constexpr double Infinity = std::numeric_limits<double>::infinity();
 constexpr double Turn = 6.28318530717958647692;
 
@@ -44,9 +48,13 @@ double safeStep(double d, const std::array<double, 3>& size, const std::array<do
 class MovingCell
 {
 public:
-  MovingCell(const Mesh& mesh, const CombinedMotion& motion)
+  /// `last`: the largest factor that step() is asked for.
+  MovingCell(
+    const Mesh& mesh, const CombinedMotion& motion, const InvertedBefore& before, double last)
     : mesh_(mesh)
     , motion_(motion)
+    , before_(before)
+    , last_(last)
     , fields_(2 + 2 * motion.turns.size())
     , edges_(fields_.size())
   {
@@ -60,7 +68,8 @@ public:
     {
       return false;
     }
-    const bool isQuadratic = isQuadraticVolume(*this->shape_);
+    this->positive_ = this->before_.positivePlaces(cell);
+    const bool isQuadratic = isQuadraticVolume(*this->shape_) && !this->positive_;
     this->map_ = isQuadratic ? QuadraticMap::find(this->mesh_.types[cell]) : nullptr;
     this->sign_ = sign;
     const auto nodes = this->mesh_.cell(cell);
@@ -74,23 +83,15 @@ public:
       this->gather(2 + 2 * t, this->motion_.turns[t].first, nodes);
       this->gather(3 + 2 * t, this->motion_.turns[t].second, nodes);
     }
-    if (this->isPolyhedron_)
+    if (this->isPolyhedron_ &&
+        !this->polyhedron_.take(this->mesh_, cell, *this->motion_.base, sign))
     {
-      if (!this->polyhedron_.take(this->mesh_, cell, *this->motion_.base, sign))
-      {
-        return false;
-      }
+      return false;
     }
-    else
-    {
-      Vector corner[8];
-      this->gatherCorners(this->fields_[0].data(), corner);
-      if (hasCollapsedEdge(*this->shape_, corner))
-      {
-        return false;
-      }
-    }
-    this->setSpeeds();
+    this->setEdges(this->edgesAtRest_, this->fields_[0].data());
+    // A determinant is the same for an observer who turns with the cell, and sees it move less.
+    const Speeds seen = this->speeds(this->meanTurn()), still = this->speeds(Vector::Zero());
+    this->speeds_ = seen.sum < still.sum ? seen : still;
     return true;
   }
 
@@ -98,7 +99,7 @@ public:
 
   bool isValidAtRest() const
   {
-    for (const auto& e : this->edges_[0])
+    for (const auto& e : this->edgesAtRest_)
     {
       if (!(this->sign_ * e[0].dot(e[1].cross(e[2])) > 0))
       {
@@ -119,7 +120,7 @@ public:
       const auto& e = this->edgesNow_[place];
       const std::array<double, 3> size = { e[0].norm(), e[1].norm(), e[2].norm() };
       const double d = this->sign_ * e[0].dot(e[1].cross(e[2]));
-      result = d > 0 ? std::min(result, safeStep(d, size, this->speed_[place])) : 0;
+      result = d > 0 ? std::min(result, safeStep(d, size, this->speeds_.ofPlace[place])) : 0;
       if (result == 0)
       {
         return 0;
@@ -144,8 +145,15 @@ private:
   void setEdges(Edges& edges, const Vector* x) const
   {
     edges.clear();
-    const auto add = [&edges](const Vector& a, const Vector& b, const Vector& c) {
-      edges.push_back({ a, b, c });
+    std::size_t place = 0;
+    const auto add = [&](const Vector& a, const Vector& b, const Vector& c)
+    {
+      const bool isFollowed = !this->positive_ || (*this->positive_)[place];
+      ++place;
+      if (isFollowed)
+      {
+        edges.push_back({ a, b, c });
+      }
     };
     if (this->isPolyhedron_)
     {
@@ -166,48 +174,97 @@ private:
     }
   }
 
-  /// The fastest change of a vector whose parts are given by `sizeOf(field)`.
-  template <typename SizeOf>
-  double speedOf(const SizeOf& sizeOf) const
+  /// How fast the edges change at most, as an observer sees it.
+  struct Speeds
   {
-    double speed = sizeOf(1);
+    std::vector<std::array<double, 3>> ofPlace;
+    std::array<double, 3> quadratic = {}; ///< of the derivatives of a quadratic cell
+    double sum = 0;
+  };
+
+  /// The angular velocity of the cell at the factor 0, by least squares over its edges.
+  Vector meanTurn()
+  {
+    Field velocity = this->fields_[1];
     for (std::size_t t = 0; t < this->motion_.turns.size(); ++t)
     {
-      speed +=
-        std::abs(this->motion_.turns[t].angle) * std::hypot(sizeOf(2 + 2 * t), sizeOf(3 + 2 * t));
+      for (int i = 0; i < this->nodes_; ++i)
+      {
+        velocity[i] += this->motion_.turns[t].angle * this->fields_[2 + 2 * t][i];
+      }
     }
-    return speed;
-  }
-
-  void setSpeeds()
-  {
-    for (std::size_t field = 0; field < this->fields_.size(); ++field)
-    {
-      this->setEdges(this->edges_[field], this->fields_[field].data());
-    }
-    this->speed_.resize(this->edges_[0].size());
-    for (std::size_t place = 0; place < this->speed_.size(); ++place)
+    this->setEdges(this->edges_[0], velocity.data());
+    Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
+    Vector momentum = Vector::Zero();
+    for (std::size_t place = 0; place < this->edgesAtRest_.size(); ++place)
     {
       for (int k = 0; k < 3; ++k)
       {
-        this->speed_[place][k] =
-          this->speedOf([&](std::size_t field) { return this->edges_[field][place][k].norm(); });
+        const Vector& e = this->edgesAtRest_[place][k];
+        inertia += e.squaredNorm() * Eigen::Matrix3d::Identity() - e * e.transpose();
+        momentum += e.cross(this->edges_[0][place][k]);
       }
     }
-    if (!this->isQuadratic())
+    return inertia.ldlt().solve(momentum);
+  }
+
+  /// The speeds for an observer with the angular velocity `w`: of x = base + f straight + sum of
+  /// sin(f a) p + (1 - cos(f a)) q he sees dx / df - w x x, which is straight - w x (base + sum of
+  /// q) - f w x straight + sum of cos(f a) (a p + w x q) + sin(f a) (a q - w x p).
+  Speeds speeds(const Vector& w)
+  {
+    std::vector<Field>& seen = this->seen_;
+    seen.assign(this->fields_.size(), Field(this->nodes_));
+    for (int i = 0; i < this->nodes_; ++i)
     {
-      return;
+      Vector turned = this->fields_[0][i] - this->fields_[0][0];
+      for (std::size_t t = 0; t < this->motion_.turns.size(); ++t)
+      {
+        const double angle = this->motion_.turns[t].angle;
+        const Vector &p = this->fields_[2 + 2 * t][i], &q = this->fields_[3 + 2 * t][i];
+        seen[2 + 2 * t][i] = angle * p + w.cross(q);
+        seen[3 + 2 * t][i] = angle * q - w.cross(p);
+        turned += q;
+      }
+      seen[0][i] = this->fields_[1][i] - w.cross(turned);
+      seen[1][i] = this->last_ * w.cross(this->fields_[1][i]);
     }
+    const auto fastest = [&](const auto& sizeOf)
+    {
+      double speed = sizeOf(0) + sizeOf(1);
+      for (std::size_t field = 2; field < seen.size(); field += 2)
+      {
+        speed += std::hypot(sizeOf(field), sizeOf(field + 1));
+      }
+      return speed;
+    };
+    Speeds result;
     std::vector<QuadraticMap::Derivatives> parts;
-    for (const Field& field : this->fields_)
+    for (std::size_t field = 0; field < seen.size(); ++field)
     {
-      parts.push_back(this->map_->derivatives(field.data()));
+      this->setEdges(this->edges_[field], seen[field].data());
+      if (this->isQuadratic())
+      {
+        parts.push_back(this->map_->derivatives(seen[field].data()));
+      }
     }
-    for (int k = 0; k < 3; ++k)
+    result.ofPlace.resize(this->edgesAtRest_.size());
+    for (std::size_t place = 0; place < result.ofPlace.size(); ++place)
     {
-      this->quadraticSpeed_[k] =
-        this->speedOf([&](std::size_t field) { return std::sqrt(3.) * parts[field].largest[k]; });
+      for (int k = 0; k < 3; ++k)
+      {
+        const double speed =
+          fastest([&](std::size_t field) { return this->edges_[field][place][k].norm(); });
+        result.ofPlace[place][k] = speed;
+        result.sum += speed;
+      }
     }
+    for (int k = 0; k < 3 && this->isQuadratic(); ++k)
+    {
+      result.quadratic[k] =
+        fastest([&](std::size_t field) { return std::sqrt(3.) * parts[field].largest[k]; });
+    }
+    return result;
   }
 
   void place(double factor)
@@ -247,19 +304,22 @@ private:
     {
       size[k] = std::sqrt(3.) * derivatives.largest[k];
     }
-    return least > 0 ? safeStep(least, size, this->quadraticSpeed_) : 0;
+    return least > 0 ? safeStep(least, size, this->speeds_.quadratic) : 0;
   }
 
   using Field = std::vector<Vector>; ///< of the cell's nodes
   const Mesh& mesh_;
   const CombinedMotion& motion_;
+  const InvertedBefore& before_;
+  const std::vector<bool>* positive_ = nullptr; ///< see InvertedBefore::positivePlaces()
+  double last_;
   std::vector<Field> fields_; ///< base, straight, and first and second of each turn
-  std::vector<Edges> edges_;  ///< of fields_
-  Edges edgesNow_;
+  std::vector<Field> seen_;   ///< scratch memory of speeds()
+  std::vector<Edges> edges_;  ///< of seen_
+  Edges edgesAtRest_, edgesNow_;
   Field now_;
   PolyhedronPlaces polyhedron_;
-  std::vector<std::array<double, 3>> speed_; ///< of each place
-  std::array<double, 3> quadraticSpeed_;
+  Speeds speeds_;
   const CellShape* shape_ = nullptr;
   const QuadraticMap* map_ = nullptr; ///< of a quadratic cell
   double sign_ = 1;
@@ -272,7 +332,7 @@ double follow(MovingCell& cell, double last, double known)
 {
   const double least = (cell.isQuadratic() ? 1e-5 : 1e-9) * last;
   double factor = 0;
-  for (;;)
+  for (int steps = 0; steps < MostSteps; ++steps)
   {
     const double step = cell.step(factor);
     if (step <= least)
@@ -286,13 +346,13 @@ double follow(MovingCell& cell, double last, double known)
       return Infinity;
     }
   }
+  return factor;
 }
 }
 
 LargestFactor largestFactor(const Mesh& mesh, const CombinedMotion& motion,
-  const std::vector<std::int8_t>& orientation, Monitor& monitor)
+  const std::vector<std::int8_t>& orientation, const InvertedBefore& before, Monitor& monitor)
 {
-  monitor.check();
   double fastest = 0;
   for (const CombinedMotion::Turn& turn : motion.turns)
   {
@@ -303,10 +363,10 @@ LargestFactor largestFactor(const Mesh& mesh, const CombinedMotion& motion,
   Index inverted = -1;
   std::mutex mutex;
   std::atomic<double> known = Infinity;
-  monitor.parallelFor(mesh.numberOfCells(), Grain,
+  parallelBatches(monitor, mesh.numberOfCells(), Batch, Grain,
     [&](Index first, Index end)
     {
-      MovingCell cell(mesh, motion);
+      MovingCell cell(mesh, motion, before, last);
       for (Index c = first; c < end; ++c)
       {
         if (!cell.take(c, orientation.empty() ? 1 : orientation[c]))

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "Mesh/Mesh.h"
+#include "Quality/InvertedBefore.h"
 #include "Support/Monitor.h"
 
 #include <cstdint>
@@ -43,12 +44,14 @@ struct LargestFactor
 /// coefficients (QuadraticMap.h), which is sufficient and not necessary. Each determinant is
 /// followed from 0 by steps in which it cannot reach 0: the edges change no faster than |straight|
 /// + sum of |angle| sqrt(|first|^2 + |second|^2), and a determinant by no more than the product of
-/// the edges' lengths grows. So the factor is on the safe side. The search ends where a step is
-/// below 1e-9 of a turn, for quadratic cells 1e-5.
+/// the edges' lengths grows. The turn of the whole cell is taken off first where that lowers the
+/// sum. So the factor is on the safe side. The search ends where a step is below 1e-9 of a turn,
+/// for quadratic cells 1e-5, and after 4000 steps.
 ///
-/// `orientation`: #cells of +1 / -1 (Topology.h), or empty. Cells with an edge of no length at f =
-/// 0 are left out. The result does not depend on the number of threads. Cost: some ten to a hundred
-/// times a measure of quality.
+/// `orientation`: #cells of +1 / -1 (Topology.h), or empty. Left out is what was not positive in
+/// the undeformed mesh: the places of cells in `before`, and these between their corners. The
+/// result does not depend on the number of threads. Cost: some ten to a hundred times a measure of
+/// quality.
 LargestFactor largestFactor(const Mesh& mesh, const CombinedMotion& motion,
-  const std::vector<std::int8_t>& orientation, Monitor& monitor);
+  const std::vector<std::int8_t>& orientation, const InvertedBefore& before, Monitor& monitor);
 }

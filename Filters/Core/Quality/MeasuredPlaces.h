@@ -44,22 +44,4 @@ void forEachMeasuredPlace(Shape shape, const X* x, const Take& take)
   }
   take(center[0], center[1], center[2]);
 }
-
-/// Whether two corners at an edge are at one place. `x`: as above; the first column counts.
-template <typename X>
-bool hasCollapsedEdge(const CellShape& shape, const X* x)
-{
-  for (int f = 0; f < shape.numberOfFaces; ++f)
-  {
-    const FaceShape& face = shape.faces[f];
-    for (int k = 0; k < face.size; ++k)
-    {
-      if (x[face.corner[k]].col(0) == x[face.corner[(k + 1) % face.size]].col(0))
-      {
-        return true;
-      }
-    }
-  }
-  return false;
-}
 }

@@ -46,6 +46,10 @@ Part cutLower(Part& part, int degree)
 double firstPositiveRoot(const double* a, int degree)
 {
   constexpr double Infinity = std::numeric_limits<double>::infinity();
+  if (!std::all_of(a, a + degree + 1, [](double c) { return std::isfinite(c); }))
+  {
+    return 0; // nothing says that it is positive
+  }
   Part stack[MostHalvings + 2];
   int top = 0;
   stack[0] = { 0, 1, {} };
@@ -57,7 +61,7 @@ double firstPositiveRoot(const double* a, int degree)
   {
     Part& part = stack[top];
     const double t = part.low < 1 ? part.low / (1 - part.low) : Infinity;
-    if (!(part.b[0] > 0))
+    if (!(part.b[0] > 0) || t == Infinity)
     {
       return t;
     }

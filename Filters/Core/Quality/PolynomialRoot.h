@@ -8,9 +8,10 @@ constexpr int MostPolynomialDegree = 6;
 
 /// Returns the first root of a polynomial in (0, infinity), a lower bound of it within 1e-12 of
 /// it, or infinity where the polynomial is positive throughout. 0 if its value at 0 is not
-/// positive. `a`: degree + 1 coefficients, that of power 0 first. A place where the polynomial only
-/// touches zero counts as a root. Isolates the root by subdividing the Bernstein form on
-/// [0, infinity), u = t / (1 + t) (de Casteljau). Cost: some hundred operations.
+/// positive, or a coefficient is not finite. `a`: degree + 1 coefficients, that of power 0 first. A
+/// place where the polynomial only touches zero counts as a root. Isolates the root by subdividing
+/// the Bernstein form on [0, infinity), u = t / (1 + t) (de Casteljau). Cost: some hundred
+/// operations.
 double firstPositiveRoot(const double* a, int degree);
 
 /// Whether the polynomial is certainly positive on [0, `last`]: its Bernstein coefficients there

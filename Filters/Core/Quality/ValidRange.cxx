@@ -6,6 +6,7 @@
 #include "Quality/PolynomialRoot.h"
 #include "Quality/QuadraticJacobian.h"
 #include "Quality/QuadraticMap.h"
+#include "Support/Parallel.h"
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
@@ -21,7 +22,8 @@ namespace morph
 namespace
 {
 using Vector = Eigen::Vector3d;
-constexpr Index Grain = 1024;
+constexpr Index Batch = 8192; // cells, quadratic ones some 0.1 ms each
+constexpr Index Grain = 512;
 constexpr double Infinity = std::numeric_limits<double>::infinity();
 constexpr double Pi = 3.14159265358979323846;
 
@@ -222,21 +224,46 @@ void addQuadratic(const Mesh& mesh, const NodeMotion& motion, Index cell, double
   }
 }
 
-/// Adds the determinant of three edges, or that the cell is inverted at 0.
+/// Adds the determinants at the places of a cell, or that it is inverted at 0; not those of places
+/// that were not positive before.
 template <int D>
-void addEdges(
-  const Path<D>& a, const Path<D>& b, const Path<D>& c, Index cell, double sign, Ends& ends)
+class CellEnds
 {
-  const Determinant<D> values = determinant<D>(a, b, c, sign);
-  if (values[0] > 0)
+public:
+  CellEnds(const InvertedBefore& before, Index cell, double sign, Ends& ends)
+    : positive_(before.positivePlaces(cell))
+    , cell_(cell)
+    , sign_(sign)
+    , ends_(ends)
   {
-    addDeterminant<D>(values, cell, ends);
   }
-  else
+  bool isValidBefore() const { return this->positive_ == nullptr; }
+
+  void operator()(const Path<D>& a, const Path<D>& b, const Path<D>& c)
   {
-    ends.addInverted(cell);
+    const std::size_t place = this->place_++;
+    if (this->positive_ && !(*this->positive_)[place])
+    {
+      return;
+    }
+    const Determinant<D> values = determinant<D>(a, b, c, this->sign_);
+    if (values[0] > 0)
+    {
+      addDeterminant<D>(values, this->cell_, this->ends_);
+    }
+    else
+    {
+      this->ends_.addInverted(this->cell_);
+    }
   }
-}
+
+private:
+  const std::vector<bool>* positive_;
+  std::size_t place_ = 0;
+  Index cell_;
+  double sign_;
+  Ends& ends_;
+};
 
 /// What a thread keeps from one polyhedron to the next.
 template <int D>
@@ -248,7 +275,7 @@ struct PolyhedronMemory
 
 template <int D>
 void addPolyhedron(const Mesh& mesh, const NodeMotion& motion, Index cell, double sign,
-  PolyhedronMemory<D>& memory, Ends& ends)
+  PolyhedronMemory<D>& memory, CellEnds<D>& ends)
 {
   if (!memory.places.take(mesh, cell, *motion.base, sign))
   {
@@ -259,12 +286,13 @@ void addPolyhedron(const Mesh& mesh, const NodeMotion& motion, Index cell, doubl
   {
     memory.x.push_back(pathOf<D>(motion, mesh.cell(cell)[k]));
   }
-  memory.places.forEach(memory.x.data(), [&](const Path<D>& a, const Path<D>& b, const Path<D>& c)
-    { addEdges<D>(a, b, c, cell, sign, ends); });
+  memory.places.forEach(
+    memory.x.data(), [&](const Path<D>& a, const Path<D>& b, const Path<D>& c) { ends(a, b, c); });
 }
 
 template <int D>
-void addCell(const Mesh& mesh, const NodeMotion& motion, Index cell, double sign, Ends& ends)
+void addCell(const Mesh& mesh, const NodeMotion& motion, Index cell, double sign,
+  CellEnds<D>& places, Ends& ends)
 {
   const CellShape& shape = *cellShape(mesh.types[cell]);
   Path<D> x[8];
@@ -272,14 +300,9 @@ void addCell(const Mesh& mesh, const NodeMotion& motion, Index cell, double sign
   {
     x[k] = pathOf<D>(motion, mesh.cell(cell)[shape.cornerNode[k]]);
   }
-  if (hasCollapsedEdge(shape, x))
-  {
-    return;
-  }
-  forEachMeasuredPlace(shape.shape, x,
-    [&](const Path<D>& a, const Path<D>& b, const Path<D>& c)
-    { addEdges<D>(a, b, c, cell, sign, ends); });
-  if (isQuadraticVolume(shape))
+  forEachMeasuredPlace(
+    shape.shape, x, [&](const Path<D>& a, const Path<D>& b, const Path<D>& c) { places(a, b, c); });
+  if (isQuadraticVolume(shape) && places.isValidBefore())
   {
     addQuadratic<D>(mesh, motion, cell, sign, ends);
   }
@@ -287,7 +310,7 @@ void addCell(const Mesh& mesh, const NodeMotion& motion, Index cell, double sign
 
 template <int D>
 Ends endsOf(const Mesh& mesh, const NodeMotion& motion, const std::vector<std::int8_t>& orientation,
-  Monitor& monitor)
+  const InvertedBefore& before, Monitor& monitor)
 {
   Ends result;
   std::mutex mutex;
@@ -301,7 +324,7 @@ Ends endsOf(const Mesh& mesh, const NodeMotion& motion, const std::vector<std::i
     {
     }
   };
-  monitor.parallelFor(mesh.numberOfCells(), Grain,
+  parallelBatches(monitor, mesh.numberOfCells(), Batch, Grain,
     [&](Index first, Index last)
     {
       Ends ends;
@@ -313,13 +336,14 @@ Ends endsOf(const Mesh& mesh, const NodeMotion& motion, const std::vector<std::i
         if (const CellShape* shape = cellShape(mesh.types[c]); shape && shape->dimension == 3)
         {
           const double sign = orientation.empty() ? 1 : orientation[c];
+          CellEnds<D> places(before, c, sign, ends);
           if (shape->shape == Shape::Polyhedron)
           {
-            addPolyhedron<D>(mesh, motion, c, sign, memory, ends);
+            addPolyhedron<D>(mesh, motion, c, sign, memory, places);
           }
           else
           {
-            addCell<D>(mesh, motion, c, sign, ends);
+            addCell<D>(mesh, motion, c, sign, places, ends);
           }
           lower(low, ends.low.distance);
           lower(high, ends.high.distance);
@@ -335,12 +359,11 @@ Ends endsOf(const Mesh& mesh, const NodeMotion& motion, const std::vector<std::i
 }
 
 ValidRange validRange(const Mesh& mesh, const NodeMotion& motion,
-  const std::vector<std::int8_t>& orientation, Monitor& monitor)
+  const std::vector<std::int8_t>& orientation, const InvertedBefore& before, Monitor& monitor)
 {
-  monitor.check();
   const bool isRotation = motion.second != nullptr;
-  const Ends ends = isRotation ? endsOf<2>(mesh, motion, orientation, monitor)
-                               : endsOf<1>(mesh, motion, orientation, monitor);
+  const Ends ends = isRotation ? endsOf<2>(mesh, motion, orientation, before, monitor)
+                               : endsOf<1>(mesh, motion, orientation, before, monitor);
   const double unit = isRotation ? 2 / motion.angle : 1;
   ValidRange range;
   if (ends.inverted >= 0)

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "Mesh/Mesh.h"
+#include "Quality/InvertedBefore.h"
 #include "Support/Monitor.h"
 
 #include <cstdint>
@@ -20,7 +21,7 @@ struct NodeMotion
   double angle = 0; ///< radians, positive; of a motion with `second`
 };
 
-/// The open interval of a parameter around 0 in which no cell is inverted.
+/// The open interval of a parameter around 0 in which no cell gets inverted.
 struct ValidRange
 {
   double lowest = -std::numeric_limits<double>::infinity();
@@ -42,9 +43,10 @@ struct ValidRange
 /// sufficient and not necessary: its ends are on the safe side by more, and 0 where a coefficient
 /// is not positive at s = 0.
 ///
-/// `orientation`: #cells of +1 / -1 (Topology.h), or empty. Cells with an edge of no length at s =
-/// 0 are left out. The result does not depend on the number of threads. Cost: one pass, about as
-/// much as ten measures of quality, for a rotation six times that.
+/// `orientation`: #cells of +1 / -1 (Topology.h), or empty. Left out is what was not positive in
+/// the undeformed mesh: the places of cells in `before`, and these between their corners. The
+/// result does not depend on the number of threads. Cost: one pass, about as much as ten measures
+/// of quality, for a rotation six times that.
 ValidRange validRange(const Mesh& mesh, const NodeMotion& motion,
-  const std::vector<std::int8_t>& orientation, Monitor& monitor);
+  const std::vector<std::int8_t>& orientation, const InvertedBefore& before, Monitor& monitor);
 }

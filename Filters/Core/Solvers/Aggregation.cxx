@@ -2,7 +2,7 @@
 #include "Solvers/Aggregation.h"
 
 #include "Solvers/AssembleRows.h"
-#include "Support/HugePages.h"
+#include "Support/Parallel.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +13,6 @@ namespace
 {
 constexpr double NearShare = 0.2; // of the squared distance: sqrt(5) times the nearest distance
 constexpr float LeastDiagonal = 0.25f; // of a filtered row, in units of the matrix's own
-constexpr Index Grain = 4096;
 
 double distance2(const Points& points, Index i, Index j)
 {
@@ -27,24 +26,21 @@ double distance2(const Points& points, Index i, Index j)
 std::vector<std::uint8_t> nearNeighbors(
   const CsrRows<float>& A, const Points& coordinates, Monitor& monitor)
 {
-  auto near = largeVector<std::uint8_t>(A.entries());
-  monitor.parallelFor(A.rows, Grain,
-    [&](Index first, Index last)
+  std::vector<std::uint8_t> near(A.entries());
+  parallel(A.rows, monitor,
+    [&](Index i)
     {
-      std::vector<double> distances;
-      for (Index i = first; i < last; ++i)
+      const auto distanceTo = [&](int k)
+      { return A.column[k] == i ? HUGE_VAL : distance2(coordinates, i, A.column[k]); };
+      double nearest = HUGE_VAL;
+      for (int k = A.start[i]; k < A.start[i + 1]; ++k)
       {
-        distances.clear();
-        double nearest = HUGE_VAL;
-        for (int k = A.start[i]; k < A.start[i + 1]; ++k)
-        {
-          distances.push_back(A.column[k] == i ? HUGE_VAL : distance2(coordinates, i, A.column[k]));
-          nearest = std::min(nearest, distances.back());
-        }
-        for (std::size_t k = 0; k < distances.size(); ++k)
-        {
-          near[A.start[i] + k] = distances[k] < HUGE_VAL && distances[k] * NearShare <= nearest;
-        }
+        nearest = std::min(nearest, distanceTo(k));
+      }
+      for (int k = A.start[i]; k < A.start[i + 1]; ++k)
+      {
+        const double distance = distanceTo(k);
+        near[k] = distance < HUGE_VAL && distance * NearShare <= nearest;
       }
     });
   return near;
@@ -53,7 +49,7 @@ std::vector<std::uint8_t> nearNeighbors(
 int aggregate(const CsrRows<float>& A, const Points& coordinates,
   const std::vector<std::uint8_t>& near, std::vector<int>& group)
 {
-  const int n = A.rows;
+  const int n = static_cast<int>(A.rows);
   constexpr int None = -1;
   group.assign(n, None);
   int groups = 0;
@@ -124,12 +120,12 @@ int aggregate(const CsrRows<float>& A, const Points& coordinates,
   return groups;
 }
 
-CsrRows<float> smoothedProlongation(const CsrRows<float>& A, float eigenvalue,
+CsrMatrixOf<float> smoothedProlongation(const CsrRows<float>& A, float eigenvalue,
   const std::vector<std::uint8_t>& near, const std::vector<int>& group, int groups,
   Monitor& monitor)
 {
   const float omega = 4.f / 3.f / eigenvalue;
-  const auto makeRow = [&](int i, const auto& add)
+  const MakeRow makeRow = [&](Index i, SparseRow& row)
   {
     float diagonal = 0, own = 0;
     for (int k = A.start[i]; k < A.start[i + 1]; ++k)
@@ -140,20 +136,58 @@ CsrRows<float> smoothedProlongation(const CsrRows<float>& A, float eigenvalue,
     // The far neighbors nearly outweigh it: smoothing the row would blow it up, and the next level
     // would be singular to rounding. Layers of hexahedra have such rows where their height comes
     // near their width.
-    if (!(diagonal > LeastDiagonal * own))
-    {
-      add(group[i], 1);
-      return;
-    }
-    add(group[i], 1 - omega);
-    for (int k = A.start[i]; k < A.start[i + 1]; ++k)
+    const bool isSmoothed = diagonal > LeastDiagonal * own;
+    row.add(group[i], isSmoothed ? 1 - omega : 1);
+    for (int k = A.start[i]; isSmoothed && k < A.start[i + 1]; ++k)
     {
       if (near[k])
       {
-        add(group[A.column[k]], -omega / diagonal * A.value[k]);
+        row.add(group[A.column[k]], -omega / diagonal * A.value[k]);
       }
     }
   };
-  return assembleRows<float>(A.rows, groups, monitor, [&] { return makeRow; });
+  return rounded(assembleRows(A.rows, groups, groups, monitor, [&] { return makeRow; }).inside);
+}
+
+CsrMatrix tripleProduct(const CsrMatrixOf<float>& R, const CsrMatrix& A,
+  const CsrMatrixOf<float>& P, double factor, Monitor& monitor)
+{
+  const auto makeRows = [&]() -> MakeRow
+  {
+    return [&, RA = SparseRow()](Index i, SparseRow& row) mutable
+    {
+      RA.clear();
+      for (CsrMatrixOf<float>::InnerIterator r(R, i); r; ++r)
+      {
+        const double scaled = factor * r.value();
+        for (CsrMatrix::InnerIterator a(A, r.col()); a; ++a)
+        {
+          RA.add(static_cast<int>(a.col()), scaled * a.value());
+        }
+      }
+      for (const auto& [column, value] : RA.entries())
+      {
+        for (CsrMatrixOf<float>::InnerIterator p(P, column); p; ++p)
+        {
+          row.add(static_cast<int>(p.col()), value * p.value());
+        }
+      }
+    };
+  };
+  SplitMatrix product = assembleRows(R.rows(), P.cols(), P.cols(), monitor, makeRows);
+  CsrMatrix result;
+  result.swap(product.inside); // Eigen 3.4 would copy on a move
+  return result;
+}
+
+CsrMatrixOf<float> rounded(const CsrMatrix& A)
+{
+  CsrMatrixOf<float> result(A.rows(), A.cols());
+  result.resizeNonZeros(A.nonZeros());
+  std::copy_n(A.outerIndexPtr(), A.rows() + 1, result.outerIndexPtr());
+  std::copy_n(A.innerIndexPtr(), A.nonZeros(), result.innerIndexPtr());
+  std::transform(A.valuePtr(), A.valuePtr() + A.nonZeros(), result.valuePtr(),
+    [](double value) { return static_cast<float>(value); });
+  return result;
 }
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solvers/CsrRows.h"
+#include "Solvers/CsrMatrix.h"
 #include "Support/Monitor.h"
 #include "Support/Types.h"
 
@@ -27,7 +27,16 @@ int aggregate(const CsrRows<float>& A, const Points& coordinates,
 /// constant on each aggregate. A_F keeps the near neighbors and adds the other entries to its
 /// diagonal. `eigenvalue`: the largest one of D^-1 A. `groups`: the number of aggregates. Source:
 /// Vanek, Mandel, Brezina, Computing 56 (1996) 179-196.
-CsrRows<float> smoothedProlongation(const CsrRows<float>& A, float eigenvalue,
+CsrMatrixOf<float> smoothedProlongation(const CsrRows<float>& A, float eigenvalue,
   const std::vector<std::uint8_t>& near, const std::vector<int>& group, int groups,
   Monitor& monitor);
+
+/// Returns the factor times R A P in double precision. The result does not depend on threads.
+/// Throws Error if an int cannot number its entries. Cost: the products R A and (R A) P. No product
+/// is stored but the result.
+CsrMatrix tripleProduct(const CsrMatrixOf<float>& R, const CsrMatrix& A,
+  const CsrMatrixOf<float>& P, double factor, Monitor& monitor);
+
+/// Rounds a matrix to single precision.
+CsrMatrixOf<float> rounded(const CsrMatrix& A);
 }

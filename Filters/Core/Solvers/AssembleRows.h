@@ -1,97 +1,102 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solvers/ColumnMap.h"
 #include "Solvers/CsrMatrix.h"
-#include "Solvers/CsrRows.h"
-#include "Solvers/RowChunks.h"
-#include "Support/HugePages.h"
 #include "Support/Monitor.h"
 #include "Support/Types.h"
 
 #include <algorithm>
-#include <cstddef>
-#include <memory>
+#include <cstdint>
+#include <functional>
+#include <utility>
 #include <vector>
 
 namespace morph
 {
-/// Makes the rows of one chunk. `local`: the columns in a row.
-template <typename Scalar, typename MakeRow>
-void makeChunk(int first, int last, MakeRow& makeRow, ColumnMap& local, RowsInWork<Scalar>& rows)
+/// Sums the entries of one row by their columns, in a hash table with open addressing.
+class SparseRow
 {
-  rows.clear();
-  for (int i = first; i < last; ++i)
-  {
-    const std::size_t start = rows.column.size();
-    local.clear();
-    makeRow(i,
-      [&](int column, Scalar value)
-      {
-        const std::size_t at = start + local.localIndex(column);
-        if (at < rows.column.size())
-        {
-          rows.value[at] += value;
-          return;
-        }
-        rows.column.push_back(column);
-        rows.value.push_back(value);
-      });
-    rows.size.push_back(static_cast<int>(rows.column.size() - start));
-  }
-}
+public:
+  using Entry = std::pair<int, double>; ///< column and value
 
-/// Assembles a matrix from its rows in chunks of a fixed size, so it does not depend on threads.
-/// makeRow(i, add) calls add(column, value) in any order, also repeatedly for a column. Columns
-/// have the order of their first call. makeRow = makeRows() is made once per thread's range.
-/// `columns`: of the matrix. Cost: no memory beside the chunks' rows, 1 MiB a range of threads, and
-/// the rest of the last page of each arena.
-template <typename Scalar, typename MakeRows>
-CsrRows<Scalar> assembleRows(int rows, int columns, Monitor& monitor, const MakeRows& makeRows)
+  SparseRow() { this->clear(); }
+  void clear()
+  {
+    this->entries_.clear();
+    this->slots_.assign(std::size_t(1) << LeastBits, None);
+    this->bits_ = LeastBits;
+  }
+  /// Adds to the entry of this column; sums have the order of the calls. Returns whether the entry
+  /// is new.
+  bool add(int column, double value)
+  {
+    int& slot = this->slot(column);
+    if (slot != None)
+    {
+      this->entries_[slot].second += value;
+      return false;
+    }
+    slot = static_cast<int>(this->entries_.size());
+    this->entries_.emplace_back(column, value);
+    if (2 * this->entries_.size() > this->slots_.size())
+    {
+      this->grow();
+    }
+    return true;
+  }
+  /// In the order of the columns' first calls.
+  const std::vector<Entry>& entries() const { return this->entries_; }
+  /// By ascending columns; the next call has to be clear().
+  const std::vector<Entry>& sorted()
+  {
+    std::sort(this->entries_.begin(), this->entries_.end());
+    return this->entries_;
+  }
+
+private:
+  static constexpr int None = -1, LeastBits = 7;
+
+  /// The place of this column in entries_, or None where it goes.
+  int& slot(int column)
+  {
+    std::size_t at = (static_cast<std::uint32_t>(column) * 2654435769u) >> (32 - this->bits_);
+    while (this->slots_[at] != None && this->entries_[this->slots_[at]].first != column)
+    {
+      at = (at + 1) & (this->slots_.size() - 1);
+    }
+    return this->slots_[at];
+  }
+  void grow()
+  {
+    this->slots_.assign(std::size_t(1) << ++this->bits_, None);
+    for (std::size_t k = 0; k < this->entries_.size(); ++k)
+    {
+      this->slot(this->entries_[k].first) = static_cast<int>(k);
+    }
+  }
+
+  std::vector<Entry> entries_;
+  std::vector<int> slots_;
+  int bits_ = LeastBits;
+};
+
+/// The columns of a matrix in two parts.
+struct SplitMatrix
 {
-  const Index chunks = chunksOf(rows);
-  std::vector<StoredRows<Scalar>> parts(chunks);
-  monitor.parallelFor(chunks, 1,
-    [&](Index firstChunk, Index lastChunk)
-    {
-      std::shared_ptr<PageArena> arena;
-      RowsInWork<Scalar> scratch; // keeps its capacity between chunks
-      auto makeRow = makeRows();
-      ColumnMap local(columns);
-      for (Index c = firstChunk; c < lastChunk; ++c)
-      {
-        if ((c - firstChunk) % ChunksOfArena == 0)
-        {
-          arena = std::make_shared<PageArena>();
-        }
-        const Index last = std::min<Index>(rows, (c + 1) * ChunkRows);
-        makeChunk(static_cast<int>(c * ChunkRows), static_cast<int>(last), makeRow, local, scratch);
-        parts[c] = { scratch, arena };
-      }
-    });
+  CsrMatrix inside, outside;
+};
 
-  CsrRows<Scalar> result;
-  result.rows = rows;
-  result.ownStart.assign(rows + 1, 0);
-  std::size_t entries = 0;
-  for (Index c = 0; c < chunks; ++c)
-  {
-    entries += parts[c].entries();
-    requireEntries(static_cast<Index>(entries));
-    parts[c].setEnds(result.ownStart.data() + c * ChunkRows);
-  }
-  resizeUndefined(result.ownColumn, static_cast<Index>(entries));
-  resizeUndefined(result.ownValue, static_cast<Index>(entries));
-  monitor.parallelFor(chunks, 1,
-    [&](Index first, Index last)
-    {
-      for (Index c = first; c < last; ++c)
-      {
-        const int at = result.ownStart[c * ChunkRows];
-        parts[c].copyAndRelease(result.ownColumn.data() + at, result.ownValue.data() + at);
-      }
-    });
-  result.adopt();
-  return result;
-}
+/// Assembles a matrix from its rows, with ascending columns. makeRow(i, row) adds the entries of
+/// row i to an empty row; makeRow = makeRows() is made for some rows of one thread. The first
+/// `inside` of the columns become one matrix, and the others another. A row is made once and by one
+/// thread, so the result does not depend on threads. Throws Error where an int cannot number the
+/// entries. Cost: rows wait in blocks, 12 bytes an entry, until the matrices have their size.
+/// `allMade`: called before that, to free what rows are made from.
+using MakeRow = std::function<void(Index i, SparseRow& row)>;
+SplitMatrix assembleRows(
+  Index rows, Index inside, Index columns, Monitor& monitor,
+  const std::function<MakeRow()>& makeRows, const std::function<void()>& allMade = [] {});
+
+/// Throws Error if an int cannot number the entries.
+void requireEntries(Index entries);
 }

@@ -5,15 +5,43 @@
 
 #include <Eigen/SparseCore>
 
+#include <cstddef>
+
 namespace morph
 {
-/// A sparse matrix in compressed rows, 12 bytes an entry.
-using CsrMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor, int>;
+/// Sparse matrices in compressed rows, 12 bytes an entry, or 8 in single precision.
+template <typename Number>
+using CsrMatrixOf = Eigen::SparseMatrix<Number, Eigen::RowMajor, int>;
+using CsrMatrix = CsrMatrixOf<double>;
 
-/// Throws Error if an int cannot number the entries.
-void requireEntries(Index entries);
+/// Refers to the rows of a compressed matrix, perhaps with other values for the same entries.
+template <typename Number>
+struct CsrRows
+{
+  CsrRows() = default;
+  CsrRows(const CsrMatrixOf<Number>& matrix) // NOLINT(google-explicit-constructor)
+    : CsrRows(matrix, matrix.valuePtr())
+  {
+  }
+  template <typename Other>
+  CsrRows(const CsrMatrixOf<Other>& matrix, const Number* values)
+    : rows(matrix.rows())
+    , start(matrix.outerIndexPtr())
+    , column(matrix.innerIndexPtr())
+    , value(values)
+  {
+  }
 
-/// Gives `matrix` the size rows x width and room for `entries`. Starts of rows, columns and values
-/// are not set. Throws Error as requireEntries().
-void allocateRows(CsrMatrix& matrix, Index rows, Index width, Index entries);
+  int entries() const { return this->rows > 0 ? this->start[this->rows] : 0; }
+  /// Returns the bytes of the arrays.
+  std::size_t memory() const
+  {
+    return (sizeof(int) + sizeof(Number)) * this->entries() + sizeof(int) * this->rows;
+  }
+
+  Index rows = 0;
+  const int* start = nullptr; ///< #rows + 1
+  const int* column = nullptr;
+  const Number* value = nullptr;
+};
 }

@@ -1,51 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solvers/DenseCholesky.h"
 
+#include "Support/Parallel.h"
+#include "Support/ProgressRange.h"
 #include "Support/Types.h"
 
 #include <Eigen/Cholesky>
 
 #include <algorithm>
-#include <utility>
-#include <vector>
+#include <cmath>
 
 namespace morph
 {
-namespace
-{
-constexpr Index Panel = 96;
-constexpr Index Tile = 192;
-
-/// Subtracts the panel's part from the lower triangle that begins at row and column `first`.
-void updateTrailing(
-  DenseMatrixRef& matrix, Index column, Index width, Index first, Monitor& monitor)
-{
-  const Index n = matrix.rows();
-  std::vector<std::pair<Index, Index>> tiles;
-  for (Index i = first; i < n; i += Tile)
-  {
-    for (Index j = first; j <= i; j += Tile)
-    {
-      tiles.emplace_back(i, j);
-    }
-  }
-  monitor.parallelFor(static_cast<Index>(tiles.size()), 1,
-    [&](Index begin, Index end)
-    {
-      for (Index t = begin; t < end; ++t)
-      {
-        const auto [i, j] = tiles[t];
-        const Index rows = std::min(Tile, n - i), columns = std::min(Tile, n - j);
-        matrix.block(i, j, rows, columns).noalias() -=
-          matrix.block(i, column, rows, width) *
-          matrix.block(j, column, columns, width).transpose();
-      }
-    });
-}
-}
-
 bool factorizeCholesky(DenseMatrixRef matrix, Monitor& monitor)
 {
+  constexpr Index Panel = 96, Strip = 192, StripsBetweenChecks = 8;
   const Index n = matrix.rows();
   for (Index column = 0; column < n; column += Panel)
   {
@@ -57,19 +26,39 @@ bool factorizeCholesky(DenseMatrixRef matrix, Monitor& monitor)
       return false;
     }
     matrix.block(column, column, width, width) = pivot.matrixLLT();
-    const Index strips = (n - below + Tile - 1) / Tile;
-    monitor.parallelFor(strips, 1,
-      [&](Index begin, Index end)
-      {
-        for (Index s = begin; s < end; ++s)
+    // Strips of rows below: a long one and a short one by turns, so that threads share them evenly.
+    const Index strips = (n - below + Strip - 1) / Strip;
+    const auto forStrips = [&](Monitor& part, const auto& body)
+    {
+      parallelBatches(part, strips, StripsBetweenChecks, 1,
+        [&](Index first, Index last)
         {
-          const Index row = below + s * Tile, rows = std::min(Tile, n - row);
-          auto strip = matrix.block(row, column, rows, width);
-          pivot.matrixU().solveInPlace<Eigen::OnTheRight>(strip);
-        }
+          for (Index s = first; s < last; ++s)
+          {
+            const Index row = below + Strip * (s % 2 == 0 ? s / 2 : strips - 1 - s / 2);
+            body(row, std::min(Strip, n - row));
+          }
+        });
+    };
+    const auto done = [n](Index columns)
+    { return 1 - std::pow(1 - static_cast<double>(columns) / static_cast<double>(n), 3); };
+    ProgressRange solving(monitor, done(column), done(column)),
+      updating(monitor, done(column), done(below));
+    forStrips(solving,
+      [&](Index row, Index rows)
+      {
+        auto strip = matrix.block(row, column, rows, width);
+        pivot.matrixU().solveInPlace<Eigen::OnTheRight>(strip);
       });
-    updateTrailing(matrix, column, width, below, monitor);
-    monitor.progress(1 - std::pow(1 - static_cast<double>(below) / static_cast<double>(n), 3));
+    forStrips(updating,
+      [&](Index row, Index rows)
+      {
+        const Index columns = row + rows - below;
+        matrix.block(row, below, rows, columns).noalias() -=
+          matrix.block(row, column, rows, width) *
+          matrix.block(below, column, columns, width).transpose();
+      });
+    updating.progress(1);
   }
   return true;
 }

@@ -4,14 +4,17 @@
 #include "Solvers/Aggregation.h"
 #include "Solvers/RowProducts.h"
 #include "Support/Error.h"
-#include "Support/HugePages.h"
+#include "Support/Parallel.h"
 #include "Support/ReproducibleSum.h"
 
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <cstdint>
-#include <utility>
+#include <limits>
 
 namespace morph
 {
@@ -20,332 +23,346 @@ namespace
 constexpr int CoarsestSize = 200; // maximum number of rows for a dense factorisation
 constexpr int MostLevels = 20;
 constexpr Index Grain = 4096;
+constexpr float SmoothedRange = 4; // smooths eigenvalues in [largest / range, largest]
+constexpr int LanczosSteps = 10;
+constexpr float LanczosMargin = 1.1f; // covers the error of the Lanczos result
 
-/// Refers to the arrays of `rows`.
-CsrRows<float> referTo(const CsrRows<float>& rows)
+/// The inverse of a dense matrix; empty where it is singular to rounding, or not positive definite
+/// though it should be.
+Eigen::MatrixXd inverseOf(const Eigen::MatrixXd& A, Multigrid::Symmetry symmetry)
 {
-  CsrRows<float> result;
-  result.rows = rows.rows;
-  result.start = rows.start;
-  result.column = rows.column;
-  result.step = rows.step;
-  result.value = rows.value;
-  return result;
-}
-
-/// Rounds `exact` to single precision. The result takes over its structure, to which `exact` then
-/// refers.
-CsrRows<float> roundRows(CsrRows<double>& exact, Monitor& monitor)
-{
-  CsrRows<float> rounded;
-  rounded.rows = exact.rows;
-  rounded.ownStart.swap(exact.ownStart);
-  rounded.ownColumn.swap(exact.ownColumn);
-  resizeUndefined(rounded.ownValue, static_cast<Index>(exact.entries()));
-  monitor.parallelFor(rounded.ownValue.size(), 16 * Grain,
-    [&](Index first, Index last)
-    {
-      for (Index k = first; k < last; ++k)
-      {
-        rounded.ownValue[k] = static_cast<float>(exact.value[k]);
-      }
-    });
-  rounded.adopt();
-  return rounded;
-}
-
-/// A dense matrix of the structure of `rows`. entry(k): the value of entry k.
-template <typename Entry>
-Eigen::MatrixXd denseMatrix(const CsrRows<float>& rows, const Entry& entry)
-{
-  Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(rows.rows, rows.rows);
-  for (int i = 0; i < rows.rows; ++i)
+  constexpr double LeastReciprocalCondition = 1e-13;
+  const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(A.rows(), A.rows());
+  if (symmetry == Multigrid::Symmetry::Symmetric)
   {
-    for (int k = rows.start[i]; k < rows.start[i + 1]; ++k)
-    {
-      dense(i, rows.column[k]) += entry(k);
-    }
+    const Eigen::LLT<Eigen::MatrixXd> factors(A);
+    return factors.info() == Eigen::Success ? factors.solve(identity) : Eigen::MatrixXd();
   }
-  return dense;
+  const Eigen::PartialPivLU<Eigen::MatrixXd> factors(A);
+  return factors.rcond() > LeastReciprocalCondition ? factors.inverse() : Eigen::MatrixXd();
+}
+
+/// The mean places of the rows of each group.
+Points centresOf(const Points& places, const std::vector<int>& group, int groups)
+{
+  Points centres = Points::Zero(groups, 3);
+  std::vector<int> members(groups, 0);
+  for (std::size_t i = 0; i < group.size(); ++i)
+  {
+    centres.row(group[i]) += places.row(static_cast<Index>(i));
+    ++members[group[i]];
+  }
+  for (int g = 0; g < groups; ++g)
+  {
+    centres.row(g) /= members[g];
+  }
+  return centres;
 }
 }
 
-float Multigrid::addLevel(const Matrix& A, Monitor& monitor)
+float largestEigenvalue(
+  const CsrRows<float>& A, const std::vector<float>& inverseDiagonal, Monitor& monitor)
+{
+  // Lanczos on D^-1/2 A D^-1/2, whose spectrum is that of D^-1 A. Ten steps come within some
+  // percent of the largest eigenvalue; the power method is then still far below.
+  std::vector<float> root(A.rows), before(A.rows), now(A.rows), next(A.rows), scaled(A.rows);
+  std::uint32_t state = 1; // a fixed random start
+  for (Index i = 0; i < A.rows; ++i)
+  {
+    root[i] = std::sqrt(inverseDiagonal[i]);
+    state = state * 1664525u + 1013904223u;
+    now[i] = static_cast<float>(state >> 8) / (1 << 24) - 0.5f;
+  }
+
+  const int steps = static_cast<int>(std::min<Index>(LanczosSteps, A.rows));
+  Eigen::VectorXd diagonal(steps), off(steps);
+  double norm = std::sqrt(reproducibleSum(
+    A.rows, monitor, 0., [&](Index i) { return static_cast<double>(now[i]) * now[i]; }));
+  int made = 0;
+  while (made < steps && norm > 0)
+  {
+    const float scale = static_cast<float>(1 / norm);
+    const float back = made > 0 ? static_cast<float>(norm) : 0.f;
+    parallel(A.rows, monitor,
+      [&](Index i)
+      {
+        now[i] *= scale;
+        scaled[i] = root[i] * now[i];
+      });
+    const double along = reproducibleSum(A.rows, monitor, 0.,
+      [&](Index i)
+      {
+        float sum = 0;
+        for (int k = A.start[i]; k < A.start[i + 1]; ++k)
+        {
+          sum += A.value[k] * scaled[A.column[k]];
+        }
+        next[i] = root[i] * sum - back * before[i];
+        return static_cast<double>(next[i]) * now[i];
+      });
+    norm = std::sqrt(reproducibleSum(A.rows, monitor, 0.,
+      [&](Index i)
+      {
+        next[i] -= static_cast<float>(along) * now[i];
+        return static_cast<double>(next[i]) * next[i];
+      }));
+    diagonal[made] = along;
+    off[made] = norm;
+    ++made;
+    before.swap(now);
+    now.swap(next);
+  }
+  Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> tridiagonal;
+  tridiagonal.computeFromTridiagonal(
+    diagonal.head(made), off.head(std::max(made - 1, 0)), Eigen::EigenvaluesOnly);
+  const float estimate = LanczosMargin * static_cast<float>(tridiagonal.eigenvalues().maxCoeff());
+  // No eigenvalue exceeds the largest row sum.
+  float bound = 0;
+  for (Index i = 0; i < A.rows; ++i)
+  {
+    float sum = 0;
+    for (int k = A.start[i]; k < A.start[i + 1]; ++k)
+    {
+      sum += std::abs(A.value[k]);
+    }
+    bound = std::max(bound, sum * inverseDiagonal[i]);
+  }
+  return estimate > 0 && std::isfinite(estimate) ? std::min(estimate, bound) : bound;
+}
+
+void Multigrid::round(const CsrMatrix& matrix, Monitor& monitor)
+{
+  constexpr int MostExponent = 1000; // its power of two and the inverse are finite
+  const double* value = matrix.valuePtr();
+  double largest = 0;
+  for (Index k = 0; k < matrix.nonZeros(); ++k)
+  {
+    const double size = std::abs(value[k]);
+    largest = size > largest && size <= std::numeric_limits<double>::max() ? size : largest;
+  }
+  const int exponent =
+    largest > 0 ? std::clamp(std::ilogb(largest) - LargestExponent, -MostExponent, MostExponent)
+                : 0;
+  this->unit_ = std::ldexp(1., exponent);
+  this->finest_ = &matrix;
+  this->finestValues_.resize(matrix.nonZeros());
+  const double scale = 1 / this->unit_;
+  parallel(matrix.nonZeros(), monitor,
+    [&](Index k) { this->finestValues_[k] = static_cast<float>(scale * value[k]); });
+}
+
+float Multigrid::addLevel(const CsrRows<float>& A, Monitor& monitor)
 {
   // Single precision has room for 2^-60 of such an entry and for its inverse.
-  const float least = std::ldexp(1.f, MixedPrecisionMatrix::LargestExponent - 126);
-  std::vector<std::uint8_t> usable(A.rows);
-  auto inverseDiagonal = largeVector<float>(A.rows);
-  monitor.parallelFor(A.rows, Grain,
-    [&](Index first, Index last)
+  const float least = std::ldexp(1.f, LargestExponent - 126);
+  std::vector<float> inverseDiagonal(A.rows);
+  parallel(A.rows, monitor,
+    [&](Index i)
     {
-      for (Index i = first; i < last; ++i)
-      {
-        const int *row = A.column + A.start[i], *end = A.column + A.start[i + 1];
-        const int* found = std::find(row, end, static_cast<int>(i));
-        const float diagonal = found != end ? A.value[found - A.column] : 0.f;
-        usable[i] = diagonal >= least && std::isfinite(diagonal);
-        inverseDiagonal[i] = 1 / diagonal;
-      }
+      const int *row = A.column + A.start[i], *end = A.column + A.start[i + 1];
+      const int* found = std::find(row, end, static_cast<int>(i));
+      const float diagonal = found != end ? A.value[found - A.column] : 0.f;
+      inverseDiagonal[i] = diagonal >= least && std::isfinite(diagonal) ? 1 / diagonal : 0;
     });
-  if (std::find(usable.begin(), usable.end(), 0) != usable.end())
+  if (std::find(inverseDiagonal.begin(), inverseDiagonal.end(), 0) != inverseDiagonal.end())
   {
     return 0;
   }
   const float largest = largestEigenvalue(A, inverseDiagonal, monitor);
-  Level level;
+  Level& level = this->levels_.emplace_back();
   level.rows = A.rows;
-  level.smoother = DampedJacobi(std::move(inverseDiagonal), largest);
-  this->levels_.push_back(std::move(level));
+  level.weight.swap(inverseDiagonal);
+  for (float& weight : level.weight)
+  {
+    weight /= largest * (1 + 1 / SmoothedRange) / 2; // the middle of the range
+  }
   return largest;
 }
 
-void Multigrid::prepare(const MixedPrecisionMatrix& matrix, Symmetry symmetry,
-  const ConstPoints& coordinates, Monitor& monitor)
+void Multigrid::prepare(
+  const CsrMatrix& matrix, Symmetry symmetry, const ConstPoints& coordinates, Monitor& monitor)
 {
-  this->levels_.clear();
+  *this = {};
   this->levels_.reserve(MostLevels); // `level` below stays valid
-  this->symmetricCoarsest_.reset();
-  this->generalCoarsest_.reset();
-  this->finest_ = &matrix.rounded();
-  assert(!this->finest_->step);
-  float largest = this->addLevel(*this->finest_, monitor);
+  this->round(matrix, monitor);
+  if (matrix.rows() == 0)
+  {
+    return; // no level: see apply()
+  }
+  float largest = this->addLevel(this->matrix(0), monitor);
   if (largest == 0)
   {
     throw Error(Error::Kind::Singular,
       "The cells' sizes differ by more than 1e38: their stiffness cannot be solved for together.");
   }
-  Points places;
-  resizeUndefined(places, coordinates.rows(), 3);
-  places = coordinates;
+  Points places = coordinates;
 
   // A level has about an eighth of the rows of the finer one.
   double left = 1;
   const auto progress = [&](double part) { monitor.progress(1 - left * (1 - 0.875 * part)); };
-  ExactMatrix exact; // of the last level but the finest
+  // Next to slivers single precision would cancel completely, so levels are made in double.
+  CsrMatrix exact; // of the last level but the finest
   while (this->levels_.back().rows > CoarsestSize && this->numberOfLevels() < MostLevels)
   {
     monitor.check();
     Level& level = this->levels_.back();
-    const Matrix& A = this->matrix(this->levels_.size() - 1);
+    const CsrRows<float> A = this->matrix(this->levels_.size() - 1);
     std::vector<int> group;
     std::vector<std::uint8_t> near = nearNeighbors(A, places, monitor);
     const int groups = aggregate(A, places, near, group);
-    if (groups > 0.8 * level.rows)
+    if (groups > 0.8 * static_cast<double>(level.rows))
     {
       break; // nothing left to group: this level only has the smoother
     }
     progress(0.3);
     level.P = smoothedProlongation(A, largest, near, group, groups, monitor);
-    level.R = transpose(level.P, groups);
+    level.R = level.P.transpose();
     near = {};
     progress(0.4);
 
-    ExactMatrix coarse = this->numberOfLevels() == 1
-                           ? tripleProduct(level.R, matrix, level.P, groups, monitor)
-                           : tripleProduct(level.R, exact, level.P, groups, monitor);
+    CsrMatrix coarse = this->numberOfLevels() == 1
+                         ? tripleProduct(level.R, matrix, level.P, 1 / this->unit_, monitor)
+                         : tripleProduct(level.R, exact, level.P, 1, monitor);
     progress(1);
     left *= 0.125;
-    Matrix rounded = roundRows(coarse, monitor);
-    largest = this->addLevel(rounded, monitor);
+    CsrMatrixOf<float> single = rounded(coarse);
+    largest = this->addLevel(single, monitor);
     if (largest == 0)
     {
       break; // rounding near flat cells spoiled the level
     }
-    this->levels_.back().A = std::move(rounded);
-    std::swap(exact, coarse);
-
-    Points centres = Points::Zero(groups, 3);
-    std::vector<int> members(groups, 0);
-    for (std::size_t i = 0; i < group.size(); ++i)
-    {
-      centres.row(group[i]) += places.row(static_cast<Index>(i));
-      ++members[group[i]];
-    }
-    for (int g = 0; g < groups; ++g)
-    {
-      centres.row(g) /= members[g];
-    }
-    places.swap(centres);
+    this->levels_.back().A.swap(single);
+    exact.swap(coarse);
+    places = centresOf(places, group, groups);
   }
 
   Level& last = this->levels_.back();
-  last.P = last.R = {};
+  last.P = last.R = CsrMatrixOf<float>();
   if (last.rows <= 4 * CoarsestSize)
   {
     const bool isFinest = this->numberOfLevels() == 1;
-    this->factorizeCoarsest(denseMatrix(this->matrix(this->levels_.size() - 1),
-                              [&](int k) { return isFinest ? matrix.inUnits(k) : exact.value[k]; }),
-      symmetry);
+    this->coarsestInverse_ = inverseOf(
+      isFinest ? Eigen::MatrixXd(matrix) / this->unit_ : Eigen::MatrixXd(exact), symmetry);
   }
 }
 
-void Multigrid::prepareTransposed(const Multigrid& other, const MixedPrecisionMatrix& matrix)
+void Multigrid::prepareTransposed(const Multigrid& other, const CsrMatrix& matrix)
 {
-  this->levels_.clear();
-  this->levels_.reserve(MostLevels);
-  this->symmetricCoarsest_ = other.symmetricCoarsest_;
-  this->generalCoarsest_.reset();
-  if (other.generalCoarsest_)
-  {
-    this->generalCoarsest_.emplace(other.generalCoarsest_->reconstructedMatrix().transpose());
-  }
   // The cycle smooths alike before and after the coarse correction, so transposing the matrices
   // transposes it.
-  this->finest_ = &matrix.rounded();
-  for (const Level& from : other.levels_)
+  *this = other;
+  for (Level& level : this->levels_)
   {
-    this->levels_.emplace_back();
-    Level& level = this->levels_.back();
-    level.rows = from.rows;
-    if (this->numberOfLevels() > 1)
-    {
-      level.A = transpose(from.A, from.rows);
-    }
-    level.P = referTo(from.P);
-    level.R = referTo(from.R);
-    level.smoother = from.smoother;
+    level.A = CsrMatrixOf<float>(level.A.transpose());
   }
-}
-
-void Multigrid::factorizeCoarsest(const Eigen::MatrixXd& A, Symmetry symmetry)
-{
-  constexpr double LeastReciprocalCondition = 1e-13;
-  if (symmetry == Symmetry::General)
-  {
-    this->generalCoarsest_.emplace(A);
-    if (!(this->generalCoarsest_->rcond() > LeastReciprocalCondition))
-    {
-      this->generalCoarsest_.reset();
-    }
-    return;
-  }
-  this->symmetricCoarsest_.emplace(A);
-  if (this->symmetricCoarsest_->info() != Eigen::Success)
-  {
-    this->symmetricCoarsest_.reset();
-  }
-}
-
-bool Multigrid::solveCoarsest(const Row* rhs, Row* x) const
-{
-  using FourColumns = Eigen::Matrix<float, Eigen::Dynamic, 4, Eigen::RowMajor>;
-  using Solution = Eigen::Matrix<double, Eigen::Dynamic, 4>;
-  const int n = this->levels_.back().rows;
-  const Solution right = Eigen::Map<const FourColumns>(rhs[0].data(), n, 4).cast<double>();
-  Eigen::Map<FourColumns> left(x[0].data(), n, 4);
-  if (this->symmetricCoarsest_)
-  {
-    left = Solution(this->symmetricCoarsest_->solve(right)).cast<float>();
-    return true;
-  }
-  if (this->generalCoarsest_)
-  {
-    left = Solution(this->generalCoarsest_->solve(right)).cast<float>();
-    return true;
-  }
-  return false;
+  this->coarsestInverse_ = other.coarsestInverse_.transpose();
+  Monitor silent;
+  this->round(matrix, silent);
 }
 
 Multigrid::Workspace::Workspace(const Multigrid& multigrid)
 {
-  this->levels_.resize(multigrid.levels_.size());
-  for (std::size_t k = 1; k < this->levels_.size(); ++k) // the caller has the finest level's
+  for (const Multigrid::Level& level : multigrid.levels_)
   {
-    const std::size_t rows = multigrid.levels_[k].rows;
-    resizeLarge(this->levels_[k].rhs, rows);
-    resizeLarge(this->levels_[k].work, rows);
-    resizeLarge(this->levels_[k].x, rows);
+    Level& own = this->levels_.emplace_back();
+    own.work.resize(level.rows);
+    if (this->levels_.size() > 1) // the caller has the finest level's
+    {
+      own.rhs.resize(level.rows);
+      own.x.resize(level.rows);
+    }
   }
 }
 
-Eigen::Vector4d Multigrid::apply(
-  const Row* rhs, Row* work, Row* x, Workspace& workspace, Monitor& monitor) const
+void Multigrid::apply(const Row* rhs, Row* x, Workspace& workspace, Monitor& monitor) const
 {
-  return this->cycle(0, rhs, work, x, workspace, monitor);
+  if (!this->levels_.empty())
+  {
+    this->cycle(0, rhs, x, workspace, monitor);
+  }
 }
 
-Eigen::Vector4d Multigrid::cycle(
-  std::size_t k, const Row* rhs, Row* work, Row* x, Workspace& workspace, Monitor& monitor) const
+void Multigrid::smoothFromZero(const Level& level, const Row* rhs, Row* x, Monitor& monitor) const
+{
+  parallel(level.rows, monitor, [&](Index i) { x[i] = level.weight[i] * rhs[i]; });
+}
+
+void Multigrid::smooth(
+  std::size_t k, const Row* rhs, const Row* from, Row* to, Monitor& monitor) const
+{
+  const CsrRows<float> A = this->matrix(k);
+  const std::vector<float>& weight = this->levels_[k].weight;
+  monitor.parallelFor(A.rows, Grain,
+    [&](Index first, Index last)
+    {
+      forRowProducts(A, from, first, last,
+        [&](Index i, const Row& product) { to[i] = from[i] + weight[i] * (rhs[i] - product); });
+    });
+}
+
+void Multigrid::cycle(
+  std::size_t k, const Row* rhs, Row* x, Workspace& workspace, Monitor& monitor) const
 {
   const Level& level = this->levels_[k];
-  const Matrix& A = this->matrix(k);
+  Row* work = workspace.levels_[k].work.data();
   if (k + 1 == this->levels_.size())
   {
-    if (!this->solveCoarsest(rhs, x))
+    if (this->coarsestInverse_.size() > 0)
     {
-      level.smoother.start(rhs, work, monitor);
-      return level.smoother.step(A, rhs, work, x, monitor);
+      using FourColumns = Eigen::Matrix<float, Eigen::Dynamic, 4, Eigen::RowMajor>;
+      const Eigen::Map<const FourColumns> right(rhs->data(), level.rows, 4);
+      Eigen::Map<FourColumns>(x->data(), level.rows, 4) =
+        (this->coarsestInverse_ * right.cast<double>()).cast<float>();
+      return;
     }
-    return reproducibleSum(level.rows, monitor, Eigen::Vector4d(Eigen::Vector4d::Zero()),
-      [&](Index i)
-      { return Eigen::Vector4d(rhs[i].cast<double>().cwiseProduct(x[i].cast<double>())); });
+    this->smoothFromZero(level, rhs, work, monitor);
+    this->smooth(k, rhs, work, x, monitor);
+    return;
   }
 
   Workspace::Level& below = workspace.levels_[k + 1];
-  level.smoother.start(rhs, work, monitor);
+  this->smoothFromZero(level, rhs, work, monitor);
   Row* residual = x;
   monitor.parallelFor(level.rows, Grain,
     [&](Index first, Index last)
     {
-      forRowProducts(
-        A, work, first, last, [&](Index i, const Row& product) { residual[i] = rhs[i] - product; });
+      forRowProducts(this->matrix(k), work, first, last,
+        [&](Index i, const Row& product) { residual[i] = rhs[i] - product; });
     });
-  monitor.parallelFor(level.R.rows, Grain / 8,
+  monitor.parallelFor(level.R.rows(), Grain / 8,
     [&](Index first, Index last)
     { rowProducts(level.R, residual, first, last, below.rhs.data() + first); });
-  this->cycle(k + 1, below.rhs.data(), below.work.data(), below.x.data(), workspace, monitor);
+  this->cycle(k + 1, below.rhs.data(), below.x.data(), workspace, monitor);
   monitor.parallelFor(level.rows, Grain,
     [&](Index first, Index last)
     {
-      forRowProducts(level.P, below.x.data(), first, last,
+      forRowProducts(CsrRows<float>(level.P), below.x.data(), first, last,
         [&](Index i, const Row& product) { work[i] += product; });
     });
-  return level.smoother.step(A, rhs, work, x, monitor);
-}
-
-std::size_t Multigrid::coarsestBytes() const
-{
-  const std::size_t n = this->levels_.empty() ? 0 : this->levels_.back().rows;
-  return this->symmetricCoarsest_ || this->generalCoarsest_ ? n * n * sizeof(double) : 0;
+  this->smooth(k, rhs, work, x, monitor);
 }
 
 std::size_t Multigrid::memory() const
 {
-  std::size_t bytes = 0;
+  std::size_t bytes = sizeof(float) * this->finestValues_.size();
   for (const Level& level : this->levels_)
   {
-    for (const Matrix* m : { &level.A, &level.P, &level.R })
+    for (const CsrMatrixOf<float>* m : { &level.A, &level.P, &level.R })
     {
-      bytes += m->ownValue.size() * sizeof(float) +
-               (m->ownStart.size() + m->ownColumn.size()) * sizeof(int);
+      bytes += CsrRows<float>(*m).memory();
     }
-    bytes += level.smoother.memory();
+    bytes += sizeof(float) * level.weight.size();
   }
-  return bytes + this->coarsestBytes();
+  return bytes + sizeof(double) * this->coarsestInverse_.size();
 }
 
 std::size_t Multigrid::workspaceBytes() const
 {
   std::size_t rows = 0;
-  for (std::size_t k = 1; k < this->levels_.size(); ++k)
+  for (const Level& level : this->levels_)
   {
-    rows += this->levels_[k].rows;
+    rows += (&level == &this->levels_.front() ? 1 : 3) * static_cast<std::size_t>(level.rows);
   }
-  return 3 * rows * sizeof(Row);
-}
-
-double Multigrid::bytesMoved() const
-{
-  double bytes = 0;
-  const double node = sizeof(Row);
-  for (std::size_t k = 0; k + 1 < this->levels_.size(); ++k)
-  {
-    const Level& level = this->levels_[k];
-    // The residual, and smoothing after the correction.
-    bytes += 2 * this->matrix(k).bytesRead() + level.P.bytesRead() + level.R.bytesRead();
-    bytes += 11 * node * level.rows;
-  }
-  return bytes + this->coarsestBytes();
+  return rows * sizeof(Row);
 }
 }

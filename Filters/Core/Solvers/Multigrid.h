@@ -1,30 +1,28 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solvers/CsrRows.h"
-#include "Solvers/DampedJacobi.h"
-#include "Solvers/MixedPrecisionMatrix.h"
+#include "Solvers/CsrMatrix.h"
 #include "Solvers/MultiVector.h"
 #include "Support/Monitor.h"
 #include "Support/Types.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/LU>
+#include <Eigen/Core>
 
 #include <cstddef>
-#include <optional>
 #include <vector>
 
 namespace morph
 {
-/// A smoothed-aggregation multigrid preconditioner for three right-hand sides at once. It is one
-/// V-cycle with damped Jacobi smoothing, symmetric for a symmetric matrix. It has single precision,
-/// which halves memory traffic; the finest level is the matrix as rounded, not a copy. Source:
+/// A smoothed-aggregation multigrid preconditioner for four right-hand sides at once: one V-cycle,
+/// symmetric for a symmetric matrix. It has single precision, which halves memory traffic. Source:
 /// Vanek, Mandel, Brezina, Computing 56 (1996) 179-196.
 ///
+/// The smoother is x <- x + w D^-1 (rhs - A x), once before the coarse correction and once after
+/// it. w damps the eigenvalues of D^-1 A in [largest / 4, largest] best. Two steps on each side, by
+/// Chebyshev's polynomial, take fewer iterations and more time.
+///
 /// A matrix that is not symmetric is coarsened by P^T A P. On log-barrier weights this took 4
-/// BiCGSTAB iterations, and a hierarchy of the symmetrised matrix 4 to 9. On a mesh graded 1.6
-/// times a layer it took 7 against 13. Aggregates consist of near nodes, see nearNeighbors().
+/// BiCGSTAB iterations, and a hierarchy of the symmetrised matrix 4 to 9.
 class Multigrid
 {
 public:
@@ -36,16 +34,16 @@ public:
     General    ///< close to an M-matrix
   };
 
-  /// Makes the levels. `matrix` must outlive this object and stay in place: it is the finest level.
-  /// Its columns may become narrow afterwards, not before. `coordinates`: #rows x 3. Throws Error
-  /// of kind Singular where a diagonal entry is about 1e38 times smaller than the largest entry.
-  void prepare(const MixedPrecisionMatrix& matrix, Symmetry symmetry,
-    const ConstPoints& coordinates, Monitor& monitor);
-  /// Makes the transpose of `other`. `matrix`: the transpose of its matrix. Both must outlive this
-  /// object and stay in place.
-  void prepareTransposed(const Multigrid& other, const MixedPrecisionMatrix& matrix);
+  /// Makes the levels. `matrix` must outlive this object and stay in place. Aggregates consist of
+  /// near nodes, see nearNeighbors(); `coordinates`: #rows x 3. Throws Error of kind Singular where
+  /// a diagonal entry is about 1e38 times smaller than the largest entry. A matrix of no rows has no
+  /// level, and apply() does nothing.
+  void prepare(
+    const CsrMatrix& matrix, Symmetry symmetry, const ConstPoints& coordinates, Monitor& monitor);
+  /// Makes the transpose of `other`. `matrix`: the transpose of its matrix, as above.
+  void prepareTransposed(const Multigrid& other, const CsrMatrix& matrix);
 
-  /// The vectors of all levels but the finest, one set per concurrent solve.
+  /// The vectors of all levels, one set per concurrent solve.
   class Workspace
   {
   public:
@@ -55,61 +53,65 @@ public:
     friend class Multigrid;
     struct Level
     {
-      FloatMultiVector rhs, work, x;
+      FloatMultiVector rhs, work, x; ///< of the finest level, `work` alone
     };
     std::vector<Level> levels_;
   };
 
+  /// The matrix in its cycles is in units of this, a power of two. The largest entry has then the
+  /// size 2^LargestExponent, which gives entries of very different rows room in single precision.
+  double unit() const { return this->unit_; }
+  static constexpr int LargestExponent = 60;
   /// The size that right-hand sides should have. Solutions are then as far below 1 as these are
   /// above it, since entries of the matrix have the square of this size.
-  static constexpr double Size = 1 << MixedPrecisionMatrix::LargestExponent / 2;
-  /// Computes x = B rhs with a fixed B near the inverse of the matrix in its own units, symmetric
-  /// positive definite for Symmetry::Symmetric. `rhs`, `work`, `x`: #rows each; the content of
-  /// `work` is lost. Returns the products rhs^T x of the columns.
-  Eigen::Vector4d apply(
-    const Row* rhs, Row* work, Row* x, Workspace& workspace, Monitor& monitor) const;
+  static constexpr double Size = 1 << LargestExponent / 2;
+  /// Computes x = B rhs with a fixed B near the inverse of matrix / unit(), symmetric positive
+  /// definite for Symmetry::Symmetric. `rhs`, `x`: #rows each.
+  void apply(const Row* rhs, Row* x, Workspace& workspace, Monitor& monitor) const;
 
   int numberOfLevels() const { return static_cast<int>(this->levels_.size()); }
-  /// Returns the bytes of the levels, without the finest matrix.
+  /// Returns the bytes of the levels.
   std::size_t memory() const;
   /// Returns the bytes of a Workspace.
   std::size_t workspaceBytes() const;
-  /// Returns the bytes that one apply() moves if nothing stays in cache.
-  double bytesMoved() const;
 
 private:
-  using Matrix = CsrRows<float>; ///< for cycles
-  /// to make the next level: next to slivers float would cancel completely
-  using ExactMatrix = CsrRows<double>;
-
   struct Level
   {
-    int rows = 0;
-    Matrix A;    ///< empty in the finest level
-    Matrix P, R; ///< prolongation to this level from the next, and its transpose
-    DampedJacobi smoother;
+    Index rows = 0;
+    CsrMatrixOf<float> A;      ///< empty in the finest level
+    CsrMatrixOf<float> P, R;   ///< prolongation to this level from the next; its transpose
+    std::vector<float> weight; ///< of the smoother: w D^-1
   };
 
+  CsrRows<float> matrix(std::size_t level) const
+  {
+    return level == 0 ? CsrRows<float>(*this->finest_, this->finestValues_.data())
+                      : CsrRows<float>(this->levels_[level].A);
+  }
+  /// Sets the finest level's values.
+  void round(const CsrMatrix& matrix, Monitor& monitor);
   /// Appends a level without its matrix. Returns the largest eigenvalue of D^-1 A. Where single
   /// precision cannot smooth by the diagonal, appends nothing and returns 0.
-  float addLevel(const Matrix& A, Monitor& monitor);
-  const Matrix& matrix(std::size_t level) const
-  {
-    return level == 0 ? *this->finest_ : this->levels_[level].A;
-  }
-  /// `A`: the last level's matrix in double precision.
-  void factorizeCoarsest(const Eigen::MatrixXd& A, Symmetry symmetry);
-  bool solveCoarsest(const Row* rhs, Row* x) const;
-  std::size_t coarsestBytes() const;
+  float addLevel(const CsrRows<float>& A, Monitor& monitor);
 
   /// apply() from level k down.
-  Eigen::Vector4d cycle(
-    std::size_t k, const Row* rhs, Row* work, Row* x, Workspace& workspace, Monitor&) const;
+  void cycle(std::size_t k, const Row* rhs, Row* x, Workspace& workspace, Monitor&) const;
+  void smoothFromZero(const Level& level, const Row* rhs, Row* x, Monitor& monitor) const;
+  void smooth(std::size_t k, const Row* rhs, const Row* from, Row* to, Monitor& monitor) const;
 
-  const Matrix* finest_ = nullptr;
+  const CsrMatrix* finest_ = nullptr;
+  std::vector<float> finestValues_; ///< of its entries, in units of unit()
+  double unit_ = 1;
   std::vector<Level> levels_;
-  // Factors of the coarsest level, by symmetry; without either, its smoother is used.
-  std::optional<Eigen::LLT<Eigen::MatrixXd>> symmetricCoarsest_;
-  std::optional<Eigen::PartialPivLU<Eigen::MatrixXd>> generalCoarsest_;
+  /// Of the coarsest level, in double precision. Empty where its smoother is used.
+  Eigen::MatrixXd coarsestInverse_;
 };
+
+/// Estimates the largest eigenvalue of D^-1 A by ten Lanczos steps, times 1.1. The result is at
+/// most the largest row sum, which bounds every eigenvalue. Lanczos converges from below, so this
+/// is no bound; the smoother damps all eigenvalues up to 1.25 times its argument. For a matrix that
+/// is not symmetric the recurrence is the same, and only the row sums are a bound.
+float largestEigenvalue(
+  const CsrRows<float>& A, const std::vector<float>& inverseDiagonal, Monitor& monitor);
 }

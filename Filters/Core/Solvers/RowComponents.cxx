@@ -1,30 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solvers/RowComponents.h"
 
-#include "Support/ReproducibleSum.h"
+#include "Support/Parallel.h"
 #include "Support/UnionFind.h"
-
-#include <algorithm>
-#include <cassert>
 
 namespace morph
 {
-RowComponents rowComponents(const CsrRows<float>& matrix, Monitor& monitor)
+RowComponents rowComponents(const CsrMatrix& matrix, Monitor& monitor)
 {
-  constexpr Index Grain = 4096;
-  assert(!matrix.step);
-  const int rows = matrix.rows;
+  const int rows = static_cast<int>(matrix.rows());
   UnionFind<int> components(rows);
-  monitor.parallelFor(rows, Grain,
-    [&](Index first, Index last)
+  parallel(rows, monitor,
+    [&](Index row)
     {
-      for (Index row = first; row < last; ++row)
+      int root = static_cast<int>(row);
+      for (CsrMatrix::InnerIterator entry(matrix, row); entry; ++entry)
       {
-        int root = static_cast<int>(row);
-        for (int k = matrix.start[row]; k < matrix.start[row + 1]; ++k)
-        {
-          root = components.join(root, matrix.column[k]);
-        }
+        root = components.join(root, static_cast<int>(entry.col()));
       }
     });
 
@@ -43,45 +35,20 @@ RowComponents rowComponents(const CsrRows<float>& matrix, Monitor& monitor)
   return result;
 }
 
-MultiVectorRow keepBetterGuess(const RowComponents& components, const RightHandSide& b,
-  const MultiVectorRow& bNorm2, const MultiVectorRow& norm2, MultiVector& solution,
-  MultiVector& residual, Monitor& monitor)
+Sums keepBetterGuess(const RowComponents& components, const RightHandSide& b, const Sums& bNorm2,
+  const Sums& norm2, MultiVector& solution, MultiVector& residual, Monitor& monitor)
 {
-  const Index rows = b.rows();
-  const bool single = components.ofRow.empty();
-  std::vector<MultiVectorRow> ofB(single ? 1 : components.count, bNorm2),
-    ofResidual(ofB.size(), norm2);
-  if (!single)
-  {
-    std::fill(ofB.begin(), ofB.end(), MultiVectorRow::Zero());
-    std::fill(ofResidual.begin(), ofResidual.end(), MultiVectorRow::Zero());
-    for (Index i = 0; i < rows; ++i)
-    {
-      ofB[components.ofRow[i]] += b[i].cwiseAbs2();
-      ofResidual[components.ofRow[i]] += residual[i].cwiseAbs2();
-    }
-  }
-  std::vector<Eigen::Array4i> drop(ofB.size());
-  bool any = false;
-  for (std::size_t c = 0; c < drop.size(); ++c)
-  {
-    for (int j = 0; j < 4; ++j)
-    {
-      drop[c][j] = !(ofResidual[c][j] <= ofB[c][j]); // also if the residual is not finite
-      any = any || drop[c][j];
-    }
-  }
-  if (!any)
+  const SumsMask drop = !(norm2 <= bNorm2); // also if the residual is not finite
+  if (!drop.any())
   {
     return norm2;
   }
-  return reproducibleSum(rows, monitor, MultiVectorRow(MultiVectorRow::Zero()),
-    [&](Index i)
+  return components.sumsOfRows(b.rows(), monitor,
+    [&](Index i, int component)
     {
-      const Eigen::Array4i& dropped = drop[components.of(i)];
       for (int j = 0; j < 4; ++j)
       {
-        if (dropped[j])
+        if (drop(component, j))
         {
           solution[i][j] = 0;
           residual[i][j] = b[i][j];

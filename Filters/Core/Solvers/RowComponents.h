@@ -1,15 +1,30 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solvers/CsrRows.h"
+#include "Solvers/CsrMatrix.h"
 #include "Solvers/MultiVector.h"
 #include "Solvers/RightHandSide.h"
 #include "Support/Monitor.h"
+#include "Support/Parallel.h"
 
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <utility>
 #include <vector>
 
 namespace morph
 {
+/// Numbers of a matrix's components and of the columns of vectors, #components x #columns. Each is
+/// a system of its own, which is solved to its own size.
+using Sums = Eigen::Array<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+using SumsMask = Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+/// The numbers of one component, for four columns.
+inline Eigen::Map<const MultiVectorRow> rowOf(const Sums& sums, int component)
+{
+  return Eigen::Map<const MultiVectorRow>(sums.data() + 4 * component);
+}
+
 /// The connected components of a square matrix's graph: blocks that can be solved separately.
 struct RowComponents
 {
@@ -17,18 +32,84 @@ struct RowComponents
   std::vector<int> ofRow; ///< numbered in the order of their first rows; empty for one component
 
   int of(Index row) const { return this->ofRow.empty() ? 0 : this->ofRow[row]; }
+
+  /// Calls body(first, last, component) for the ranges of rows in [first, last) that lie in one
+  /// component.
+  template <typename Body>
+  void forRanges(Index first, Index last, const Body& body) const
+  {
+    for (Index end = last; first < last; first = end, end = last)
+    {
+      if (!this->ofRow.empty())
+      {
+        const auto rows = this->ofRow.begin();
+        end = std::find_if(rows + first, rows + last,
+                [own = this->ofRow[first]](int other) { return other != own; }) -
+              rows;
+      }
+      body(first, end, this->of(first));
+    }
+  }
+  /// Calls body(i, component) for all `rows`, perhaps in several threads.
+  template <typename Body>
+  void forRows(Index rows, Monitor& monitor, const Body& body) const
+  {
+    parallel(rows, monitor, [&](Index i) { body(i, this->of(i)); });
+  }
+  /// Sums body(first, last, component), a MultiVectorRow, by components. Ranges lie in blocks of a
+  /// fixed length and are added in their order, so threads cannot change the last bit.
+  template <typename Body>
+  Sums sums(Index rows, Monitor& monitor, const Body& body) const
+  {
+    std::vector<std::vector<std::pair<int, MultiVectorRow>>> parts((rows + Block - 1) / Block);
+    monitor.parallelFor(static_cast<Index>(parts.size()), 1,
+      [&](Index firstBlock, Index lastBlock)
+      {
+        for (Index b = firstBlock; b < lastBlock; ++b)
+        {
+          this->forRanges(b * Block, std::min(rows, (b + 1) * Block),
+            [&](Index first, Index last, int component)
+            { parts[b].emplace_back(component, body(first, last, component)); });
+        }
+      });
+    Sums total = Sums::Zero(this->count, 4);
+    for (const auto& part : parts)
+    {
+      for (const auto& [component, sum] : part)
+      {
+        total.row(component) += sum.transpose().array();
+      }
+    }
+    return total;
+  }
+  /// Sums body(i, component).
+  template <typename Body>
+  Sums sumsOfRows(Index rows, Monitor& monitor, const Body& body) const
+  {
+    return this->sums(rows, monitor,
+      [&](Index first, Index last, int component)
+      {
+        MultiVectorRow sum = MultiVectorRow::Zero();
+        for (Index i = first; i < last; ++i)
+        {
+          sum += body(i, component);
+        }
+        return sum;
+      });
+  }
+
+private:
+  static constexpr Index Block = 4096;
 };
 
 /// Finds the components: rows are connected if either has an entry in the other's column. Cost: one
 /// pass over the matrix.
-RowComponents rowComponents(const CsrRows<float>& matrix, Monitor& monitor);
+RowComponents rowComponents(const CsrMatrix& matrix, Monitor& monitor);
 
-/// Replaces a first guess of A x = b by 0, and its residual by b, if the residual's norm exceeds
-/// that of b. This applies to each column of each component. Where b is exactly 0, so is then the
-/// solution, without an iteration. `solution`, `residual`: of the guess. `bNorm2`, `norm2`: squared
-/// norms of b and of the residual per column. Returns the new squared norm of the residual. Cost: a
-/// comparison, and a pass over the vectors if there are several components.
-MultiVectorRow keepBetterGuess(const RowComponents& components, const RightHandSide& b,
-  const MultiVectorRow& bNorm2, const MultiVectorRow& norm2, MultiVector& solution,
-  MultiVector& residual, Monitor& monitor);
+/// Replaces a first guess of A x = b by 0, and its residual by b, in each column of each component
+/// where the residual exceeds b. Where b is exactly 0, so is then the solution, without an
+/// iteration. `bNorm2`, `norm2`: squared norms of b and of the residual. Returns the residual's new
+/// ones.
+Sums keepBetterGuess(const RowComponents& components, const RightHandSide& b, const Sums& bNorm2,
+  const Sums& norm2, MultiVector& solution, MultiVector& residual, Monitor& monitor);
 }

@@ -11,7 +11,6 @@ struct SolveReport
   int iterations = 0; ///< of all right-hand sides together
   /// maximum of |b - A x| / |b| over the right-hand sides, computed from x
   double relativeResidual = 0;
-  double bytesMoved = 0; ///< estimated memory traffic, for benchmarks
 };
 
 /// Warns if rounding kept the residual above the `tolerance`.

@@ -8,9 +8,8 @@
 namespace morph
 {
 /// Keeps one solve's work vectors for the next: new pages cost up to a tenth of a solve of some
-/// thousand rows. Large vectors lie on huge pages, which cost less than a hundredth, and are freed
-/// at once. Otherwise they would be idle where a caller needs its peak of memory. What the vectors
-/// hold has no effect. Several threads may use one object.
+/// thousand rows. Large vectors are freed at once, as a caller may need its peak of memory then.
+/// What the vectors hold has no effect. Several threads may use one object.
 template <typename Workspace>
 class SpareWorkspace
 {

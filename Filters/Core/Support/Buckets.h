@@ -2,13 +2,13 @@
 #pragma once
 
 #include "Support/Adjacency.h"
-#include "Support/FirstTouch.h"
 #include "Support/Monitor.h"
+#include "Support/Parallel.h"
 #include "Support/Types.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cstddef>
-#include <numeric>
 #include <vector>
 
 namespace morph
@@ -21,35 +21,29 @@ template <typename Visit>
 Adjacency sortIntoBuckets(Index producers, Index rows, Monitor& monitor, const Visit& visit)
 {
   constexpr Index Grain = 4096;
+  std::vector<std::atomic<Index>> next(rows + 1); // counts, and then the next free place of a row
+  const auto take = [&](Index row) { return next[row].fetch_add(1, std::memory_order_relaxed); };
+  monitor.parallelFor(producers, Grain,
+    [&](Index first, Index last) { visit(first, last, [&](Index row, Index) { take(row); }); });
   Adjacency result;
-  result.offsets = largeVector<Index>(rows + 1, 0, monitor);
-  std::vector<Index>& offsets = result.offsets;
-  const auto next = [](Index& count) { return __atomic_fetch_add(&count, 1, __ATOMIC_RELAXED); };
+  result.offsets.assign(rows + 1, 0);
+  for (Index row = 0; row < rows; ++row)
+  {
+    result.offsets[row + 1] = result.offsets[row] + next[row];
+    next[row] = result.offsets[row];
+  }
+  result.values.resize(result.offsets.back());
   monitor.parallelFor(producers, Grain,
     [&](Index first, Index last)
-    { visit(first, last, [&](Index row, Index) { next(offsets[row + 1]); }); });
-  std::partial_sum(offsets.begin(), offsets.end(), offsets.begin());
-  resizeLarge(result.values, offsets.back(), monitor);
-  // The starts become the ends of the rows, and are moved back below.
-  monitor.parallelFor(producers, Grain,
-    [&](Index first, Index last)
+    { visit(first, last, [&](Index row, Index number) { result.values[take(row)] = number; }); });
+  parallel(rows, monitor,
+    [&](Index row)
     {
-      visit(
-        first, last, [&](Index row, Index number) { result.values[next(offsets[row])] = number; });
-    });
-  std::copy_backward(offsets.begin(), offsets.end() - 1, offsets.end());
-  offsets.front() = 0;
-  monitor.parallelFor(rows, Grain,
-    [&](Index first, Index last)
-    {
-      for (Index row = first; row < last; ++row)
+      const auto begin = result.values.begin() + result.offsets[row];
+      const auto end = result.values.begin() + result.offsets[row + 1];
+      if (!std::is_sorted(begin, end)) // it is where one thread ran
       {
-        const auto begin = result.values.begin() + offsets[row];
-        const auto end = result.values.begin() + offsets[row + 1];
-        if (!std::is_sorted(begin, end)) // it is where one thread ran
-        {
-          std::sort(begin, end);
-        }
+        std::sort(begin, end);
       }
     });
   return result;

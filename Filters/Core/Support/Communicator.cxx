@@ -44,6 +44,10 @@ void Communicator::sum(double*, int) const
 {
 }
 
+void Communicator::maximum(double*, int) const
+{
+}
+
 void Communicator::spread(std::vector<Index>&) const
 {
 }

@@ -42,6 +42,7 @@ public:
   virtual double minimum(double value) const;
   /// Each of `count` values.
   virtual void sum(double* values, int count) const;
+  virtual void maximum(double* values, int count) const;
   /// For values below 2^53.
   Index sum(Index value) const { return static_cast<Index>(this->sum(static_cast<double>(value))); }
   double maximum(double value) const { return -this->minimum(-value); }

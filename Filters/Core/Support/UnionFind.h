@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Support/HugePages.h"
-
 #include <algorithm>
-#include <numeric>
+#include <atomic>
 #include <vector>
 
 namespace morph
@@ -17,9 +15,12 @@ class UnionFind
 {
 public:
   explicit UnionFind(Number n)
-    : parent_(largeVector<Number>(n))
+    : parent_(n)
   {
-    std::iota(this->parent_.begin(), this->parent_.end(), Number(0));
+    for (Number i = 0; i < n; ++i)
+    {
+      this->parent_[i].store(i, Relaxed);
+    }
   }
 
   Number root(Number i)
@@ -28,7 +29,7 @@ public:
     {
       // Of two threads that shorten a path the last one wins; both numbers are ancestors.
       const Number above = this->parent(parent);
-      __atomic_store_n(&this->parent_[i], above, __ATOMIC_RELAXED);
+      this->parent_[i].store(above, Relaxed);
       i = above;
     }
     return i;
@@ -47,8 +48,7 @@ public:
       b = this->root(b);
       // The higher root gets a parent, unless another thread has just given it one.
       Number high = std::max(a, b);
-      if (a == b || __atomic_compare_exchange_n(&this->parent_[high], &high, std::min(a, b), false,
-                      __ATOMIC_RELAXED, __ATOMIC_RELAXED))
+      if (a == b || this->parent_[high].compare_exchange_strong(high, std::min(a, b), Relaxed))
       {
         return std::min(a, b);
       }
@@ -56,8 +56,10 @@ public:
   }
 
 private:
-  Number parent(Number i) const { return __atomic_load_n(&this->parent_[i], __ATOMIC_RELAXED); }
+  static constexpr std::memory_order Relaxed = std::memory_order_relaxed;
 
-  std::vector<Number> parent_;
+  Number parent(Number i) const { return this->parent_[i].load(Relaxed); }
+
+  std::vector<std::atomic<Number>> parent_;
 };
 }

@@ -16,16 +16,19 @@ void makeUnique(std::vector<Index>& ids)
 }
 }
 
-std::vector<Index> ForbiddenCells::all() const
+std::vector<Index> ForbiddenCells::all(const InvertedBefore& before) const
 {
   std::vector<Index> cells = this->determined;
   for (const NodeWithoutPlace& node : this->withoutPlace)
   {
-    cells.insert(cells.end(), node.cells.begin(), node.cells.end());
+    if (before.without(node.cells).size() == node.cells.size())
+    {
+      cells.insert(cells.end(), node.cells.begin(), node.cells.end());
+    }
   }
   cells.insert(cells.end(), this->folded.begin(), this->folded.end());
   makeUnique(cells);
-  return cells;
+  return before.without(cells);
 }
 
 BoundaryCheck::BoundaryCheck(const Mesh& mesh, const NodePartition& partition,

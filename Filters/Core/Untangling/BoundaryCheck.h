@@ -4,6 +4,7 @@
 #include "Boundary/Classification.h"
 #include "Mesh/Topology.h"
 #include "Quality/BoundaryDetermined.h"
+#include "Quality/InvertedBefore.h"
 
 #include <cstdint>
 #include <vector>
@@ -17,8 +18,8 @@ struct ForbiddenCells
   std::vector<NodeWithoutPlace> withoutPlace; ///< see nodesWithoutPlace()
   std::vector<Index> folded; ///< behind prescribed faces that are folded, see foldedFaces()
 
-  /// Returns all of these, ascending, each once.
-  std::vector<Index> all() const;
+  /// Returns all of these, ascending, each once: those that do not come from cells of `before`.
+  std::vector<Index> all(const InvertedBefore& before = {}) const;
 };
 
 /// Finds such cells of one mesh for any positions of one set of prescribed nodes. Holds its

@@ -66,7 +66,7 @@ void InversionFree::prepareFemWarp(const Mesh& rest, Monitor& monitor)
     this->femWarp_.prepare(rest, this->partition(), monitor);
     if (this->femWarp_.rows() == unknownOrdering(this->referenceMesh_, this->partition().free))
     {
-      this->preconditioner_ = std::make_unique<WarpPreconditioner>(this->femWarp_, monitor);
+      this->preconditioner_ = std::make_unique<WarpPreconditioner>(this->femWarp_);
     }
   }
   catch (const Error& error)

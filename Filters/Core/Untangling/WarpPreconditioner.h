@@ -13,9 +13,9 @@ class WarpPreconditioner : public NodePreconditioner
 {
 public:
   /// `femWarp`: prepared, and prepared no more while this object lives.
-  WarpPreconditioner(const FemWarp& femWarp, Monitor& monitor)
+  explicit WarpPreconditioner(const FemWarp& femWarp)
     : femWarp_(femWarp)
-    , diagonal_(femWarp.solver().diagonal(monitor))
+    , diagonal_(femWarp.solver().matrix().diagonal())
   {
   }
   void apply(const Points& from, Points& to, Monitor& monitor) const override

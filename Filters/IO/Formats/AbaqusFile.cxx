@@ -193,13 +193,14 @@ void AbaqusFile::beginElements(std::size_t part, Span span, const AbaqusKeyword&
     this->failAt(part, span.begin,
       "its elements " + type + " make a planar model; volume meshes alone are morphed.");
   }
+  // A set of elements that are left out exists, too.
+  this->entries_ = this->sets_.elementSet(keyword.value("ELSET"));
   if (this->element_.cellType == 0)
   {
     this->unknownTypes_.insert(type);
     return;
   }
   this->block_ = Block::Element;
-  this->entries_ = this->sets_.elementSet(keyword.value("ELSET"));
 }
 
 void AbaqusFile::beginSurface(const AbaqusKeyword& keyword)

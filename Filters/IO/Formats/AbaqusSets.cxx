@@ -61,42 +61,58 @@ void AbaqusSets::addNodesOf(const std::string& elementSet, const std::string& no
   }
 }
 
-std::vector<Index> AbaqusSets::positions(const Sets& sets, const std::string& name,
-  const std::unordered_map<Index, Index>& positionOf, int depth)
+std::vector<const AbaqusSets::NamedEntries*> AbaqusSets::reached(
+  const Sets& sets, const std::string& name, std::string& missing)
+{
+  std::vector<const NamedEntries*> result;
+  std::vector<std::string> names = { name };
+  for (std::size_t i = 0; i < names.size(); ++i)
+  {
+    const auto set = sets.find(names[i]);
+    if (set == sets.end())
+    {
+      missing = missing.empty() ? names[i] : missing;
+    }
+    else if (std::find(result.begin(), result.end(), &set->second) == result.end())
+    {
+      result.push_back(&set->second);
+      const std::vector<std::string>& more = set->second.entries.names;
+      names.insert(names.end(), more.begin(), more.end());
+    }
+  }
+  return result;
+}
+
+std::vector<Index> AbaqusSets::positions(
+  const Sets& sets, const std::string& name, const std::unordered_map<Index, Index>& positionOf)
 {
   std::vector<Index> result;
-  const auto set = sets.find(name);
-  if (set == sets.end() || depth > 20) // sets that name each other
+  std::string missing;
+  for (const NamedEntries* set : reached(sets, name, missing))
   {
-    return result;
-  }
-  for (const Index number : set->second.entries.numbers)
-  {
-    addFound(number, positionOf, result);
-  }
-  for (const auto& [first, last, step] : set->second.entries.ranges)
-  {
-    // A range may be longer than the mesh by far.
-    if ((last - first) / step <= static_cast<Index>(positionOf.size()))
+    for (const Index number : set->entries.numbers)
     {
-      for (Index number = first; number <= last; number += step)
-      {
-        addFound(number, positionOf, result);
-      }
-      continue;
+      addFound(number, positionOf, result);
     }
-    for (const auto& [number, position] : positionOf)
+    for (const auto& [first, last, step] : set->entries.ranges)
     {
-      if (number >= first && number <= last && (number - first) % step == 0)
+      // A range may be longer than the mesh by far.
+      if ((last - first) / step <= static_cast<Index>(positionOf.size()))
       {
-        result.push_back(position);
+        for (Index number = first; number <= last; number += step)
+        {
+          addFound(number, positionOf, result);
+        }
+        continue;
+      }
+      for (const auto& [number, position] : positionOf)
+      {
+        if (number >= first && number <= last && (number - first) % step == 0)
+        {
+          result.push_back(position);
+        }
       }
     }
-  }
-  for (const std::string& other : set->second.entries.names)
-  {
-    const std::vector<Index> more = positions(sets, other, positionOf, depth + 1);
-    result.insert(result.end(), more.begin(), more.end());
   }
   sortUnique(result);
   return result;
@@ -106,13 +122,13 @@ std::vector<Index> AbaqusSets::nodesOf(const std::string& name, const SolverMesh
   const std::unordered_map<Index, Index>& nodes,
   const std::unordered_map<Index, Index>& elements) const
 {
-  std::vector<Index> result = positions(this->nodeSets_, name, nodes, 0);
-  const auto set = this->nodeSets_.find(name);
-  if (set != this->nodeSets_.end())
+  std::vector<Index> result = positions(this->nodeSets_, name, nodes);
+  std::string missing;
+  for (const NamedEntries* set : reached(this->nodeSets_, name, missing))
   {
-    for (const std::string& elementSet : set->second.elementSets)
+    for (const std::string& elementSet : set->elementSets)
     {
-      for (const Index cell : positions(this->elementSets_, elementSet, elements, 0))
+      for (const Index cell : positions(this->elementSets_, elementSet, elements))
       {
         const auto begin = mesh.connectivity.begin();
         result.insert(result.end(), begin + mesh.offsets[static_cast<std::size_t>(cell)],
@@ -141,7 +157,7 @@ void AbaqusSets::addSurface(const NamedSurface& surface, SolverMesh& mesh,
       continue;
     }
     number ? addFound(*number, elements, chosen)
-           : void(chosen = positions(this->elementSets_, what, elements, 0));
+           : void(chosen = positions(this->elementSets_, what, elements));
     for (const Index element : chosen)
     {
       const auto at = static_cast<std::size_t>(element);
@@ -167,21 +183,65 @@ void AbaqusSets::addSurface(const NamedSurface& surface, SolverMesh& mesh,
   sortUnique(set.nodes);
 }
 
+std::string AbaqusSets::missing(const Sets& sets, const std::string& name) const
+{
+  std::string result;
+  for (const NamedEntries* set : reached(sets, name, result))
+  {
+    for (const std::string& other : set->elementSets)
+    {
+      reached(this->elementSets_, other, result);
+    }
+  }
+  return result;
+}
+
+std::string AbaqusSets::missing(const NamedSurface& surface) const
+{
+  std::string result;
+  for (const auto& [what, face] : surface.lines)
+  {
+    if (!parseInteger(what) && result.empty())
+    {
+      result = this->missing(surface.ofNodes ? this->nodeSets_ : this->elementSets_, what);
+    }
+  }
+  return result;
+}
+
 void AbaqusSets::addTo(SolverMesh& mesh, const std::unordered_map<Index, Index>& nodes) const
 {
   const auto elements = positionsOf(mesh.cellNumbers, "element", "the file");
+  const auto isWhole = [&mesh](const std::string& name, const std::string& missing)
+  {
+    if (!missing.empty())
+    {
+      mesh.warnings.push_back("The set '" + name + "' names the set '" + missing +
+                              "', which the file does not define, and is left out.");
+    }
+    return missing.empty();
+  };
   for (const auto& [key, set] : this->nodeSets_)
   {
-    std::vector<Index> found = this->nodesOf(key, mesh, nodes, elements);
-    mesh.set(set.name).nodes = std::move(found);
+    if (isWhole(set.name, this->missing(this->nodeSets_, key)))
+    {
+      std::vector<Index> found = this->nodesOf(key, mesh, nodes, elements);
+      mesh.set(set.name).nodes = std::move(found);
+    }
   }
   for (const auto& [key, set] : this->elementSets_)
   {
-    mesh.set(set.name).cells = positions(this->elementSets_, key, elements, 0);
+    if (isWhole(set.name, this->missing(this->elementSets_, key)))
+    {
+      mesh.set(set.name).cells = positions(this->elementSets_, key, elements);
+    }
   }
   for (const NamedSurface& surface : this->surfaces_)
   {
-    this->addSurface(surface, mesh, nodes, elements);
+    if (isWhole(surface.name, this->missing(surface)))
+    {
+      this->addSurface(surface, mesh, nodes, elements);
+    }
   }
 }
 }

@@ -34,8 +34,9 @@ public:
   void addNodesOf(const std::string& elementSet, const std::string& nodeSet);
 
   /// Adds all sets to a mesh, with the faces of surfaces as cells. `nodes`: positions of node
-  /// numbers. Numbers and names that the file does not define are left out, as they may belong to
-  /// elements that are left out.
+  /// numbers. Numbers that the file does not define are left out, as they may belong to elements
+  /// that are left out. So are sets and surfaces that name a set that the file does not define;
+  /// a warning of the mesh says so.
   void addTo(SolverMesh& mesh, const std::unordered_map<Index, Index>& nodes) const;
 
 private:
@@ -54,9 +55,16 @@ private:
   };
 
   static Entries* entriesOf(Sets& sets, const std::string& name);
+  /// The set of that name and all that it names, directly or not. `missing`: where it is empty, it
+  /// becomes the first name that is not defined.
+  static std::vector<const NamedEntries*> reached(
+    const Sets& sets, const std::string& name, std::string& missing);
   /// The positions in a set and in those that it names.
-  static std::vector<Index> positions(const Sets& sets, const std::string& name,
-    const std::unordered_map<Index, Index>& positionOf, int depth);
+  static std::vector<Index> positions(
+    const Sets& sets, const std::string& name, const std::unordered_map<Index, Index>& positionOf);
+  /// The first name that is not defined among those that a set or surface names; or empty.
+  std::string missing(const Sets& sets, const std::string& name) const;
+  std::string missing(const NamedSurface& surface) const;
   std::vector<Index> nodesOf(const std::string& name, const SolverMesh& mesh,
     const std::unordered_map<Index, Index>& nodes,
     const std::unordered_map<Index, Index>& elements) const;

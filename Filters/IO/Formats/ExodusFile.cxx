@@ -28,7 +28,6 @@ public:
   explicit ExodusFile(const std::string& path)
     : SolverFile(path)
   {
-    requireWholeClassicFile(path);
     const NetCdf file(path, path);
     if (file.dimension("num_dim") != 3)
     {
@@ -432,7 +431,8 @@ bool isExodusFile(const std::string& path)
   {
     if (extension == one)
     {
-      return isNetCdf(path);
+      const std::string head = readHead(path, 8); // of a classic file, or of HDF5
+      return head.size() == 8 && (head.compare(0, 3, "CDF") == 0 || head == "\x89HDF\r\n\x1a\n");
     }
   }
   return false;

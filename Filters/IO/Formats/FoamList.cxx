@@ -299,6 +299,10 @@ std::vector<FoamList::Patch> FoamList::patches()
       {
         (key == "nFaces" ? patch.count : patch.first) = this->integer();
       }
+      else if (depth == 1 && key == "type")
+      {
+        patch.type = std::string(this->word().of(this->content_));
+      }
     }
   }
   return result;

@@ -39,7 +39,7 @@ public:
   /// The patches of polyMesh/boundary.
   struct Patch
   {
-    std::string name;
+    std::string name, type;
     Index first = 0, count = 0; ///< faces
   };
   std::vector<Patch> patches();

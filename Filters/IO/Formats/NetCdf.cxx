@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Formats/NetCdf.h"
 
+#include "Files/MappedFile.h"
+#include "Files/ReadFile.h"
 #include "Support/Error.h"
 
 #include <netcdf.h>
+#include <netcdf_mem.h>
 
 #include <algorithm>
 #include <array>
@@ -12,15 +15,59 @@
 
 namespace morph::io
 {
+namespace
+{
+/// Whether the last value of each variable of a classic file can be read.
+bool isWhole(int file)
+{
+  int variables = 0;
+  bool isRead = nc_inq_nvars(file, &variables) == NC_NOERR;
+  for (int id = 0; id < variables && isRead; ++id)
+  {
+    int dimensions = 0;
+    isRead = nc_inq_varndims(file, id, &dimensions) == NC_NOERR;
+    std::vector<int> dimension(static_cast<std::size_t>(dimensions) + 1);
+    isRead = isRead && nc_inq_vardimid(file, id, dimension.data()) == NC_NOERR;
+    std::vector<std::size_t> last(dimension.size());
+    bool isEmpty = false;
+    for (std::size_t i = 0; i + 1 < last.size() && isRead; ++i)
+    {
+      isRead = nc_inq_dimlen(file, dimension[i], &last[i]) == NC_NOERR;
+      isEmpty = isEmpty || last[i] == 0;
+      --last[i];
+    }
+    std::array<char, sizeof(double)> value; // of the longest type
+    isRead = isRead && (isEmpty || nc_get_var1(file, id, last.data(), value.data()) == NC_NOERR);
+  }
+  return isRead;
+}
+}
+
 NetCdf::NetCdf(const std::string& path, const std::string& name, Access access)
   : name_(name)
 {
   std::error_code error;
   // A damaged file may ask for any memory; none that is packed holds a thousand times its size.
   this->longest_ = 1100 * (std::filesystem::file_size(path, error) + 1000);
-  this->check(
-    nc_open(path.c_str(), access == Access::Read ? NC_NOWRITE : NC_WRITE, &this->file_), "it");
-  this->isOpen_ = true;
+  if (access == Access::Write || readHead(path, 3) != "CDF")
+  {
+    const int mode = access == Access::Write ? NC_WRITE : NC_NOWRITE;
+    this->check(nc_open(path.c_str(), mode, &this->file_), "it");
+    this->isOpen_ = true;
+    return;
+  }
+  // Behind the end of a classic file netCDF reads zeros. Behind that of its content it fails.
+  this->content_ = std::make_unique<MappedFile>(path);
+  this->isOpen_ = nc_open_mem(path.c_str(), NC_NOWRITE, this->content_->size(),
+                    this->content_->data(), &this->file_) == NC_NOERR;
+  if (!this->isOpen_ || !isWhole(this->file_))
+  {
+    if (this->isOpen_)
+    {
+      nc_close(this->file_);
+    }
+    throw Error("Cannot read " + this->name_ + ": it is damaged, or ends too soon.");
+  }
 }
 
 NetCdf::~NetCdf()

@@ -4,11 +4,14 @@
 #include "Support/Types.h"
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
 namespace morph::io
 {
+class MappedFile;
+
 /// A file of netCDF: classic, 64-bit offset, 64-bit data or netCDF-4. Each function throws Error
 /// where the file is damaged.
 class NetCdf
@@ -47,15 +50,9 @@ private:
   void check(int status, const std::string& what) const;
 
   std::string name_;
+  std::unique_ptr<MappedFile> content_; ///< of a classic file that is read
   std::uintmax_t longest_ = 0;
   int file_ = -1;
   bool isOpen_ = false;
 };
-
-/// Whether a file begins as one of netCDF does (or of HDF5, which netCDF-4 files are).
-bool isNetCdf(const std::string& path);
-
-/// Throws Error where a file in one of the classic formats is shorter than its header says. The
-/// library would read zeros there. Other files pass.
-void requireWholeClassicFile(const std::string& path);
 }

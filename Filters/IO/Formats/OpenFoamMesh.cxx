@@ -190,6 +190,13 @@ void OpenFoamMesh::addPatches(
     {
       this->fail("the faces of the patch " + patch.name + " are out of range.");
     }
+    if (patch.type.rfind("processor", 0) == 0) // processorCyclic too
+    {
+      this->fail("it is a piece of a decomposed case (its patch " + patch.name + " is of type " +
+                 patch.type +
+                 "), whose cuts would be outer walls. Join the pieces with OpenFOAM's "
+                 "reconstructParMesh, and give the whole mesh.");
+    }
     for (Index f = patch.first; f < patch.first + patch.count; ++f)
     {
       const std::vector<Index>& face = faces[static_cast<std::size_t>(f)];

@@ -192,10 +192,10 @@ void requireOwnCoordinates(const std::string& original, const std::vector<Index>
     throw Error(printable(
       "Cannot write the coordinates into a copy of " + original +
       ": before the morph, nodes were not at the file's own coordinates: " + listIds(other) +
-      ". A reader has added the displacements '" + displacements +
-      "' of the file, or filters moved the mesh more than once. Switch "
-      "Apply Displacements off in that reader, or read the file with Solver File Reader, "
-      "which takes its own coordinates."));
+      ". The displacements '" + displacements +
+      "' of the file were added, or filters moved the mesh more than once. If the reader has Apply "
+      "Displacements on, switch it off, or read the file with Solver File Reader, which takes its "
+      "own coordinates. To keep such displacements, morph the file by a table of them."));
   }
 }
 

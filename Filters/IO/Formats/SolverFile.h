@@ -56,7 +56,8 @@ double writeSolverFile(const std::string& original, const std::vector<Index>& nu
   const std::vector<double>& coordinates, const std::string& out, Signals signals = Signals::Leave);
 
 /// Throws Error where `original` has displacements, and `coordinates`, which another reader gave,
-/// are not its own: that reader has added them. `precision`: what rounding may have changed.
+/// are not its own: that reader or a filter has added them. `precision`: what rounding may have
+/// changed.
 void requireOwnCoordinates(const std::string& original, const std::vector<Index>& numbers,
   const std::vector<double>& coordinates, double precision);
 

@@ -16,6 +16,8 @@ namespace fs = std::filesystem;
 
 namespace
 {
+constexpr std::size_t MostIncludes = 1000;
+
 bool isSameFile(const std::string& a, const std::string& b)
 {
   std::error_code error;
@@ -25,6 +27,11 @@ bool isSameFile(const std::string& a, const std::string& b)
 
 std::size_t TextFile::addPart(const std::string& path, const std::string& name)
 {
+  if (this->parts_.size() > MostIncludes)
+  {
+    throw Error(printable("Cannot read " + this->parts_.front().path + ": it includes more than " +
+                          std::to_string(MostIncludes) + " files. Join them."));
+  }
   this->parts_.push_back({ path, name, readFile(path) });
   return this->parts_.size() - 1;
 }

@@ -32,7 +32,8 @@ protected:
     NumberRules rules;
   };
 
-  /// Adds a file to be parsed; returns its number. Throws Error where it cannot be read.
+  /// Adds a file to be parsed; returns its number. Throws Error where it cannot be read, and for
+  /// more than 1000 besides the first.
   std::size_t addPart(const std::string& path, const std::string& name);
   /// The number at a place; throws Error with its line where there is none.
   double numberAt(std::size_t part, Span span) const;

@@ -2,6 +2,7 @@
 #include "Private/Blocks/BlockOutput.h"
 
 #include "Private/Blocks/BlockArrays.h"
+#include "Private/Data/Directions.h"
 #include "Private/Data/Quality.h"
 
 #include <vtkAbstractArray.h>
@@ -78,6 +79,7 @@ void movePoints(vtkPoints* from, const std::vector<Index>& nodes, vtkPointSet* s
     points->SetPoint(i, nodes[i] < 0 ? set->GetPoint(i) : from->GetPoint(nodes[i]));
   }
   set->SetPoints(points);
+  Directions::RemoveNormals(set);
 }
 
 bool hasArray(vtkDataSetAttributes* data, vtkAbstractArray* array)

@@ -317,6 +317,12 @@ std::vector<Index> Immoderate(const morph::Points& x, morph::Monitor* monitor)
   return rows;
 }
 
+bool IsMissing(const Eigen::RowVector3d& value, vtkDataArray* mask, morph::Index point)
+{
+  return value.hasNaN() ||
+         (mask && point < mask->GetNumberOfTuples() && mask->GetComponent(point, 0) == 0);
+}
+
 void RequireExtent(double size, const char* subject)
 {
   if (size > 0 && size < Smallest)

@@ -6,6 +6,7 @@
 
 #include <vector>
 
+class vtkDataArray;
 class vtkDataObject;
 class vtkDataSet;
 
@@ -40,6 +41,11 @@ bool IsModerate(const Eigen::RowVector3d& x);
 
 /// The rows of `x` that are not moderate. `monitor`: has the threads for it, null for none.
 std::vector<morph::Index> Immoderate(const morph::Points& x, morph::Monitor* monitor = nullptr);
+
+/// The point array by which ParaView's Resample With Dataset marks points without a value: 0.
+constexpr const char* MaskName = "vtkValidPointMask";
+/// Whether a component of a point's `value` is NaN, or `mask` is 0 there. `mask`: null for none.
+bool IsMissing(const Eigen::RowVector3d& value, vtkDataArray* mask, morph::Index point);
 
 /// Throws morph::Error unless `size` is 0 or at least Smallest. `size`: the largest side of the
 /// bounding box; `subject`: what it bounds.

@@ -4,7 +4,6 @@
 #include "Mesh/Polyhedra.h"
 #include "Private/Data/Version.h"
 #include "Support/Error.h"
-#include "Support/FirstTouch.h"
 #include "Support/Monitor.h"
 
 #include <vtkAOSDataArrayTemplate.h>
@@ -88,7 +87,7 @@ void copyIntegers(
   const Value* values, vtkIdType count, std::vector<morph::Index>& to, morph::Monitor& monitor)
 {
   constexpr morph::Index Grain = 1 << 16;
-  morph::resizeLarge(to, count, monitor);
+  to.resize(count);
   monitor.parallelFor(count, Grain,
     [&](morph::Index first, morph::Index last)
     { std::copy(values + first, values + last, to.begin() + first); });
@@ -217,7 +216,7 @@ morph::Points FromVectors(vtkDataArray* vectors)
   const vtkIdType count = vectors->GetNumberOfTuples();
   const int components = vectors->GetNumberOfComponents();
   morph::Points result;
-  morph::resizeUndefined(result, count, 3);
+  result.resize(count, 3);
   if (auto* doubles = vtkDoubleArray::FastDownCast(vectors); doubles && components >= 3)
   {
     using Stride = Eigen::OuterStride<>;

@@ -2,8 +2,8 @@
 #include "Private/Data/Output.h"
 
 #include "Private/Data/DataCheck.h"
+#include "Private/Data/Directions.h"
 #include "Support/Error.h"
-#include "Support/HugePages.h"
 
 #include <vtkAlgorithm.h>
 #include <vtkDoubleArray.h>
@@ -47,8 +47,6 @@ struct Written
       array->SetName(name);
       array->SetNumberOfComponents(3);
       array->SetNumberOfTuples(moved.rows());
-      morph::adviseHugePages(
-        array->GetPointer(0), array->GetNumberOfValues() * sizeof(*array->GetPointer(0)));
       return array;
     };
     Written written = { make("Points"), make("MorphDisplacement") };
@@ -95,6 +93,7 @@ void writePoints(vtkUnstructuredGrid* input, const morph::Points& rest, const mo
   vtkNew<vtkPoints> points;
   points->SetData(written.Coordinates);
   output->SetPoints(points);
+  Directions::RemoveNormals(output);
   output->GetPointData()->AddArray(written.Displacement);
   output->GetPointData()->SetActiveVectors("MorphDisplacement");
 }
@@ -116,6 +115,7 @@ void Write(vtkUnstructuredGrid* input, const morph::Points& rest, const morph::P
 {
   (IsFloat(input, precision) ? writePoints<vtkFloatArray> : writePoints<vtkDoubleArray>)(input,
     rest, moved, output, monitor);
+  Directions::Warn(input, rest, moved, monitor);
 }
 
 void RequireWritable(const morph::Points& rest, const morph::Points& moved, bool isFloat,

@@ -17,8 +17,9 @@ namespace morph::filters::Output
 {
 /// Makes `output` a shallow copy of `input` with new points, #nodes x 3, and the point vectors
 /// `MorphDisplacement`, the points as written minus `rest`. `precision`:
-/// vtkAlgorithm::SINGLE_PRECISION and so on, for both arrays. Throws as RequireWritable() does.
-/// Cost: one pass, in threads.
+/// vtkAlgorithm::SINGLE_PRECISION and so on, for both arrays. The attribute Normals is left out;
+/// warns of other directions as Directions.h says. Throws as RequireWritable() does. Cost: one
+/// pass, in threads.
 void Write(vtkUnstructuredGrid* input, const morph::Points& rest, const morph::Points& moved,
   int precision, vtkUnstructuredGrid* output, morph::Monitor& monitor);
 

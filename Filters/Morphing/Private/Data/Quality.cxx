@@ -110,6 +110,22 @@ morph::Index MirroredBodies(
   return std::count(mirrored.begin(), mirrored.end(), true);
 }
 
+Judged Judge(
+  const morph::InvertedBefore& before, const morph::Quality& quality, vtkUnstructuredGrid* output)
+{
+  Judged judged;
+  const auto cells = static_cast<morph::Index>(quality.scaledJacobian.size()); // ghosts come behind
+  judged.Before = std::count_if(before.cells().begin(), before.cells().end(),
+    [&](morph::Index cell) { return cell < cells && !std::isnan(quality.scaledJacobian[cell]); });
+  const std::vector<morph::Index> inverted = morph::invertedCells(quality);
+  if (!inverted.empty())
+  {
+    judged.Added = withPoints(output, [&](const morph::ConstPoints& written)
+      { return static_cast<morph::Index>(before.added(written, inverted).size()); });
+  }
+  return judged;
+}
+
 bool IsThatOfComputed(vtkUnstructuredGrid* output)
 {
   return output->GetPoints()->GetDataType() == VTK_DOUBLE &&

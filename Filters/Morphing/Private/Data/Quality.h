@@ -3,6 +3,7 @@
 
 #include "Mesh/Topology.h"
 #include "Quality/Certificate.h"
+#include "Quality/InvertedBefore.h"
 #include "Quality/ScaledJacobian.h"
 
 #include <cstdint>
@@ -44,6 +45,16 @@ morph::Index MirroredBodies(
 /// Whether measuring the points as written gives the same result as measuring the computed ones,
 /// which are in double precision.
 bool IsThatOfComputed(vtkUnstructuredGrid* output);
+
+/// What a motion did.
+struct Judged
+{
+  morph::Index Before = 0; ///< cells that are inverted or degenerate in the undeformed mesh
+  morph::Index Added = 0;  ///< inverted or degenerate cells that the motion has made
+};
+/// Judges `output` on its points as written. `quality`: its measure.
+Judged Judge(
+  const morph::InvertedBefore& before, const morph::Quality& quality, vtkUnstructuredGrid* output);
 
 /// Adds to `output` the cell array `ScaledJacobian` (double, NaN where not measured) as active
 /// scalars (point arrays stay, but none is active: viewers would color by that one).

@@ -117,6 +117,12 @@ void Results::Set(const morph::Quality& quality)
   this->SetInteger("WorstCellId", quality.worstCell);
 }
 
+void Results::Set(const Quality::Judged& judged)
+{
+  this->SetInteger("InvertedBefore", judged.Before);
+  this->SetInteger("NewInvertedCells", judged.Added);
+}
+
 void Results::Set(const morph::CertificateReport& report)
 {
   this->SetInteger("CertifiedCells", report.certified);

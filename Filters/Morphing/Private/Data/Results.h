@@ -2,6 +2,7 @@
 #pragma once
 
 #include "Morpher/Morpher.h"
+#include "Private/Data/Quality.h"
 #include "Quality/Certificate.h"
 #include "Quality/ScaledJacobian.h"
 
@@ -63,6 +64,8 @@ public:
   void SetCounts(std::vector<morph::Statistic> counts);
   /// Minimum, mean, inverted and degenerate cells, worst cell.
   void Set(const morph::Quality& quality);
+  /// Cells that were inverted before, and that the motion has inverted.
+  void Set(const Quality::Judged& judged);
   /// Certified, uncertified and undecided cells.
   void Set(const morph::CertificateReport& report);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Private/Displace/DisplacedSurface.h"
 
+#include "Private/Data/Directions.h"
 #include "Private/Data/GridMesh.h"
 #include "Private/Data/Output.h"
 #include "Private/Data/Surface.h"
@@ -47,6 +48,7 @@ void writePoints(const morph::Points& rest, const morph::Points& moved, vtkPolyD
   vtkNew<vtkPoints> points;
   points->SetData(coordinates);
   output->SetPoints(points);
+  Directions::RemoveNormals(output);
   output->GetPointData()->AddArray(displacement);
   output->GetPointData()->SetActiveVectors("BoundaryDisplacement");
 }

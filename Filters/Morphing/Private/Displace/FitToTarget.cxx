@@ -29,25 +29,40 @@ using morph::Index;
 using morph::Points;
 using Row = morph::ProjectionTarget::Row;
 
-/// A target whose surface serves for curves too, where it has no feature edge near.
+/// A target whose surface serves for curves too, where it has no feature edge near. Nodes on the
+/// rim of what moves that are on surfaces which slide go to target and sliding surfaces together.
 class WithCurves : public morph::ProjectionTarget
 {
 public:
-  explicit WithCurves(const Target& target)
+  WithCurves(const Target& target, const FitToTarget::Rim& rim)
     : Place(target)
+    , Rim(rim)
   {
   }
   bool closestOnSurface(Index surface, const Row& x, const Row& normal, Row& y) const override
   {
     return this->Place.closestOnSurface(surface, x, normal, y);
   }
-  bool closestOnFeatures(const Row& x, Row& y) const override
+  bool closestOnFeatures(Index node, const Row& x, Row& y) const override
   {
-    return this->Place.closestOnFeatures(x, y) || this->Anywhere(x, y);
+    if (this->Rim.Has(node))
+    {
+      return this->Rim.Meet(
+        node, x, [&](const Row& at, Row& to) { return this->Anywhere(at, to); }, y);
+    }
+    return this->Place.closestOnFeatures(node, x, y) || this->Anywhere(x, y);
   }
-  bool ClosestForVertex(const Row& x, Row& y) const
+  bool ClosestForVertex(Index node, const Row& x, Row& y) const
   {
-    return this->Place.ClosestOnVertices(x, y) || this->closestOnFeatures(x, y);
+    if (!this->Rim.Has(node))
+    {
+      return this->Place.ClosestOnVertices(x, y) || this->closestOnFeatures(node, x, y);
+    }
+    // Where surfaces that move meet, their common edge goes to the target's.
+    const auto onEdge = [&](const Row& at, Row& to)
+    { return this->Place.closestOnFeatures(node, at, to); };
+    return (this->Rim.IsOnEdge(node) && this->Rim.Meet(node, x, onEdge, y)) ||
+           this->closestOnFeatures(node, x, y);
   }
 
 private:
@@ -57,6 +72,7 @@ private:
   }
 
   const Target& Place;
+  const FitToTarget::Rim& Rim;
 };
 
 /// The boundary's polygons, those that move where `choice` is given.
@@ -93,12 +109,8 @@ vtkSmartPointer<vtkPolyData> polygonsOf(const BoundaryModel& model, const Choice
   return surface;
 }
 
-/// The motion's start: what does not move is given, and vertices that move are, where they find a
-/// place. `missed`: those that find none.
-BoundaryMotion begin(const BoundaryModel& model, const Choice::Result& choice,
-  const WithCurves& place, std::vector<Index>& missed)
+BoundaryMotion allHeld(const BoundaryModel& model)
 {
-  const morph::Classification& geometry = model.Geometry();
   BoundaryMotion motion;
   motion.rest = model.Points();
   motion.displacement = Points::Zero(motion.rest.rows(), 3);
@@ -108,6 +120,16 @@ BoundaryMotion begin(const BoundaryModel& model, const Choice::Result& choice,
   {
     motion.state[node] = BoundaryMotion::Held;
   }
+  return motion;
+}
+
+/// The motion's start: what does not move is given, and vertices that move are, where they find a
+/// place. `missed`: those that find none.
+BoundaryMotion begin(const BoundaryModel& model, const Choice::Result& choice,
+  const WithCurves& place, std::vector<Index>& missed)
+{
+  const morph::Classification& geometry = model.Geometry();
+  BoundaryMotion motion = allHeld(model);
   for (const Index node : choice.Moving)
   {
     motion.state[node] = BoundaryMotion::Unknown;
@@ -115,7 +137,7 @@ BoundaryMotion begin(const BoundaryModel& model, const Choice::Result& choice,
     if (geometry.dimension[node] == 0)
     {
       motion.state[node] = BoundaryMotion::Held;
-      if (place.ClosestForVertex(motion.rest.row(node), y))
+      if (place.ClosestForVertex(node, motion.rest.row(node), y))
       {
         motion.displacement.row(node) = y - motion.rest.row(node);
       }
@@ -151,6 +173,7 @@ void FitToTarget::Update(vtkPolyData* target, const BoundaryModel& model,
       this->Made.Align == options.Align && this->Made.FeatureAngle == options.FeatureAngle &&
       this->Made.Angle == options.Angle && this->Made.Reach == options.Reach)
   {
+    this->Made = options; // the others change nothing here
     return;
   }
   this->Place.reset(); // in case it throws
@@ -158,13 +181,16 @@ void FitToTarget::Update(vtkPolyData* target, const BoundaryModel& model,
   {
     morph::ProgressRange part(monitor, from, from + 0.05);
     return std::make_unique<Target>(
-      surface, options.FeatureAngle, options.Angle, options.Reach, part);
+      surface, model.Points(), options.FeatureAngle, options.Angle, options.Reach, part);
   };
   auto place = make(target, 0);
   if (options.Align)
   {
     morph::ProgressRange aligning(monitor, 0.05, 0.5);
-    place = make(Alignment::Onto(place->Surface(), polygonsOf(model, choice), aligning), 0.5);
+    auto aligned =
+      make(Alignment::Onto(place->Surface(), polygonsOf(model, choice), aligning), 0.5);
+    aligned->TakePrecision(*place);
+    place = std::move(aligned);
   }
   this->Input = target;
   this->InputTime = target->GetMTime();
@@ -231,42 +257,159 @@ std::set<std::string> FitToTarget::NearestSurfaces(const BoundaryModel& model) c
   return names;
 }
 
-Points FitToTarget::Targets(
-  const BoundaryModel& model, const Choice::Result& choice, morph::Monitor& monitor)
+FitToTarget::Rim::Rim(const BoundaryModel& model, const Choice::Result& choice,
+  const std::vector<Index>& sliding, Surroundings& surroundings)
+  : Model(model)
+  , Surfaces(surroundings)
+{
+  const std::vector<morph::GeometrySurface>& surfaces = model.Geometry().surfaces;
+  for (const Index s : sliding)
+  {
+    surroundings.ShapeOf(model, s); // before several threads ask for it
+    for (const Index node : surfaces[s].nodes)
+    {
+      if (model.Geometry().dimension[node] < 2 &&
+          std::binary_search(choice.Moving.begin(), choice.Moving.end(), node))
+      {
+        this->Nodes[node].Sliding.push_back(s);
+      }
+    }
+  }
+  for (const morph::GeometrySurface& surface : surfaces)
+  {
+    const bool moves = std::any_of(surface.faces.begin(), surface.faces.end(),
+      [&](Index face) { return choice.IsMovingFace[face] != 0; });
+    for (const Index node : surface.nodes)
+    {
+      const auto found = this->Nodes.find(node);
+      if (moves && found != this->Nodes.end())
+      {
+        ++found->second.Moving;
+      }
+    }
+  }
+}
+
+Eigen::RowVector3d FitToTarget::Rim::Along(Index node, const Row& direction) const
+{
+  const auto found = this->Nodes.find(node);
+  Row along = direction;
+  if (found != this->Nodes.end())
+  {
+    std::vector<Row> normals; // orthonormal
+    for (const Index s : found->second.Sliding)
+    {
+      const Row x = this->Model.Points().row(node);
+      Row normal = this->Surfaces.ShapeOf(this->Model, s).Normal(x);
+      for (const Row& other : normals)
+      {
+        normal -= normal.dot(other) * other;
+      }
+      if (normal.norm() > 1e-6)
+      {
+        normals.push_back(normal.normalized());
+        along -= along.dot(normals.back()) * normals.back();
+      }
+    }
+  }
+  return along.norm() > 1e-6 ? Row(along.normalized()) : direction;
+}
+
+void FitToTarget::MoveAlong(const BoundaryModel& model, const Choice::Result& choice,
+  const Rim& rim, BoundaryMotion& motion, std::vector<Index>& missed)
+{
+  const Options& how = this->Made;
+  Points directions =
+    how.Direction.normalized().replicate(static_cast<Index>(choice.Moving.size()), 1);
+  if (how.Direction.isZero(0))
+  {
+    directions = morph::nodeNormals(
+      model.OutwardAreas(model.Points()), model.Faces(), choice.IsMovingFace, choice.Moving);
+  }
+  const Points normals =
+    morph::surfaceNodeNormals(model.Points(), model.Points(), model.Faces(), model.Geometry());
+  this->Place->Orient(model.Points(), normals);
+  for (std::size_t i = 0; i < choice.Moving.size(); ++i)
+  {
+    const Index node = choice.Moving[i];
+    const Row direction = rim.Along(node, directions.row(static_cast<Index>(i)));
+    const auto find = [&](const Row& at, Row& to)
+    { return this->Place->ClosestAlong(at, direction, normals.row(node), to); };
+    const Row x = model.Points().row(node);
+    Row y;
+    if (rim.Has(node) ? rim.Meet(node, x, find, y) : find(x, y))
+    {
+      motion.displacement.row(node) = y - x;
+    }
+    else
+    {
+      // A vertex has nothing to follow.
+      motion.state[node] =
+        model.Geometry().dimension[node] == 0 ? BoundaryMotion::Held : BoundaryMotion::Unknown;
+      missed.push_back(node);
+    }
+  }
+}
+
+Points FitToTarget::Targets(const BoundaryModel& model, const Choice::Result& choice,
+  const std::vector<Index>& sliding, Surroundings& surroundings, morph::Monitor& monitor)
 {
   const morph::Classification& geometry = model.Geometry();
-  const WithCurves place(*this->Place);
+  this->Place->WarnOfRounding(model.Size(), monitor);
+  const Rim rim(model, choice, sliding, surroundings);
+  const WithCurves place(*this->Place, rim);
+  const bool isAlong = this->Made.How == Project::Along;
   std::vector<Index> missed;
-  BoundaryMotion motion = begin(model, choice, place, missed);
+  BoundaryMotion motion;
+  if (isAlong)
+  {
+    motion = allHeld(model);
+    this->MoveAlong(model, choice, rim, motion, missed);
+  }
+  else
+  {
+    motion = begin(model, choice, place, missed);
+  }
   morph::SurfaceMorphOptions how;
   how.unattached = morph::UnattachedMotion::Stay;
   morph::ProgressRange onCurves(monitor, 0.55, 0.75), onSurfaces(monitor, 0.75, 1);
+  const auto add = [&missed](const morph::ProjectionReport& report)
+  {
+    for (const auto* some : { &report.missed, &report.kept })
+    {
+      missed.insert(missed.end(), some->begin(), some->end());
+    }
+  };
   morph::morphCurves(geometry, how.unattached, motion, onCurves);
   await(choice, geometry, 1, BoundaryMotion::OnCurve, motion);
-  const morph::ProjectionReport curves = morph::projectCurves(geometry, place, motion, monitor);
+  if (!isAlong)
+  {
+    add(morph::projectCurves(geometry, place, motion, monitor));
+  }
   morph::morphSurfaces(model.Faces(), geometry, how, motion, onSurfaces);
   await(choice, geometry, 2, BoundaryMotion::OnSurface, motion);
-  const Points moved = motion.moved();
-  this->Place->Assign(geometry, moved);
-  this->Place->Orient(
-    moved, morph::surfaceNodeNormals(model.Points(), moved, model.Faces(), geometry));
-  const morph::ProjectionReport surfaces =
-    morph::projectSurfaces(model.Faces(), geometry, place, motion, monitor);
-  for (const auto* some : { &curves.missed, &curves.kept, &surfaces.missed, &surfaces.kept })
+  if (!isAlong)
   {
-    missed.insert(missed.end(), some->begin(), some->end());
+    const Points moved = motion.moved();
+    this->Place->Assign(geometry, moved);
+    this->Place->Orient(
+      moved, morph::surfaceNodeNormals(model.Points(), moved, model.Faces(), geometry));
+    add(morph::projectSurfaces(model.Faces(), geometry, place, motion, monitor));
   }
   std::sort(missed.begin(), missed.end());
+  const std::string along = isAlong ? " along the direction" : "";
   if (missed.size() == choice.Moving.size())
   {
     throw morph::Error("No node that moves reaches the target: it has no place within "
-                       "TargetReach whose normal is within TargetAngle. Align the target, or raise "
+                       "TargetReach" +
+                       along +
+                       " whose normal is within TargetAngle. Align the target, or raise "
                        "TargetReach.");
   }
   if (!missed.empty())
   {
-    monitor.warn("Nodes do not reach the target, since it has no place within TargetReach whose "
-                 "normal is within TargetAngle, or faces would fold there: point ids " +
+    monitor.warn("Nodes do not reach the target, since it has no place within TargetReach" + along +
+                 " whose normal is within TargetAngle, or faces would fold there: point ids " +
                  morph::listIds(missed) + " of the input.");
   }
   return motion.moved()(choice.Moving, morph::allColumns);

@@ -459,18 +459,30 @@ void InnerNodes::Extend(const BoundaryModel& model, Surroundings::Result& result
 void InnerNodes::MoveRigidly(const Zone& zone, const BoundaryModel& model,
   Surroundings::Result& result, morph::Monitor& monitor)
 {
+  // Three nodes that are not on a line tell the motion: those that move or, where these do not tell
+  // it, held ones too, then all.
   std::vector<Index> outer;
-  for (const Index node : zone.Nodes)
+  bool isTold = false;
+  const auto isMoved = [](int role) { return role == Surroundings::Moves; };
+  const auto isGiven = [](int role)
+  { return role == Surroundings::Moves || role == Surroundings::IsHeld; };
+  const auto isAny = [](int role) { return role != Surroundings::IsFree; };
+  for (bool (*tells)(int) : { +isMoved, +isGiven, +isAny })
   {
-    if (std::binary_search(model.Faces().nodes.begin(), model.Faces().nodes.end(), node) &&
-        result.Roles[node] != Surroundings::IsFree)
+    outer.clear();
+    std::copy_if(zone.Nodes.begin(), zone.Nodes.end(), std::back_inserter(outer),
+      [&](Index node)
+      {
+        return tells(result.Roles[node]) &&
+               std::binary_search(model.Faces().nodes.begin(), model.Faces().nodes.end(), node);
+      });
+    isTold =
+      morph::AffineLeastSquares(model.Points()(outer, morph::allColumns)).directions().rank() >= 2;
+    if (isTold)
     {
-      outer.push_back(node);
+      break;
     }
   }
-  // Three nodes that are not on a line tell the motion.
-  const bool isTold =
-    morph::AffineLeastSquares(model.Points()(outer, morph::allColumns)).rank() >= 2;
   const WholeVolume::Moved by = isTold
                                   ? WholeVolume::Moved{ model.Points()(outer, morph::allColumns),
                                       result.Moved(outer, morph::allColumns) }

@@ -8,6 +8,7 @@
 #include "Private/Displace/DisplacedSurface.h"
 #include "Private/Displace/Patches.h"
 #include "Private/Displace/Selection.h"
+#include "Private/Displace/Unmet.h"
 #include "Private/Pipeline/Input.h"
 #include "Private/Pipeline/Ranks.h"
 #include "Private/Project/TargetDistance.h"
@@ -31,6 +32,27 @@ namespace
 vtkMTimeType timeOf(vtkObject* object)
 {
   return object ? object->GetMTime() : 0;
+}
+
+/// The direction of a projection along one; zero: the normals.
+Eigen::RowVector3d directionOf(int projectAlong, const double* vector)
+{
+  if (projectAlong == vtkDisplacementAlgorithm::PROJECT_NORMAL)
+  {
+    return Eigen::RowVector3d::Zero();
+  }
+  if (projectAlong != vtkDisplacementAlgorithm::PROJECT_VECTOR)
+  {
+    return Eigen::RowVector3d::Unit(projectAlong - vtkDisplacementAlgorithm::PROJECT_X);
+  }
+  // Of any size, without overflow.
+  const Eigen::RowVector3d direction(vector[0], vector[1], vector[2]);
+  if (direction.isZero(0))
+  {
+    throw morph::Error("ProjectVector has no length. Give the direction in which nodes are to go "
+                       "to the target.");
+  }
+  return direction / direction.cwiseAbs().maxCoeff();
 }
 }
 
@@ -107,13 +129,19 @@ void vtkBoundaryDisplacement::Choose(vtkPointSet* input, vtkSelection* selection
 }
 
 morph::Points vtkBoundaryDisplacement::vtkInternals::Fitted(vtkBoundaryDisplacement* filter,
-  vtkPointSet* input, vtkSelection* selection, vtkPolyData* target, filters::Monitor& monitor)
+  vtkPointSet* input, vtkSelection* selection, vtkPolyData* target,
+  const std::vector<morph::Index>& sliding, filters::Monitor& monitor)
 {
   filters::FitToTarget::Options options;
   options.Align = filter->AlignTarget;
   options.FeatureAngle = filter->FeatureAngle;
   options.Angle = filter->TargetAngle;
   options.Reach = filter->TargetReach * this->Model.Size();
+  if (filter->ProjectAlong != PROJECT_CLOSEST)
+  {
+    options.How = filters::FitToTarget::Project::Along;
+    options.Direction = directionOf(filter->ProjectAlong, filter->ProjectVector);
+  }
   if (filter->Moving == MOVE_PATCHES && this->Patches.empty())
   {
     this->Fit.Update(target, this->Model, nullptr, options, monitor);
@@ -124,7 +152,7 @@ morph::Points vtkBoundaryDisplacement::vtkInternals::Fitted(vtkBoundaryDisplacem
     filter->Choose(input, selection);
     this->Fit.Update(target, this->Model, &this->Choice, options, monitor);
   }
-  return this->Fit.Targets(this->Model, this->Choice, monitor);
+  return this->Fit.Targets(this->Model, this->Choice, sliding, this->Spread, monitor);
 }
 
 std::vector<morph::Handle> vtkBoundaryDisplacement::vtkInternals::SelectedHandles(
@@ -249,10 +277,13 @@ bool vtkBoundaryDisplacement::vtkInternals::Prepare(vtkBoundaryDisplacement* fil
   {
     return false;
   }
+  filters::Surroundings::Options& rest = moves.Rest;
+  rest.Sliding = filters::Patches::Surfaces(this->Model, this->SlidingPatches, "SlidingPatches");
   if (extras.Target)
   {
     monitor.SetRange(0.5, 0.7);
-    moves.Given = this->Fitted(filter, input, extras.Selection, extras.Target, monitor);
+    moves.Given =
+      this->Fitted(filter, input, extras.Selection, extras.Target, rest.Sliding, monitor);
   }
   else
   {
@@ -281,14 +312,13 @@ bool vtkBoundaryDisplacement::vtkInternals::Prepare(vtkBoundaryDisplacement* fil
   motion.TransformAboutCenter = filter->TransformAboutCenter;
   motion.RadiusChange = filter->RadiusChange;
   motion.ScaleFactor = filter->ScaleFactor;
-  moves.Targets = filters::Motion::Targets(input, this->Model, this->Choice, motion);
   moves.Choice = this->Choice;
+  moves.Rest.FreeNodes = filters::Motion::TakeMissing(input, motion, moves.Choice, monitor);
+  moves.Targets = filters::Motion::Targets(input, this->Model, moves.Choice, motion);
 
-  filters::Surroundings::Options& rest = moves.Rest;
   rest.How = static_cast<filters::Surroundings::Kind>(filter->Surroundings);
   rest.Follow.method = static_cast<morph::SurfaceMorphOptions::Method>(filter->SurfaceMethod);
   rest.Follow.unattached = static_cast<morph::UnattachedMotion>(filter->UnattachedMotion);
-  rest.Sliding = filters::Patches::Surfaces(this->Model, this->SlidingPatches, "SlidingPatches");
   rest.Free = filters::Patches::Surfaces(this->Model, this->FreePatches, "FreePatches");
   rest.Radius = filter->FalloffRadius * this->Model.Size();
   return true;
@@ -316,6 +346,8 @@ void vtkBoundaryDisplacement::vtkInternals::Displace(vtkBoundaryDisplacement* fi
     return;
   }
   const bool hasInner = inner.Any() && filter->Moving != MOVE_NOTHING;
+  const bool isConstrained = hasInner || !moves.Rest.Sliding.empty();
+  const morph::Points asked = isConstrained ? moves.Targets : morph::Points();
   this->Inner.Clear();
   if (hasInner)
   {
@@ -358,6 +390,15 @@ void vtkBoundaryDisplacement::vtkInternals::Displace(vtkBoundaryDisplacement* fi
     this->Slide.Run(this->Model, moves.Choice.Held, moves.Rest.Sliding, filter->SlideRounds,
       this->Spread, whole, this->Inner, result, monitor);
   }
+  alike(
+    [&]
+    {
+      if (isConstrained)
+      {
+        filters::Unmet::Warn(
+          this->Model, this->Choice, asked, moves.Rest.Sliding, result, this->Spread, monitor);
+      }
+    });
   alike([&] { this->Write(filter, input, extras, moves, hasInner, hasRounds, output, monitor); });
   if (hasInner)
   {

@@ -136,7 +136,8 @@ private:
     const vtkBoundaryDisplacement* filter, vtkSelection* zone);
   /// The positions of what moves, on the target. Chooses what moves, too.
   morph::Points Fitted(vtkBoundaryDisplacement* filter, vtkPointSet* input, vtkSelection* selection,
-    vtkPolyData* target, morph::filters::Monitor& monitor);
+    vtkPolyData* target, const std::vector<morph::Index>& sliding,
+    morph::filters::Monitor& monitor);
   /// The positions of what moves, by handles or by a lattice.
   morph::Points ByControlPoints(const vtkBoundaryDisplacement* filter, vtkPointSet* input,
     vtkSelection* selection, vtkDataObject* points, morph::filters::Monitor& monitor);

@@ -26,7 +26,8 @@ using morph::Error;
 using morph::Index;
 using morph::Points;
 
-/// centre + transform(x - centre); a null transform is the identity.
+/// centre + transform(x - centre). What the transform leaves alone stays bit for bit. A null
+/// transform is the identity.
 Points transformed(
   const Points& from, vtkAbstractTransform* transform, const Eigen::RowVector3d& centre)
 {
@@ -34,8 +35,12 @@ Points transformed(
   for (Index i = 0; transform && i < to.rows(); ++i)
   {
     const Eigen::RowVector3d offset = from.row(i) - centre;
-    transform->TransformPoint(offset.data(), to.row(i).data());
-    to.row(i) += centre;
+    Eigen::RowVector3d there;
+    transform->TransformPoint(offset.data(), there.data());
+    if (there != offset)
+    {
+      to.row(i) = there + centre;
+    }
   }
   return to;
 }
@@ -285,6 +290,38 @@ Points Targets(vtkPointSet* input, const BoundaryModel& model, const Choice::Res
     requireModerate(targets, choice.Moving, "ScaleFactor");
   }
   return targets;
+}
+
+std::vector<Index> TakeMissing(
+  vtkPointSet* input, const Options& options, Choice::Result& choice, morph::Monitor& monitor)
+{
+  if (options.How != Kind::Array || choice.Moving.empty())
+  {
+    return {};
+  }
+  const Points rows = arrayRows(input, options.ArrayName, choice.Moving);
+  vtkDataArray* mask = input->GetPointData()->GetArray(DataCheck::MaskName);
+  std::vector<Index> missing, moving;
+  for (Index i = 0; i < rows.rows(); ++i)
+  {
+    const Index node = choice.Moving[i];
+    (DataCheck::IsMissing(rows.row(i), mask, node) ? missing : moving).push_back(node);
+  }
+  const std::string where = "'" + options.ArrayName + "' is NaN, or vtkValidPointMask 0, ";
+  if (moving.empty())
+  {
+    throw Error("DisplacementArray has no value where the boundary is to move: " + where +
+                "at all of its points. Give values there, or move another part.");
+  }
+  if (!missing.empty())
+  {
+    monitor.warn(std::to_string(missing.size()) + " of the " + std::to_string(rows.rows()) +
+                 " nodes that are to move have no displacement (" + where +
+                 "there), and are free: they are solved with the interior. Point ids " +
+                 morph::listIds(missing) + " of the input.");
+  }
+  choice.Moving = std::move(moving);
+  return missing;
 }
 
 std::optional<morph::AffineMotion> Affine(const BoundaryModel& model, const Choice::Result& choice,

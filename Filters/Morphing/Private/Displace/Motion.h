@@ -56,6 +56,12 @@ struct Options
 morph::Points Targets(vtkPointSet* input, const BoundaryModel& model, const Choice::Result& choice,
   const Options& options);
 
+/// Takes the nodes out of choice.Moving for which the array has no displacement: NaN, or 0 in
+/// vtkValidPointMask. Returns them, and warns; throws morph::Error where none is left, and as
+/// Targets() does for the array.
+std::vector<morph::Index> TakeMissing(
+  vtkPointSet* input, const Options& options, Choice::Result& choice, morph::Monitor& monitor);
+
 /// The displacement of what moves as w c + A (x - centre), with w = 1, or nothing where it is not
 /// affine. `centre`: of choice.Moving.
 std::optional<morph::AffineMotion> Affine(const BoundaryModel& model, const Choice::Result& choice,

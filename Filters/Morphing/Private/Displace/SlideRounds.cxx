@@ -99,8 +99,8 @@ void moveBetween(const BoundaryModel& model, const std::map<Index, Surfaces>& sl
     }
     if (!sum.isZero(0))
     {
-      moved.row(found->first) = shapes.Closest(
-        model, found->second, before.row(found->first) + sum / static_cast<double>(end - begin));
+      moved.row(found->first) = shapes.Slid(model, found->second, found->first,
+        before.row(found->first) + sum / static_cast<double>(end - begin));
     }
   }
 }
@@ -158,11 +158,11 @@ void SlideRounds::Run(const BoundaryModel& model, const std::vector<Index>& held
   }
   const auto along = [&](const std::vector<Index>& numbered) -> morph::NodeSliding::Surfaces
   {
-    const auto of = [&](Index i) -> const Surfaces&
-    { return sliding.at(numbered[static_cast<std::size_t>(i)]); };
+    const auto of = [&](Index i) { return sliding.find(numbered[static_cast<std::size_t>(i)]); };
     return { [&model, &shapes, of](Index i, const Row& x)
-      { return directionsAt(model, of(i), shapes, x); },
-      [&model, &shapes, of](Index i, const Row& x) { return shapes.Closest(model, of(i), x); } };
+      { return directionsAt(model, of(i)->second, shapes, x); },
+      [&model, &shapes, of](Index i, const Row& x)
+      { return shapes.Slid(model, of(i)->second, of(i)->first, x); } };
   };
   const morph::Points before = result.Moved;
   if (whole)

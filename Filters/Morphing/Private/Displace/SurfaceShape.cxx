@@ -4,6 +4,7 @@
 #include "Boundary/FaceAreas.h"
 
 #include <vtkCellArray.h>
+#include <vtkGenericCell.h>
 #include <vtkIdList.h>
 #include <vtkNew.h>
 #include <vtkPoints.h>
@@ -13,6 +14,7 @@
 
 #include <Eigen/Dense>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -52,30 +54,36 @@ std::pair<Row, Row> across(const Row& axis)
 SurfaceShape::SurfaceShape(
   const Points& points, const morph::BoundaryFaces& faces, const morph::GeometrySurface& surface)
 {
+  constexpr double Fits = 1e-6;  // of the nodes' extent
+  constexpr double Better = 0.1; // than a plane
   const Points nodes = rowsOf(points, surface.nodes);
-  if (this->FitPlane(nodes) ||
-      this->FitCylinder(nodes, rowsOf(morph::faceAreas(points, faces), surface.faces)))
+  const double ofPlane = this->FitPlane(nodes);
+  const double most = Fits * (nodes.rowwise() - this->Center).rowwise().norm().maxCoeff();
+  if (ofPlane <= most)
   {
-    return;
+    this->How = Kind::Plane;
   }
-  this->TakeFacets(points, faces, surface);
+  else if (this->FitCylinder(nodes, rowsOf(morph::faceAreas(points, faces), surface.faces),
+             std::min(most, Better * ofPlane)))
+  {
+    this->How = Kind::Cylinder;
+  }
+  else
+  {
+    this->TakeFacets(points, faces, surface);
+  }
 }
 
-bool SurfaceShape::FitPlane(const Points& nodes)
+double SurfaceShape::FitPlane(const Points& nodes)
 {
   this->Center = nodes.colwise().mean();
   const Points from = nodes.rowwise() - this->Center;
   this->Direction = smallestEigenvector(from.transpose() * from);
-  const double size = from.rowwise().norm().maxCoeff();
-  if ((from * this->Direction.transpose()).cwiseAbs().maxCoeff() > 1e-9 * size)
-  {
-    return false;
-  }
-  this->How = Kind::Plane;
-  return true;
+  return (from * this->Direction.transpose()).cwiseAbs().maxCoeff();
 }
 
-bool SurfaceShape::FitCylinder(const Points& nodes, const Points& areas)
+/// `tolerance`: the largest distance of a node, besides that part of the radius.
+bool SurfaceShape::FitCylinder(const Points& nodes, const Points& areas, double tolerance)
 {
   // Normals are all across the axis; the normals of facets only nearly, so that Gauss-Newton's
   // method follows. Unknowns: the centre and the axis, each in the two directions across the axis,
@@ -83,6 +91,7 @@ bool SurfaceShape::FitCylinder(const Points& nodes, const Points& areas)
   this->Direction = smallestEigenvector(areas.transpose() * areas);
   this->Center = nodes.colwise().mean();
   this->Radius = 0;
+  constexpr double OfRadius = 1e-6;
   double last = std::numeric_limits<double>::infinity(); ///< length of the last step
   for (int iteration = 0; iteration < 30; ++iteration)
   {
@@ -109,9 +118,9 @@ bool SurfaceShape::FitCylinder(const Points& nodes, const Points& areas)
       worst = std::max(worst, std::abs(residual));
     }
     // The last step is that of rounding; beyond it more of them help no more.
-    if (worst <= 1e-6 * this->Radius && (last <= 1e-13 * this->Radius || iteration == 29))
+    if (worst <= std::min(tolerance, OfRadius * this->Radius) &&
+        (last <= 1e-13 * this->Radius || iteration == 29))
     {
-      this->How = Kind::Cylinder;
       return true;
     }
     // Of dynamic size: GCC 16 warns of the bounds of a fixed one.
@@ -179,8 +188,21 @@ Row SurfaceShape::Closest(const Row& x) const
   vtkIdType cell = -1;
   int part = 0;
   double squared = 0;
-  this->Locator->FindClosestPoint(x.data(), closest.data(), cell, part, squared);
+  vtkNew<vtkGenericCell> memory; // the locator's own is not for several threads
+  this->Locator->FindClosestPoint(x.data(), closest.data(), memory, cell, part, squared);
   return cell < 0 ? x : closest;
+}
+
+Row SurfaceShape::Slid(const Row& from, const Row& to) const
+{
+  if (this->How == Kind::Plane)
+  {
+    return to - (to - from).dot(this->Direction) * this->Direction;
+  }
+  const Row height = from - this->Closest(from);
+  return this->Closest(to) + (this->How == Kind::Cylinder
+                                 ? Row(height.dot(this->Outwards(from)) * this->Outwards(to))
+                                 : height);
 }
 
 Row SurfaceShape::Normal(const Row& x) const

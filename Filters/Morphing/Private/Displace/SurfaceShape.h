@@ -12,8 +12,9 @@ class vtkStaticCellLocator;
 namespace morph::filters
 {
 /// The shape of an undeformed surface, along which its nodes can slide: a plane, a cylinder or, for
-/// any other surface, its facets. A plane fits its nodes to 1e-9 of their extent, a cylinder to
-/// 1e-6 of its radius.
+/// any other surface, its facets. A plane fits its nodes to 1e-6 of their extent. A cylinder fits
+/// them to 1e-6 of their extent and of its radius, and ten times as well as a plane: what is bumpy
+/// and nearly flat fits large cylinders, too.
 class SurfaceShape
 {
 public:
@@ -35,13 +36,18 @@ public:
   Row Outwards(const Row& x) const;
   /// The nearest point of the shape. Planes and cylinders have no end.
   Row Closest(const Row& x) const;
+  /// The point near `to` at the height above the shape that `from` has. So a node that slides keeps
+  /// its undeformed distance, and stays where it does not move.
+  Row Slid(const Row& from, const Row& to) const;
   /// The unit normal of the shape at its point nearest to `x`, either way; zero where it has none.
   Row Normal(const Row& x) const;
-  double Distance(const Row& x) const { return (this->Closest(x) - x).norm(); }
 
 private:
-  bool FitPlane(const morph::Points& nodes);
-  bool FitCylinder(const morph::Points& nodes, const morph::Points& areas);
+  /// Both set the shape's numbers. The first returns the largest distance of a node from the plane.
+  ///@{
+  double FitPlane(const morph::Points& nodes);
+  bool FitCylinder(const morph::Points& nodes, const morph::Points& areas, double tolerance);
+  ///@}
   void TakeFacets(const morph::Points& points, const morph::BoundaryFaces& faces,
     const morph::GeometrySurface& surface);
 

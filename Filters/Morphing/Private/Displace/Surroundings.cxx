@@ -44,7 +44,7 @@ public:
     y = this->Shapes[surface]->Closest(x);
     return true;
   }
-  bool closestOnFeatures(const Row&, Row&) const override { return false; }
+  bool closestOnFeatures(Index, const Row&, Row&) const override { return false; }
 
 private:
   std::vector<const SurfaceShape*> Shapes;
@@ -152,11 +152,12 @@ Surroundings::Result atRest(const BoundaryModel& model, Surroundings::Result las
   return last;
 }
 
-/// Leaves the nodes on free surfaces alone, neither moving nor held, to the morph of the interior.
+/// Leaves the nodes on free surfaces alone, and those of `nodes`, to the morph of the interior
+/// where they neither move nor are held.
 void leaveFree(const BoundaryModel& model, const std::vector<Index>& held,
-  const std::vector<Index>& surfaces, Surroundings::Result& result)
+  const std::vector<Index>& surfaces, const std::vector<Index>& nodes, Surroundings::Result& result)
 {
-  if (surfaces.empty())
+  if (surfaces.empty() && nodes.empty())
   {
     return;
   }
@@ -179,6 +180,7 @@ void leaveFree(const BoundaryModel& model, const std::vector<Index>& held,
       mark(model.Geometry().surfaces[s].nodes, 0);
     }
   }
+  mark(nodes, 1);
   mark(held, 0);
   for (const Index node : model.Faces().nodes)
   {
@@ -208,7 +210,7 @@ Surroundings::Result Surroundings::Spread(const BoundaryModel& model, const Choi
   {
     this->Place(model, choice, options, result, monitor);
   }
-  leaveFree(model, choice.Held, options.Free, result);
+  leaveFree(model, choice.Held, options.Free, options.FreeNodes, result);
   return result;
 }
 
@@ -251,16 +253,16 @@ const SurfaceShape& Surroundings::ShapeOf(const BoundaryModel& model, Index surf
   return *this->Shapes[surface];
 }
 
-Eigen::RowVector3d Surroundings::Closest(
-  const BoundaryModel& model, const std::vector<Index>& surfaces, const Eigen::RowVector3d& from)
+Eigen::RowVector3d Surroundings::Slid(const BoundaryModel& model,
+  const std::vector<Index>& surfaces, Index node, const Eigen::RowVector3d& to)
 {
-  Eigen::RowVector3d x = from;
+  Eigen::RowVector3d x = to;
   for (int round = 0; round < (surfaces.size() > 1 ? 100 : 1); ++round)
   {
     const Eigen::RowVector3d before = x;
     for (const Index s : surfaces)
     {
-      x = this->ShapeOf(model, s).Closest(x);
+      x = this->ShapeOf(model, s).Slid(model.Points().row(node), x);
     }
     if (x == before)
     {
@@ -285,7 +287,8 @@ std::vector<Index> Surroundings::AbleToSlide(const BoundaryModel& model,
     {
       if (result.Roles[node] == Moves || result.Roles[node] == Follows)
       {
-        const double distance = shape.Distance(result.Moved.row(node));
+        const Eigen::RowVector3d to = result.Moved.row(node);
+        const double distance = (shape.Slid(model.Points().row(node), to) - to).norm();
         all = std::max(all, distance);
         given = std::max(given, result.Roles[node] == Moves ? distance : 0);
       }
@@ -325,7 +328,7 @@ void Surroundings::Slide(const BoundaryModel& model, const std::vector<Index>& s
   }
   for (const auto& [node, on] : surfacesOf)
   {
-    result.Moved.row(node) = this->Closest(model, on, result.Moved.row(node));
+    result.Moved.row(node) = this->Slid(model, on, node, result.Moved.row(node));
   }
 }
 

@@ -29,10 +29,11 @@ public:
   struct Options
   {
     Kind How = Kind::Follow;
-    morph::SurfaceMorphOptions Follow; ///< where `linear`, nothing slides
-    double Radius = 0;                 ///< of Fade, in the unit of the points
-    std::vector<morph::Index> Sliding; ///< surfaces of the geometry that slide, of any kind
-    std::vector<morph::Index> Free;    ///< surfaces whose nodes are solved with the interior
+    morph::SurfaceMorphOptions Follow;   ///< where `linear`, nothing slides
+    double Radius = 0;                   ///< of Fade, in the unit of the points
+    std::vector<morph::Index> Sliding;   ///< surfaces of the geometry that slide, of any kind
+    std::vector<morph::Index> Free;      ///< surfaces whose nodes are solved with the interior
+    std::vector<morph::Index> FreeNodes; ///< that are, too
   };
 
   /// What a node does; the values of the output's array Role.
@@ -66,9 +67,11 @@ public:
   ///   leave it;
   /// - with FollowAll: all follow, and none slides;
   /// - with Fade: nodes within the radius of a moving node follow it in part; see morph::Falloff.
-  /// Nodes of sliding surfaces, moving ones too, go to the nearest point of the surface's shape.
+  /// Nodes of sliding surfaces, moving ones too, go to the nearest point at their height above the
+  /// surface's shape.
   /// With Stay and Fade mid-side and face nodes keep their place between their corners. Nodes of
-  /// free surfaces alone, neither moving nor held, have the role IsFree and their current position.
+  /// free surfaces alone, and free nodes, neither moving nor held, have the role IsFree and their
+  /// current position.
   /// A result does not depend on what is kept. `last`: an earlier result that is no longer needed.
   /// Its memory is used again, so that nodes inside cost nothing.
   Result Spread(const BoundaryModel& model, const Choice::Result& choice,
@@ -81,10 +84,11 @@ public:
 
   /// The undeformed shape of a surface of the geometry, by its number; kept with the boundary.
   const SurfaceShape& ShapeOf(const BoundaryModel& model, morph::Index surface);
-  /// The point of these surfaces near `x`: the nearest one of a single surface. Of several it is
-  /// where they meet, by alternating projections.
-  Eigen::RowVector3d Closest(const BoundaryModel& model, const std::vector<morph::Index>& surfaces,
-    const Eigen::RowVector3d& x);
+  /// Where a node of these surfaces slides to from its place `to`: the nearest point of a single
+  /// surface. Of several it is where they meet, by alternating projections. The node keeps its
+  /// undeformed height above each.
+  Eigen::RowVector3d Slid(const BoundaryModel& model, const std::vector<morph::Index>& surfaces,
+    morph::Index node, const Eigen::RowVector3d& to);
 
   /// How often weights were computed so far, those of a surface or of the falloff.
   int PrepareCount() const;

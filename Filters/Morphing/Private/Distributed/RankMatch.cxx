@@ -243,7 +243,20 @@ struct Given
   Way How;      ///< the same on all ranks
   bool HasRest; ///< whether RestPosition counts: all points have it
   std::vector<Traveller> Mine;
+  Precision PointPrecision; ///< of all ranks' points
+  Index Valueless;          ///< of all ranks
 };
+
+/// That of all ranks' points.
+Precision together(const Ranks& ranks, const Precision& mine)
+{
+  Precision all;
+  all.IsFloat = ranks.maximum(Index(mine.IsFloat)) > 0;
+  all.IsSingle = ranks.minimum(Index(mine.IsSingle)) > 0;
+  all.Digits = static_cast<int>(ranks.maximum(Index(mine.Digits)));
+  all.Largest = ranks.maximum(mine.Largest);
+  return all;
+}
 
 Given read(
   vtkPointSet* boundary, const DistributedMesh& mesh, const BoundaryMatch::Options& options)
@@ -284,7 +297,8 @@ Given read(
   const bool isEmpty = way == Way::None;
   way = agree(ranks, way);
   const bool hasRest = ranks.sum(Index(!isEmpty && named.Rest.rows() == 0)) == 0;
-  return { way, hasRest, travellers(named, pairs, ranks.rank()) };
+  return { way, hasRest, travellers(named, pairs, ranks.rank()),
+    together(ranks, named.PointPrecision), ranks.sum(named.Valueless) };
 }
 
 /// Throws on all ranks where one has points of nodes that the mesh does not have.
@@ -304,15 +318,17 @@ void requireKnown(const Ranks& ranks, const std::vector<Index>& unknown)
 
 /// All of NamedPoints but Pairs; sorts `points` by where they come from.
 BoundaryMatch::NamedPoints named(
-  std::vector<Traveller>& points, bool hasRest, const BoundaryMatch::Options& options)
+  std::vector<Traveller>& points, const Given& given, const BoundaryMatch::Options& options)
 {
   std::sort(points.begin(), points.end(),
     [](const Traveller& a, const Traveller& b)
     { return std::tie(a.rank, a.point) < std::tie(b.rank, b.point); });
   const Index count = static_cast<Index>(points.size());
   BoundaryMatch::NamedPoints here;
+  here.PointPrecision = given.PointPrecision;
+  here.Valueless = given.Valueless;
   here.Positions.resize(count, 3);
-  here.Rest.resize(hasRest ? count : 0, 3);
+  here.Rest.resize(given.HasRest ? count : 0, 3);
   here.Displacements.resize(options.DisplacementArray.empty() ? 0 : count, 3);
   here.IsFree.resize(count);
   for (Index i = 0; i < count; ++i)
@@ -320,7 +336,7 @@ BoundaryMatch::NamedPoints named(
     const auto row = [](const std::array<double, 3>& x)
     { return Eigen::RowVector3d(x[0], x[1], x[2]); };
     here.Positions.row(i) = row(points[i].position);
-    if (hasRest)
+    if (given.HasRest)
     {
       here.Rest.row(i) = row(points[i].rest);
     }
@@ -358,7 +374,7 @@ BoundaryMatch::Result Match(vtkPointSet* boundary, const DistributedMesh& mesh,
     ids.push_back(point.id);
   }
   requireKnown(ranks, ids);
-  BoundaryMatch::NamedPoints here = named(points, given.HasRest, options);
+  BoundaryMatch::NamedPoints here = named(points, given, options);
   for (std::size_t i = 0; !byPosition && i < points.size(); ++i)
   {
     here.Pairs.emplace_back(static_cast<Index>(i), mesh.nodeOf(points[i].id));
@@ -391,14 +407,16 @@ BoundaryMatch::Result Match(vtkPointSet* boundary, const DistributedMesh& mesh,
     *followers = followersOf(mesh, result, points, found);
   }
   takeOwners(mesh, result);
+  BoundaryMatch::CountStaying(
+    mesh.mesh(), mesh.outerNodes(), [&](Index node) { return mesh.owns(node); }, result);
+  result.Points = ranks.sum(static_cast<Index>(given.Mine.size()));
   result.Unmatched = unmatched;
-  if (unmatched > 0)
+  for (Index* count :
+    { &result.Freed, &result.Following, &result.Staying, &result.Open, &result.Rounded })
   {
-    result.Warnings.push_back(
-      std::to_string(unmatched) +
-      " of the boundary's points are not within MatchTolerance of a node of the grid and were "
-      "left out.");
+    *count = ranks.sum(*count);
   }
+  BoundaryMatch::Conclude(mesh.size(), options, result);
   return result;
 }
 
@@ -455,7 +473,7 @@ Gathered Gather(
   }
   requireKnown(ranks, unknown);
   std::vector<Traveller> points = ranks.gather(given.Mine);
-  result.Points = named(points, given.HasRest, options);
+  result.Points = named(points, given, options);
   for (std::size_t i = 0; !result.ByPosition && i < points.size(); ++i)
   {
     result.Points.Pairs.emplace_back(static_cast<Index>(i), points[i].id);

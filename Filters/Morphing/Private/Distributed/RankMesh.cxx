@@ -4,7 +4,9 @@
 #include "Mesh/Polyhedra.h"
 #include "Private/Data/DataCheck.h"
 #include "Private/Data/GridMesh.h"
+#include "Private/Data/MeshNotes.h"
 #include "Private/Data/Surface.h"
+#include "Private/Distributed/RankQuality.h"
 #include "Private/RankBlocks/GlobalRanks.h"
 #include "Support/Error.h"
 
@@ -93,6 +95,7 @@ bool RankMesh::Take(
     return false;
   }
   this->Distributed.reset();
+  this->Inverted.reset();
   ranks.together([&] { this->Copy = GridMesh::FromGrid(grid, unknown); });
   morph::distributed::Piece piece{ this->Copy, ghosts, nodeIds, cellIds };
   morph::distributed::requireNodeIds(ranks, piece);
@@ -143,6 +146,39 @@ void RankMesh::SetFeatureLines(bool on, morph::Monitor& monitor)
         this->Polygons.SetFeatureLines(on, whole.mesh(), faces, isDrawn);
       }
     });
+}
+
+const morph::InvertedBefore& RankMesh::Before(morph::Monitor& monitor) const
+{
+  this->Processes.together(
+    [&]
+    {
+      if (this->Inverted)
+      {
+        return;
+      }
+      const morph::Mesh& mesh = this->Distributed->mesh();
+      const std::vector<std::int8_t>& orientation = this->Distributed->orientation();
+      std::vector<std::uint8_t> skip(mesh.numberOfCells());
+      std::transform(mesh.types.begin(), mesh.types.end(), skip.begin(),
+        [](std::uint8_t type)
+        { return GridMesh::Dimension(type) < 3; }); // a piece may have no others
+      this->Inverted.emplace(
+        mesh, orientation, morph::measureQuality(mesh, mesh.points, orientation, skip, monitor));
+    });
+  return *this->Inverted;
+}
+
+void RankMesh::WarnOfShared(morph::Monitor& monitor) const
+{
+  const morph::distributed::DistributedMesh& whole = *this->Distributed;
+  const std::vector<morph::Index> cells = RankQuality::GatherIds(whole, whole.repeatedCells());
+  std::vector<morph::Index> nodes = this->Processes.gather(whole.idsOfNodes(whole.touchingNodes()));
+  std::sort(nodes.begin(), nodes.end());
+  if (this->Processes.rank() == 0)
+  {
+    MeshNotes::WarnOfShared(cells, nodes, monitor);
+  }
 }
 
 void RankMesh::RequireVolumeCells() const

@@ -6,9 +6,11 @@
 #include "Mesh/Mesh.h"
 #include "Private/Data/GridMesh.h"
 #include "Private/Data/MovedSurface.h"
+#include "Quality/InvertedBefore.h"
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 class vtkDataSet;
@@ -31,6 +33,8 @@ public:
     vtkUnstructuredGrid* grid, int layers, GridMesh::UnknownCells unknown, morph::Monitor& monitor);
   /// Adds lines to Surface(), or takes them away; see MovedSurface. Each line is on one process.
   void SetFeatureLines(bool on, morph::Monitor& monitor);
+  /// Warns on the first process of cells that are there twice, and of nodes where bodies touch.
+  void WarnOfShared(morph::Monitor& monitor) const;
   /// Throws morph::Error on all processes unless the mesh can be morphed.
   void RequireVolumeCells() const;
 
@@ -48,6 +52,8 @@ public:
   int HighestDimension() const { return this->Dimension; }
   bool HasPolyhedra() const { return this->Polyhedral; }
   ///@}
+  /// Of the cells in Whole(), ghosts included. Collective. Cost of the first call: a measure.
+  const morph::InvertedBefore& Before(morph::Monitor& monitor) const;
   /// The outer faces of this process's cells.
   const MovedSurface& Surface() const { return this->Polygons; }
 
@@ -68,5 +74,6 @@ private:
   std::vector<std::int8_t> Signs;
   std::vector<std::uint8_t> Skip;
   MovedSurface Polygons;
+  mutable std::optional<morph::InvertedBefore> Inverted; ///< once it was asked for
 };
 }

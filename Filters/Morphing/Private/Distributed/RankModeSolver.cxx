@@ -49,6 +49,11 @@ public:
   }
   double Size() const override { return this->Pieces.Whole().size(); }
   morph::Index MirroredBodies() const override { return this->Pieces.Whole().mirroredBodies(); }
+  void ReportMesh(morph::Monitor& monitor) const override { this->Pieces.WarnOfShared(monitor); }
+  const morph::InvertedBefore& Before(morph::Monitor& monitor) const override
+  {
+    return this->Pieces.Before(monitor);
+  }
   bool Owns(morph::Index node) const override { return this->Pieces.Whole().owns(node); }
   std::int64_t NodeId(morph::Index node) const override
   {
@@ -99,6 +104,7 @@ public:
       const auto& whole = this->Pieces.Whole();
       result.Whole = morph::distributed::reduce(whole.ranks(), mine, whole.cellIds());
       Quality::Write(mine, outputs.Mesh);
+      result.Judged = RankOutput::Judge(this->Pieces, mine, outputs.Mesh, monitor);
     }
     result.SurfaceInverted = RankOutput::WriteParts(
       this->Pieces, mine, all, outputs.Mesh, outputs.BadCells, outputs.Surface);

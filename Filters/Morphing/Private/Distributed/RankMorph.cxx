@@ -12,6 +12,7 @@
 #include "Private/Distributed/RankMesh.h"
 #include "Private/Distributed/RankOutput.h"
 #include "Private/Distributed/RankPolyhedra.h"
+#include "Private/Distributed/RankQuality.h"
 #include "Private/Distributed/RankValidity.h"
 #include "Private/Morph/PolyhedralRepair.h"
 #include "Private/Morph/Series.h"
@@ -181,6 +182,10 @@ BoundaryMatch::Result Morphing::Internals::Match(vtkDataObject* boundary, double
       monitor.warn(warning);
     }
   }
+  if (ranks.rank() == 0)
+  {
+    BoundaryMatch::WarnIfNothingStays(match, monitor);
+  }
   return match;
 }
 
@@ -250,7 +255,10 @@ StepResult Morphing::Internals::Step(const DistributedMesh* from,
   const DistributedMesh& whole = from ? *from : this->Mesh.Whole();
   const auto& ranks = whole.ranks();
   const morph::NodePartition partition = this->PartitionOf(match.Ids, monitor);
-  const RankValidity validity{ options, whole, this->Mesh.Whole().mesh().points, partition,
+  static const morph::InvertedBefore none{};
+  const morph::InvertedBefore& before =
+    options.MeasureAll ? Validity::BeforeFor(options.Validity, this->Mesh.Before(monitor)) : none;
+  const RankValidity validity{ options, whole, this->Mesh.Whole().mesh().points, before, partition,
     match.Targets, this->Mesh.HasPolyhedra(), [&] { return this->Make(options); } };
   StepResult result;
   result.BoundaryInverted = validity.RequireFeasible();
@@ -276,7 +284,7 @@ StepResult Morphing::Internals::Step(const DistributedMesh* from,
   {
     // The method has moved corners of cells or pieces; nodes between them have followed.
     RankPolyhedra::Repair(whole, this->Mesh.Whole().mesh().points, partition,
-      this->Mesh.HasPolyhedra(), result.Moved, evaluating);
+      this->Mesh.HasPolyhedra(), {}, result.Moved, evaluating);
   }
   result.Statistics = report.statistics;
   const std::vector<morph::Index> wrong = DataCheck::Immoderate(result.Moved);
@@ -419,6 +427,17 @@ std::string Morphing::Run(
   Internals& own = *this->Own;
   own.Take(task.Grid, options, monitor);
   own.Mesh.SetFeatureLines(task.FeatureLines, monitor);
+  const bool isFirst = own.Mesh.Ranks().rank() == 0;
+  own.Mesh.WarnOfShared(monitor);
+  if (options.MeasureAll)
+  {
+    const std::string note = Validity::Note(
+      options.Validity, RankQuality::GatherIds(own.Mesh.Whole(), own.Mesh.Before(monitor).cells()));
+    if (!note.empty() && isFirst)
+    {
+      monitor.warn(note);
+    }
+  }
   morph::ProgressRange morphing(monitor, 0.02, 0.9), writing(monitor, 0.9, 1);
   std::shared_ptr<const StepResult> step;
   if (task.Series)
@@ -431,7 +450,6 @@ std::string Morphing::Run(
       own.Match(task.Boundary, task.Fraction, options, nullptr, monitor);
     step = std::make_shared<StepResult>(own.Step(nullptr, match, options, morphing));
   }
-  const bool isFirst = own.Mesh.Ranks().rank() == 0;
   if (!step->Valid.Warning.empty() && isFirst)
   {
     monitor.warn(step->Valid.Warning);

@@ -23,8 +23,9 @@ void writeMeasured(const RankMesh& mesh, const OnRanks::Morphing::Task& task,
 {
   const auto& ranks = mesh.Ranks();
   const morph::Quality whole = morph::distributed::reduce(ranks, mine, mesh.Whole().cellIds());
-  MorphOutput::SetStatus(
-    step, whole.inverted + whole.degenerate, results, ranks.rank() == 0 ? &monitor : nullptr);
+  const Quality::Judged judged = Judge(mesh, mine, task.Output, monitor);
+  MorphOutput::SetStatus(step, judged.Added, results, ranks.rank() == 0 ? &monitor : nullptr);
+  results.Set(judged);
   Quality::Write(mine, task.Output);
   results.Set(whole);
   results.SetNumber("WorstMeanScaledJacobian", morph::distributed::worstMean(ranks, mine));
@@ -36,6 +37,13 @@ void writeMeasured(const RankMesh& mesh, const OnRanks::Morphing::Task& task,
     results.Set(report);
   }
 }
+}
+
+Quality::Judged Judge(const RankMesh& mesh, const morph::Quality& mine, vtkUnstructuredGrid* output,
+  morph::Monitor& monitor)
+{
+  const Quality::Judged own = Quality::Judge(mesh.Before(monitor), mine, output);
+  return { mesh.Ranks().sum(own.Before), mesh.Ranks().sum(own.Added) };
 }
 
 morph::CertificateReport Certify(const RankMesh& mesh, vtkUnstructuredGrid* output,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Private/Data/Quality.h"
 #include "Private/Distributed/OnRanks.h"
 #include "Private/Distributed/RankMesh.h"
 #include "Private/Morph/Series.h"
@@ -24,6 +25,10 @@ morph::Quality WritePoints(const RankMesh& mesh, vtkUnstructuredGrid* grid,
 morph::Index WriteParts(const RankMesh& mesh, const morph::Quality& mine, bool all,
   vtkUnstructuredGrid* output, vtkUnstructuredGrid* badCells, vtkPolyData* surface);
 ///@}
+
+/// Quality::Judge() of the whole mesh. `mine`: of this process's own cells. Collective.
+Quality::Judged Judge(const RankMesh& mesh, const morph::Quality& mine, vtkUnstructuredGrid* output,
+  morph::Monitor& monitor);
 
 /// Certifies this process's cells, and writes nothing. The counts are those of the whole mesh.
 /// Collective.

@@ -15,16 +15,16 @@ using morph::distributed::DistributedMesh;
 using morph::distributed::RepairReport;
 
 RepairReport Repair(const DistributedMesh& mesh, const morph::Points& reference,
-  const morph::NodePartition& partition, bool hasPolyhedra, morph::Points& moved,
-  morph::Monitor& monitor)
+  const morph::NodePartition& partition, bool hasPolyhedra, const morph::InvertedBefore& before,
+  morph::Points& moved, morph::Monitor& monitor)
 {
   if (!hasPolyhedra)
   {
-    return morph::distributed::repairInverted(mesh, reference, partition, moved, monitor);
+    return morph::distributed::repairInverted(mesh, reference, partition, before, moved, monitor);
   }
   constexpr int Rounds = 4;
   const auto bad = [&](const morph::Points& points)
-  { return RankQuality::Measure(mesh, points, monitor).Bad(); };
+  { return RankQuality::Measure(mesh, points, before, monitor).AddedOfAll; };
   RepairReport result;
   result.bad = bad(moved);
   if (result.bad == 0)
@@ -39,7 +39,7 @@ RepairReport Repair(const DistributedMesh& mesh, const morph::Points& reference,
   {
     morph::Points all = cut.extend(points);
     const RepairReport ofRound =
-      morph::distributed::repairInverted(cut.mesh(), shapes, ofPieces, all, monitor);
+      morph::distributed::repairInverted(cut.mesh(), shapes, ofPieces, {}, all, monitor);
     result.tooLarge = ofRound.tooLarge;
     result.cells = ofRound.cells;
     morph::Points repaired = cut.reduce(all, points);
@@ -75,8 +75,8 @@ morph::Index Smooth(const DistributedMesh& mesh, const morph::Points& rest,
     cut.mesh(), cut.extend(rest), cut.extend(partition), options, all, monitor);
   morph::Points smoothed = cut.reduce(all, moved);
   // What is better for the pieces may be worse for the polyhedra.
-  const RankQuality::Measured before = RankQuality::Measure(mesh, moved, monitor);
-  const RankQuality::Measured after = RankQuality::Measure(mesh, smoothed, monitor);
+  const RankQuality::Measured before = RankQuality::Measure(mesh, moved, {}, monitor);
+  const RankQuality::Measured after = RankQuality::Measure(mesh, smoothed, {}, monitor);
   if (after.Bad() > before.Bad() ||
       (after.Bad() == before.Bad() && !(after.Whole.minimum >= before.Whole.minimum)))
   {

@@ -4,16 +4,18 @@
 #include "Distributed/DistributedMesh.h"
 #include "Distributed/Patches.h"
 #include "Mesh/NodePartition.h"
+#include "Quality/InvertedBefore.h"
 #include "Support/Monitor.h"
 
 /// What changes a distributed mesh after a method, for meshes that may have polyhedra, whose pieces
 /// it sees. All functions are collective. `moved`: #local nodes x 3, the start and the result.
 namespace morph::filters::RankPolyhedra
 {
-/// morph::distributed::repairInverted() or, with polyhedra, PolyhedralRepair::Run() by it.
+/// morph::distributed::repairInverted() or, with polyhedra, PolyhedralRepair::Run() by it. Cells of
+/// `before` (local) were inverted before, and do not count unless they are worse.
 morph::distributed::RepairReport Repair(const morph::distributed::DistributedMesh& mesh,
   const morph::Points& reference, const morph::NodePartition& partition, bool hasPolyhedra,
-  morph::Points& moved, morph::Monitor& monitor);
+  const morph::InvertedBefore& before, morph::Points& moved, morph::Monitor& monitor);
 
 /// Smooths towards the undeformed shapes; returns the steps, 0 where the mesh stays. See Session.
 morph::Index Smooth(const morph::distributed::DistributedMesh& mesh, const morph::Points& rest,

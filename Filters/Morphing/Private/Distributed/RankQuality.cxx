@@ -13,7 +13,8 @@ namespace morph::filters::RankQuality
 {
 using morph::distributed::DistributedMesh;
 
-Measured Measure(const DistributedMesh& mesh, const morph::Points& points, morph::Monitor& monitor)
+Measured Measure(const DistributedMesh& mesh, const morph::Points& points,
+  const morph::InvertedBefore& before, morph::Monitor& monitor)
 {
   std::vector<std::uint8_t> skip = mesh.isGhost();
   for (std::size_t c = 0; c < skip.size(); ++c)
@@ -23,9 +24,12 @@ Measured Measure(const DistributedMesh& mesh, const morph::Points& points, morph
   }
   Measured result;
   mesh.ranks().together(
-    [&] {
+    [&]
+    {
       result.Mine = morph::measureQuality(mesh.mesh(), points, mesh.orientation(), skip, monitor);
+      result.Added = before.added(points, morph::invertedCells(result.Mine));
     });
+  result.AddedOfAll = mesh.ranks().sum(static_cast<morph::Index>(result.Added.size()));
   result.Whole = morph::distributed::reduce(mesh.ranks(), result.Mine, mesh.cellIds());
   return result;
 }
@@ -59,7 +63,7 @@ std::string Found(
   const auto before = [](const Line& a, const Line& b)
   { return std::tie(a.jacobian, a.id) < std::tie(b.jacobian, b.id); };
   std::vector<Line> lines;
-  for (const morph::Index cell : morph::invertedCells(measured.Mine))
+  for (const morph::Index cell : measured.Added)
   {
     const morph::Index corners =
       morph::cornerCount(mesh.mesh(), cell, *morph::cellShape(mesh.mesh().types[cell]));
@@ -80,13 +84,14 @@ std::string Found(
   lines = mesh.ranks().gather(lines);
   keepWorst();
   std::ostringstream text;
-  text << measured.Bad() << " cells are inverted or degenerate. The worst, with their centres:";
+  text << measured.AddedOfAll
+       << " cells are inverted or degenerate. The worst, with their centres:";
   for (const Line& line : lines)
   {
     text << "\n  cell " << line.id << " at (" << line.centre[0] << ", " << line.centre[1] << ", "
          << line.centre[2] << "), scaled Jacobian " << line.jacobian;
   }
-  text << (measured.Bad() > static_cast<morph::Index>(lines.size()) ? "\n  ...\n" : "\n");
+  text << (measured.AddedOfAll > static_cast<morph::Index>(lines.size()) ? "\n  ...\n" : "\n");
   return text.str();
 }
 }

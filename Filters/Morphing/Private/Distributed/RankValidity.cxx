@@ -17,11 +17,6 @@ namespace morph::filters
 {
 using morph::distributed::Method;
 
-bool RankValidity::AsksForValidMesh() const
-{
-  return this->Options.Validity >= vtkMorphAlgorithm::VALIDITY_SUB_STEP;
-}
-
 /// The cells, by global ids, that the targets invert.
 std::vector<morph::Index> RankValidity::DeterminedBy(const morph::Points& targets) const
 {
@@ -34,7 +29,7 @@ std::vector<morph::Index> RankValidity::DeterminedBy(const morph::Points& target
       cells = morph::boundaryDeterminedInversions(
         this->Mesh.mesh(), this->Partition, this->Mesh.orientation(), points);
     });
-  return RankQuality::GatherIds(this->Mesh, cells);
+  return RankQuality::GatherIds(this->Mesh, this->Before.without(cells));
 }
 
 /// These, and the cells around nodes that the targets leave no place.
@@ -52,9 +47,10 @@ std::vector<morph::Index> RankValidity::ForbiddenBy(
              this->Mesh.mesh(), this->Partition, this->Mesh.orientation(), points, monitor))
       {
         // All cells around a node are on the rank that owns it.
+        const bool isNew = this->Before.without(node.cells).size() == node.cells.size();
         for (const morph::Index cell : node.cells)
         {
-          if (this->Mesh.owns(node.node))
+          if (isNew && this->Mesh.owns(node.node))
           {
             ids.push_back(this->Mesh.cellId(cell));
           }
@@ -72,18 +68,8 @@ std::vector<morph::Index> RankValidity::ForbiddenBy(
 morph::Index RankValidity::RequireFeasible() const
 {
   const std::vector<morph::Index> determined = this->DeterminedBy(this->Targets);
-  const auto count = static_cast<morph::Index>(determined.size());
-  if (count > 0 && this->AsksForValidMesh())
-  {
-    throw Validity::Infeasible(
-      "The boundary itself inverts " + std::to_string(count) +
-        " cells, at corners that no free node can mend, so no valid mesh exists: cell ids " +
-        morph::listIds(determined) +
-        ". Move the boundary less there, leave some of its nodes free, or set Validity to Report "
-        "to see the mesh.",
-      count);
-  }
-  return count;
+  Validity::RequireFeasible(this->Options.Validity, determined);
+  return static_cast<morph::Index>(determined.size());
 }
 
 Validity::Outcome RankValidity::Remaining(
@@ -92,10 +78,10 @@ Validity::Outcome RankValidity::Remaining(
   Validity::Outcome outcome;
   outcome.Status = "Inverted";
   outcome.LargestValidStep = std::numeric_limits<double>::quiet_NaN();
-  outcome.Error =
-    "No valid mesh was found, and the result is the best that was: " +
-    RankQuality::Found(this->Mesh, RankQuality::Measure(this->Mesh, moved, monitor), moved) +
-    reason;
+  outcome.Error = "No valid mesh was found, and the result is the best that was: " +
+                  RankQuality::Found(this->Mesh,
+                    RankQuality::Measure(this->Mesh, moved, this->Before, monitor), moved) +
+                  reason;
   return outcome;
 }
 
@@ -105,7 +91,7 @@ Validity::Outcome RankValidity::SubStep(morph::Points& moved, morph::Monitor& mo
   const auto inverted = [&](const morph::Points& points)
   {
     return RankQuality::GatherIds(
-      this->Mesh, morph::invertedCells(RankQuality::Measure(this->Mesh, points, monitor).Mine));
+      this->Mesh, RankQuality::Measure(this->Mesh, points, this->Before, monitor).Added);
   };
   const std::vector<morph::Index> atRest = inverted(rest);
   if (!atRest.empty())
@@ -119,7 +105,8 @@ Validity::Outcome RankValidity::SubStep(morph::Points& moved, morph::Monitor& mo
   const morph::BoundaryPath path = morph::straightPath(rest, this->Partition, this->Targets);
   morph::SubStepLimits limits;
   limits.attempts = this->Options.MaximumSubSteps;
-  if (this->Options.Validity == vtkMorphAlgorithm::VALIDITY_REPAIR)
+  const bool repairs = Validity::Repairs(this->Options.Validity);
+  if (repairs)
   {
     limits.failures = Validity::RepairFailures;
   }
@@ -133,10 +120,10 @@ Validity::Outcome RankValidity::SubStep(morph::Points& moved, morph::Monitor& mo
     method->prepare(valid, this->Partition, first);
     morph::SubStepAttempt made;
     made.report = method->evaluate(path(time), made.moved, second);
-    if (this->Options.Validity == vtkMorphAlgorithm::VALIDITY_REPAIR)
+    if (repairs)
     {
-      RankPolyhedra::Repair(
-        valid, this->Reference, this->Partition, this->HasPolyhedra, made.moved, part);
+      RankPolyhedra::Repair(valid, this->Reference, this->Partition, this->HasPolyhedra,
+        this->Before, made.moved, part);
     }
     made.inverted = inverted(made.moved);
     return made;
@@ -150,15 +137,16 @@ Validity::Outcome RankValidity::SubStep(morph::Points& moved, morph::Monitor& mo
 Validity::Outcome RankValidity::Ensure(morph::Points& moved, morph::Monitor& monitor) const
 {
   Validity::Outcome outcome;
-  const RankQuality::Measured measured = RankQuality::Measure(this->Mesh, moved, monitor);
-  if (measured.Bad() == 0)
+  const RankQuality::Measured measured =
+    RankQuality::Measure(this->Mesh, moved, this->Before, monitor);
+  if (measured.AddedOfAll == 0)
   {
     return outcome;
   }
   const int mode = this->Options.Validity;
   const morph::Index free =
     this->Mesh.ranks().sum(static_cast<morph::Index>(this->Partition.free.size()));
-  const bool repairs = mode == vtkMorphAlgorithm::VALIDITY_REPAIR;
+  const bool repairs = Validity::Repairs(mode);
   if (free == 0 && (repairs || mode == vtkMorphAlgorithm::VALIDITY_SUB_STEP))
   {
     return this->Remaining(
@@ -168,7 +156,7 @@ Validity::Outcome RankValidity::Ensure(morph::Points& moved, morph::Monitor& mon
   {
     morph::ProgressRange first(monitor, 0, 0.5), second(monitor, 0.5, 1);
     const morph::distributed::RepairReport report = RankPolyhedra::Repair(
-      this->Mesh, this->Reference, this->Partition, this->HasPolyhedra, moved, first);
+      this->Mesh, this->Reference, this->Partition, this->HasPolyhedra, this->Before, moved, first);
     if (report.bad == 0)
     {
       outcome.Status = "Repaired";

@@ -19,6 +19,7 @@ public:
   const Session::Options& Options;
   const morph::distributed::DistributedMesh& Mesh; ///< before the motion
   const morph::Points& Reference;                  ///< #local nodes x 3, the undeformed mesh
+  const morph::InvertedBefore& Before;             ///< as of Validity, of the local mesh
   const morph::NodePartition& Partition;           ///< of the local mesh
   const morph::Points& Targets;                    ///< #prescribed x 3
   bool HasPolyhedra;                               ///< on any process
@@ -34,7 +35,6 @@ public:
   Validity::Outcome Ensure(morph::Points& moved, morph::Monitor& monitor) const;
 
 private:
-  bool AsksForValidMesh() const;
   std::vector<morph::Index> DeterminedBy(const morph::Points& targets) const;
   std::vector<morph::Index> ForbiddenBy(
     const morph::Points& targets, morph::Monitor& monitor) const;

@@ -234,6 +234,7 @@ BoundaryMatch::Result WholeSurface::Match(
       }
       result = BoundaryMatch::FindTargets(std::move(named), own.Surface.Shell, own.Surface.Faces,
         this->Size(), options, &own.Surface.NodeIds);
+      BoundaryMatch::Conclude(this->Size(), options, result);
     });
   return result;
 }

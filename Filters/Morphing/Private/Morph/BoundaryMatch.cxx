@@ -7,6 +7,7 @@
 #include "Support/Error.h"
 
 #include <vtkAbstractArray.h>
+#include <vtkCellArray.h>
 #include <vtkDoubleArray.h>
 #include <vtkIdList.h>
 #include <vtkNew.h>
@@ -15,6 +16,7 @@
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkStaticPointLocator.h>
+#include <vtkUnstructuredGrid.h>
 
 #include <Eigen/Geometry>
 
@@ -250,14 +252,95 @@ void warnOfInteriorNodes(vtkDataArray* ids, const Pairs& pairs, const std::vecto
   }
 }
 
+/// Throws where most of the boundary's cells join nodes that no cell of the mesh joins: its nodes
+/// come in another order, or are those of another mesh.
+void requireCellsOfMesh(vtkPointSet* boundary, const Pairs& pairs, const morph::Mesh& rest)
+{
+  auto* grid = vtkUnstructuredGrid::SafeDownCast(boundary);
+  auto* surface = vtkPolyData::SafeDownCast(boundary);
+  const vtkIdType count = surface ? surface->GetNumberOfPolys() : boundary->GetNumberOfCells();
+  if (count == 0 || (grid && GridMesh::SameCells(grid, rest)))
+  {
+    return;
+  }
+  std::vector<Index> nodeOf(boundary->GetNumberOfPoints(), -1);
+  for (const auto& [point, node] : pairs)
+  {
+    nodeOf[point] = node;
+  }
+  const morph::Adjacency cellsOf = morph::nodeToCells(rest);
+  const auto haveOne = [&cellsOf](const std::vector<Index>& nodes)
+  {
+    return std::any_of(cellsOf.begin(nodes[0]), cellsOf.end(nodes[0]),
+      [&](Index cell)
+      {
+        return std::all_of(nodes.begin(), nodes.end(),
+          [&](Index node)
+          { return std::binary_search(cellsOf.begin(node), cellsOf.end(node), cell); });
+      });
+  };
+  std::vector<Index> strange;
+  Index known = 0;
+  vtkNew<vtkIdList> points;
+  for (vtkIdType c = 0; c < count; ++c)
+  {
+    surface ? surface->GetPolys()->GetCellAtId(c, points) : boundary->GetCellPoints(c, points);
+    std::vector<Index> corners; // those of the mesh's cells
+    for (vtkIdType k = 0; k < points->GetNumberOfIds(); ++k)
+    {
+      const Index node = nodeOf[points->GetId(k)];
+      if (node >= 0 && cellsOf.begin(node) != cellsOf.end(node))
+      {
+        corners.push_back(node);
+      }
+    }
+    known += corners.size() > 2;
+    if (corners.size() > 2 && !haveOne(corners))
+    {
+      strange.push_back(c);
+    }
+  }
+  if (2 * static_cast<Index>(strange.size()) > known)
+  {
+    throw Error(
+      "The boundary's points are not the grid's nodes: " + std::to_string(strange.size()) +
+      " of its " + std::to_string(count) +
+      " cells join nodes that no cell of the grid joins, the cells " + morph::listIds(strange) +
+      ". Its nodes come in another order, or are those of another mesh. Make the "
+      "boundary with Extract Morph Boundary, or set BoundaryIdArray.");
+  }
+}
+
+/// Frees the points whose displacement is NaN, or where the mask, if there is one, is 0.
+void freeValueless(vtkDataArray* mask, BoundaryMatch::NamedPoints& named)
+{
+  named.IsFree.resize(named.Positions.rows(), 0);
+  for (Index i = 0; i < named.Positions.rows(); ++i)
+  {
+    if (DataCheck::IsMissing(named.Displacements.row(i), mask, i))
+    {
+      named.IsFree[i] = 1;
+      ++named.Valueless;
+    }
+  }
+}
+
 Pairs findNodes(vtkPointSet* boundary, const Points& positions, const morph::Mesh& rest,
   const std::vector<Index>& outer, double tolerance, const BoundaryMatch::Options& options,
   BoundaryMatch::Result& result)
 {
   const Index nodes = rest.numberOfNodes();
+  const auto verified = [&](Pairs pairs)
+  {
+    if (!boundary->GetPointData()->HasArray(Surface::RestName)) // which FindTargets() verifies
+    {
+      requireCellsOfMesh(boundary, pairs, rest);
+    }
+    return pairs;
+  };
   if (vtkDataArray* ids = BoundaryMatch::FindIds(boundary, options))
   {
-    return byIds(ids, nodes);
+    return verified(byIds(ids, nodes));
   }
   if (positions.rows() == nodes)
   {
@@ -268,13 +351,13 @@ Pairs findNodes(vtkPointSet* boundary, const Points& positions, const morph::Mes
     {
       pairs.emplace_back(node, node);
     }
-    return pairs;
+    return verified(std::move(pairs));
   }
   if (vtkDataArray* ids = findArray(boundary, "PointIds"))
   {
     Pairs pairs = byIds(ids, nodes);
     warnOfInteriorNodes(ids, pairs, outer, result.Warnings);
-    return pairs;
+    return verified(std::move(pairs));
   }
   if (vtkDataArray* ids = findArray(boundary, "vtkOriginalPointIds"))
   {
@@ -285,7 +368,7 @@ Pairs findNodes(vtkPointSet* boundary, const Points& positions, const morph::Mes
       "where "
       "it numbers the points of another data set. Extract Morph Boundary writes ids that can be "
       "checked.");
-    return pairs;
+    return verified(std::move(pairs));
   }
   if (!options.DisplacementArray.empty())
   {
@@ -333,6 +416,10 @@ NamedPoints ReadPoints(vtkPointSet* boundary, const Options& options)
 {
   NamedPoints named;
   named.Positions = GridMesh::FromPoints(boundary->GetPoints());
+  if (options.DisplacementArray.empty())
+  {
+    named.PointPrecision = Precision::Of(boundary->GetPoints(), named.Positions);
+  }
   if (vtkDataArray* array = findArray(boundary, Surface::RestName))
   {
     if (array->GetNumberOfComponents() < 3)
@@ -357,6 +444,7 @@ NamedPoints ReadPoints(vtkPointSet* boundary, const Options& options)
   {
     named.Displacements = GridMesh::FromVectors(
       requireArray(boundary, options.DisplacementArray, "DisplacementArray", 3));
+    freeValueless(findArray(boundary, DataCheck::MaskName), named);
   }
   return named;
 }
@@ -374,7 +462,10 @@ Result Match(vtkPointSet* boundary, const morph::Mesh& rest, const morph::Bounda
     boundary, named.Positions, rest, outer.nodes, options.MatchTolerance * size, options, result);
   named.Unmatched = result.Unmatched;
   Result found = FindTargets(std::move(named), rest, outer, size, options);
-  found.Warnings.insert(found.Warnings.begin(), result.Warnings.begin(), result.Warnings.end());
+  found.Warnings = std::move(result.Warnings);
+  CountStaying(
+    rest, outer, [](Index) { return true; }, found);
+  Conclude(size, options, found);
   return found;
 }
 }

@@ -66,10 +66,22 @@ void verifyRestPositions(const BoundaryMatch::NamedPoints& named, const morph::M
   }
 }
 
-/// The positions asked for, ScaleFactor not yet applied.
-Points targetPositions(
-  const BoundaryMatch::NamedPoints& named, const morph::Mesh& rest, const Names& names)
+/// The positions asked for, ScaleFactor not yet applied. `rounded`: counts the coordinates that
+/// differ from the undeformed ones by their rounding alone, and stay.
+Points targetPositions(const BoundaryMatch::NamedPoints& named, const morph::Mesh& rest,
+  const Names& names, Index& rounded)
 {
+  const auto stay = [&](const auto& from, auto to)
+  {
+    for (int j = 0; j < 3; ++j)
+    {
+      if (to[j] != from[j] && named.PointPrecision.IsRounded(to[j], from[j]))
+      {
+        to[j] = from[j];
+        ++rounded;
+      }
+    }
+  };
   Points targets(static_cast<Index>(named.Pairs.size()), 3);
   std::vector<Index> notFinite, huge;
   for (std::size_t k = 0; k < named.Pairs.size(); ++k)
@@ -90,6 +102,10 @@ Points targetPositions(
     {
       huge.push_back(node);
     }
+    else if (named.Displacements.rows() == 0)
+    {
+      stay(from, to);
+    }
   }
   if (!notFinite.empty())
   {
@@ -109,13 +125,13 @@ Points targetPositions(
 /// What a node has that is in no row of the targets.
 constexpr Index Held = -1, Unnamed = -2, Free = -3;
 
-/// Marks the nodes of free points, and removes their pairs.
-void takeFree(BoundaryMatch::NamedPoints& named, std::vector<Index>& row, bool isPart)
+/// Marks the nodes of free points, and removes their pairs. Returns the number of these.
+Index takeFree(BoundaryMatch::NamedPoints& named, std::vector<Index>& row)
 {
   auto& pairs = named.Pairs;
-  if (named.IsFree.empty() || pairs.empty())
+  if (named.IsFree.empty())
   {
-    return;
+    return 0;
   }
   const auto isFree = [&](const std::pair<Index, Index>& pair)
   { return named.IsFree[pair.first] != 0; };
@@ -126,12 +142,9 @@ void takeFree(BoundaryMatch::NamedPoints& named, std::vector<Index>& row, bool i
       row[pair.second] = Free;
     }
   }
+  const auto all = pairs.size();
   pairs.erase(std::remove_if(pairs.begin(), pairs.end(), isFree), pairs.end());
-  if (pairs.empty() && !isPart)
-  {
-    throw Error("All points of the boundary are free (its point array MorphFree is not 0), so "
-                "nothing says where the mesh goes. Let some of them stay or move.");
-  }
+  return static_cast<Index>(all - pairs.size());
 }
 
 /// Marks the outer nodes without a row as held, but for mid-side and face nodes between corners one
@@ -161,11 +174,15 @@ Result FindTargets(NamedPoints named, const morph::Mesh& rest, const morph::Boun
   const double tolerance = options.MatchTolerance * size;
   const Names names(globalIds);
   Result result;
+  result.Points = named.Positions.rows();
   result.Unmatched = named.Unmatched;
+  result.Valueless = named.Valueless;
+  result.PointPrecision = named.PointPrecision;
   verifyRestPositions(named, rest, tolerance, names);
   std::vector<Index> row(rest.numberOfNodes(), Unnamed);
-  takeFree(named, row, globalIds != nullptr);
-  const Points targets = targetPositions(named, rest, names);
+  result.Freed = takeFree(named, row);
+  result.Following = static_cast<Index>(named.Pairs.size());
+  const Points targets = targetPositions(named, rest, names, result.Rounded);
   const auto& pairs = named.Pairs;
 
   std::vector<Index> torn;
@@ -236,14 +253,77 @@ Result FindTargets(NamedPoints named, const morph::Mesh& rest, const morph::Boun
     throw Error("ScaleFactor " + text.str() + " moves nodes beyond 1e50, at node ids " +
                 names.Of(huge) + ". Lower it.");
   }
+  return result;
+}
+
+void CountStaying(const morph::Mesh& rest, const morph::BoundaryFaces& outer,
+  const std::function<bool(Index node)>& owns, Result& result)
+{
+  for (std::size_t i = 0; i < result.Ids.size(); ++i)
+  {
+    result.Staying += result.Targets.row(static_cast<Index>(i)) == rest.points.row(result.Ids[i]) &&
+                      owns(result.Ids[i]);
+  }
+  for (std::size_t i = 0; i < outer.nodes.size(); ++i)
+  {
+    const Index node = outer.nodes[i], k = static_cast<Index>(i);
+    result.Open += outer.between.begin(k) == outer.between.end(k) && owns(node) &&
+                   !std::binary_search(result.Ids.begin(), result.Ids.end(), node);
+  }
+}
+
+void Conclude(double size, const Options& options, Result& result)
+{
+  const auto ofPoints = [&](Index count)
+  {
+    return std::to_string(count) + " of the boundary's " + std::to_string(result.Points) +
+           " points";
+  };
+  const bool areFree = result.Following == 0 && result.Freed > 0;
+  if (areFree && result.Valueless > 0)
+  {
+    throw Error("No point of the boundary has a displacement, so nothing says where the mesh goes: "
+                "'" +
+                options.DisplacementArray + "' is NaN, or vtkValidPointMask 0, at " +
+                ofPoints(result.Valueless) + ". Give displacements where the boundary is.");
+  }
+  if (areFree)
+  {
+    throw Error("All points of the boundary are free (its point array MorphFree is not 0), so "
+                "nothing says where the mesh goes. Let some of them stay or move.");
+  }
+  if (result.Valueless > 0)
+  {
+    result.Warnings.push_back(
+      ofPoints(result.Valueless) + " have no displacement ('" + options.DisplacementArray +
+      "' is NaN, or vtkValidPointMask 0, there). Their nodes are free: they "
+      "are solved with the interior.");
+  }
+  const Precision& precision = result.PointPrecision;
+  if ((result.Rounded > 0 || precision.IsFloat) && options.DisplacementArray.empty() &&
+      precision.Step() > 2 * options.MatchTolerance * size)
+  {
+    result.Warnings.push_back(
+      "The boundary has " + precision.Text() +
+      ". What is nearer to its old place than that stays, and what moves is as far off. Give the "
+      "boundary in double precision, or displacements (DisplacementArray), or coordinates with "
+      "an origin near the mesh.");
+  }
   if (result.Unmatched > 0)
   {
     result.Warnings.push_back(
-      std::to_string(result.Unmatched) + " of the boundary's " +
-      std::to_string(named.Positions.rows()) +
-      " points are not within MatchTolerance of a node of the grid and were left out.");
+      ofPoints(result.Unmatched) +
+      " are not within MatchTolerance of a node of the grid and were left out.");
   }
-  return result;
+}
+
+void WarnIfNothingStays(const Result& result, morph::Monitor& monitor)
+{
+  if (result.Staying == 0 && result.Open > 0)
+  {
+    monitor.warn("Nothing holds the mesh: all prescribed nodes move, and the other outer nodes are "
+                 "free, so that the whole mesh may go along. Hold a surface if that is not meant.");
+  }
 }
 }
 }

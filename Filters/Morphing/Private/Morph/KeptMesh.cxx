@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Private/Morph/KeptMesh.h"
 
+#include "Mesh/SharedCorners.h"
 #include "Private/Data/GridMesh.h"
 #include "Private/Data/Quality.h"
 #include "Private/Pipeline/Input.h"
@@ -36,6 +37,8 @@ bool KeptMesh::Take(vtkUnstructuredGrid* grid, morph::Monitor& monitor)
     morph::BoundaryFaces outer = morph::boundaryFaces(mesh, monitor);
     MovedSurface polygons;
     polygons.Make(grid, mesh, outer);
+    this->Repeated = morph::repeatedCells(mesh, monitor);
+    this->Touching = morph::touchingNodes(mesh, outer);
     this->Outer = std::move(outer);
     this->Polygons = std::move(polygons);
   }
@@ -43,9 +46,20 @@ bool KeptMesh::Take(vtkUnstructuredGrid* grid, morph::Monitor& monitor)
   this->Signs = std::move(signs);
   this->Diameter = GridMesh::Size(mesh);
   this->Copy = std::make_shared<morph::Mesh>(std::move(mesh));
+  this->Inverted.reset();
   this->Taken.See(grid);
   this->SetFeatureLines(false); // those of other points
   return true;
+}
+
+const morph::InvertedBefore& KeptMesh::Before(morph::Monitor& monitor) const
+{
+  if (!this->Inverted)
+  {
+    this->Inverted.emplace(*this->Copy, this->Signs,
+      morph::measureQuality(*this->Copy, this->Copy->points, this->Signs, {}, monitor));
+  }
+  return *this->Inverted;
 }
 
 void KeptMesh::WriteUndeformedSurface(vtkUnstructuredGrid* grid, vtkPolyData* surface) const

@@ -5,9 +5,11 @@
 #include "Mesh/Topology.h"
 #include "Private/Data/MovedSurface.h"
 #include "Private/Data/Unchanged.h"
+#include "Quality/InvertedBefore.h"
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 class vtkPolyData;
@@ -41,6 +43,13 @@ public:
   /// #cells; see Topology.h.
   const std::vector<std::int8_t>& Orientation() const { return this->Signs; }
   morph::Index MirroredBodies() const { return this->Mirrored; }
+  /// Cells that are there twice, and nodes where bodies touch by chance; see SharedCorners.h.
+  ///@{
+  const std::vector<morph::Index>& RepeatedCells() const { return this->Repeated; }
+  const std::vector<morph::Index>& TouchingNodes() const { return this->Touching; }
+  ///@}
+  /// Cost of the first call: a measure of the mesh.
+  const morph::InvertedBefore& Before(morph::Monitor& monitor) const;
   /// The outer faces as polygons that are made once.
   const MovedSurface& Surface() const { return this->Polygons; }
   /// Fills `surface` with the outer faces of `grid`, which may be the kept mesh or another, without
@@ -55,5 +64,7 @@ private:
   double Diameter = 0;
   std::vector<std::int8_t> Signs;
   morph::Index Mirrored = 0;
+  std::vector<morph::Index> Repeated, Touching;
+  mutable std::optional<morph::InvertedBefore> Inverted; ///< of Copy, once it was asked for
 };
 }

@@ -3,6 +3,7 @@
 
 #include "Mesh/Mesh.h"
 #include "Morpher/Morpher.h"
+#include "Private/Data/Quality.h"
 #include "Private/Morph/BoundaryMatch.h"
 #include "Quality/ScaledJacobian.h"
 
@@ -49,6 +50,10 @@ public:
   virtual double Size() const = 0;
   virtual morph::Index MirroredBodies() const = 0;
   ///@}
+  /// Warns of what is odd about the whole mesh.
+  virtual void ReportMesh(morph::Monitor& monitor) const = 0;
+  /// Of Mesh(). Cost of the first call: a measure.
+  virtual const morph::InvertedBefore& Before(morph::Monitor& monitor) const = 0;
   /// Whether this process counts a node: one of those that have it does.
   virtual bool Owns(morph::Index node) const = 0;
   /// The number of a node in the whole mesh.
@@ -72,7 +77,8 @@ public:
   };
   struct Measured
   {
-    morph::Quality Whole; ///< the numbers of the whole mesh; of `all` cells alone
+    morph::Quality Whole;   ///< the numbers of the whole mesh; of `all` cells alone
+    Quality::Judged Judged; ///< of `all` cells alone
     morph::Index SurfaceInverted = 0;
   };
   /// Writes the grid with its nodes at `moved`, #nodes of Mesh() x 3, and measures all cells, or

@@ -32,7 +32,9 @@ void measureAll(const Session& session, const StepResult& step, bool certify, Re
   const morph::Quality measured =
     known ? morph::Quality() : Quality::Measure(kept.Mesh(), output, kept.Orientation(), monitor);
   const morph::Quality& quality = known ? step.Valid.Measured : measured;
-  SetStatus(step, quality.inverted + quality.degenerate, results, &monitor);
+  const Quality::Judged judged = Quality::Judge(kept.Before(monitor), quality, output);
+  SetStatus(step, judged.Added, results, &monitor);
+  results.Set(judged);
   Quality::Write(quality, output);
   results.Set(quality);
   results.SetNumber("WorstMeanScaledJacobian", morph::worstMean(quality));

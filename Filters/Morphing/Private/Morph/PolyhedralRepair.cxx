@@ -2,7 +2,6 @@
 #include "Private/Morph/PolyhedralRepair.h"
 
 #include "Mesh/PolyhedronPieces.h"
-#include "Quality/ScaledJacobian.h"
 #include "Support/ProgressRange.h"
 #include "Untangling/InversionFree.h"
 
@@ -19,12 +18,11 @@ void Adapt(morph::Morpher& method)
 }
 
 bool Run(const morph::Mesh& mesh, const morph::Points& reference,
-  const morph::NodePartition& partition, const std::vector<std::int8_t>& orientation,
-  morph::Points& moved, morph::Monitor& monitor)
+  const morph::NodePartition& partition,
+  const std::function<std::size_t(const morph::Points& points)>& bad, morph::Points& moved,
+  morph::Monitor& monitor)
 {
   constexpr int Rounds = 4;
-  const auto bad = [&](const morph::Points& points)
-  { return morph::invertedCells(mesh, points, orientation, monitor).size(); };
   std::size_t left = bad(moved);
   if (left == 0)
   {

@@ -5,8 +5,8 @@
 #include "Mesh/NodePartition.h"
 #include "Support/Monitor.h"
 
-#include <cstdint>
-#include <vector>
+#include <cstddef>
+#include <functional>
 
 namespace morph
 {
@@ -22,8 +22,9 @@ void Adapt(morph::Morpher& method);
 
 /// Repairs `moved`, #nodes x 3, in rounds: each puts the centres back to the means of their nodes
 /// and repairs the pieces. Keeps the mesh with the fewest bad polyhedra and other cells. Returns
-/// whether none are left. `reference`: see morph::Morpher::setReference().
+/// whether none are left. `reference`: see morph::Morpher::setReference(). `bad`: their number.
 bool Run(const morph::Mesh& mesh, const morph::Points& reference,
-  const morph::NodePartition& partition, const std::vector<std::int8_t>& orientation,
-  morph::Points& moved, morph::Monitor& monitor);
+  const morph::NodePartition& partition,
+  const std::function<std::size_t(const morph::Points& points)>& bad, morph::Points& moved,
+  morph::Monitor& monitor);
 }

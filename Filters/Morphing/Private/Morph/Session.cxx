@@ -7,6 +7,7 @@
 #include "Private/Data/DataCheck.h"
 #include "Private/Data/Gradient.h"
 #include "Private/Data/GridMesh.h"
+#include "Private/Data/MeshNotes.h"
 #include "Private/Data/Quality.h"
 #include "Private/Morph/PolyhedralRepair.h"
 #include "Private/Morph/PostSmoothing.h"
@@ -112,7 +113,7 @@ void Session::SetGrid(vtkUnstructuredGrid* grid, morph::Monitor& monitor)
   }
 }
 
-void Session::ReportMirroredBodies(morph::Monitor& monitor)
+void Session::ReportMesh(const Options& options, morph::Monitor& monitor)
 {
   this->Results.SetInteger("MirroredBodies", static_cast<vtkIdType>(this->Kept.MirroredBodies()));
   if (this->Kept.MirroredBodies() > 0)
@@ -125,6 +126,15 @@ void Session::ReportMirroredBodies(morph::Monitor& monitor)
                  std::to_string(first - this->Kept.Orientation().begin()) +
                  ". They are morphed and measured as if they were not. Reverse their order of "
                  "nodes if a solver expects VTK's.");
+  }
+  MeshNotes::WarnOfShared(this->Kept.RepeatedCells(), this->Kept.TouchingNodes(), monitor);
+  if (options.MeasureAll)
+  {
+    const std::string note = Validity::Note(options.Validity, this->Kept.Before(monitor).cells());
+    if (!note.empty())
+    {
+      monitor.warn(note);
+    }
   }
 }
 
@@ -139,6 +149,7 @@ BoundaryMatch::Result Session::Match(
   {
     monitor.warn(warning);
   }
+  BoundaryMatch::WarnIfNothingStays(match, monitor);
   monitor.check();
   return match;
 }
@@ -223,8 +234,11 @@ StepResult Session::MorphStep(const morph::Mesh& from, const BoundaryMatch::Resu
   const auto part = [&](double a, double b)
   { return morph::ProgressRange(monitor, first + a * (last - first), first + b * (last - first)); };
   const morph::NodePartition& partition = this->PartitionOf(match.Ids);
+  static const morph::InvertedBefore none{};
+  const morph::InvertedBefore& before =
+    options.MeasureAll ? Validity::BeforeFor(options.Validity, this->Kept.Before(monitor)) : none;
   const Validity validity{ options.Validity, options.MaximumSubSteps, from,
-    this->Kept.Mesh().points, partition, this->Kept.Orientation(), match.Targets,
+    this->Kept.Mesh().points, before, partition, this->Kept.Orientation(), match.Targets,
     this->Kept.OuterFaces(),
     dynamic_cast<morph::InversionFree*>(options.CreateMorpher().get()) != nullptr,
     [&options, &from]
@@ -247,8 +261,9 @@ StepResult Session::MorphStep(const morph::Mesh& from, const BoundaryMatch::Resu
   if (validity.IsInversionFree && morph::hasPolyhedra(from))
   {
     auto repairing = part(0.7, 0.75);
-    PolyhedralRepair::Run(
-      from, this->Kept.Mesh().points, partition, this->Kept.Orientation(), result.Moved, repairing);
+    const auto bad = [&](const morph::Points& points)
+    { return morph::invertedCells(from, points, this->Kept.Orientation(), repairing).size(); };
+    PolyhedralRepair::Run(from, this->Kept.Mesh().points, partition, bad, result.Moved, repairing);
   }
   if (validity.IsInversionFree)
   {
@@ -298,9 +313,11 @@ StepResult Session::MorphStep(const morph::Mesh& from, const BoundaryMatch::Resu
   this->Results.SetNumber("EvaluateSeconds", seconds);
   if (result.Valid.Status == "Inverted")
   {
-    result.BoundaryInverted = static_cast<morph::Index>(
-      morph::boundaryDeterminedInversions(from, partition, this->Kept.Orientation(), result.Moved)
-        .size());
+    result.BoundaryInverted =
+      static_cast<morph::Index>(before
+                                  .without(morph::boundaryDeterminedInversions(
+                                    from, partition, this->Kept.Orientation(), result.Moved))
+                                  .size());
   }
   result.Iterations = report.iterations;
   result.Prescribed = static_cast<morph::Index>(match.Ids.size());

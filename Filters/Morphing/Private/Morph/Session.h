@@ -74,8 +74,9 @@ public:
   const KeptMesh& GetKept() const { return this->Kept; }
   /// See KeptMesh. After SetGrid().
   void SetFeatureLines(bool on) { this->Kept.SetFeatureLines(on); }
-  /// Warns of bodies that are mirrored.
-  void ReportMirroredBodies(morph::Monitor& monitor);
+  /// Warns of what is odd about the mesh: bodies that are mirrored, cells that were inverted before
+  /// or are there twice, and nodes where bodies touch.
+  void ReportMesh(const Options& options, morph::Monitor& monitor);
 
   /// Moves the mesh by that fraction of the boundary's motion.
   std::shared_ptr<StepResult> Morph(

@@ -19,25 +19,48 @@
 
 namespace morph::filters
 {
-bool Validity::AsksForValidMesh() const
+namespace
 {
-  return this->Mode >= vtkMorphAlgorithm::VALIDITY_SUB_STEP;
+/// The mesh without some cells, whose nodes keep their numbers.
+morph::Mesh withoutCells(const morph::Mesh& mesh, const morph::InvertedBefore& left)
+{
+  morph::Mesh rest;
+  rest.points = mesh.points;
+  rest.offsets = { 0 };
+  for (morph::Index c = 0; c < mesh.numberOfCells(); ++c)
+  {
+    if (!left.positivePlaces(c))
+    {
+      rest.types.push_back(mesh.types[c]);
+      rest.connectivity.insert(
+        rest.connectivity.end(), mesh.cell(c), mesh.cell(c) + mesh.cellSize(c));
+      rest.offsets.push_back(static_cast<morph::Index>(rest.connectivity.size()));
+    }
+  }
+  return rest;
+}
 }
 
-void Validity::RequireFeasible() const
+bool Validity::AsksForValidMesh(int mode)
 {
-  if (!this->AsksForValidMesh())
-  {
-    return;
-  }
-  morph::Points points = this->Mesh.points;
-  for (std::size_t i = 0; i < this->Partition.prescribed.size(); ++i)
-  {
-    points.row(this->Partition.prescribed[i]) = this->Targets.row(static_cast<morph::Index>(i));
-  }
-  const std::vector<morph::Index> determined =
-    morph::boundaryDeterminedInversions(this->Mesh, this->Partition, this->Orientation, points);
-  if (!determined.empty())
+  return mode >= vtkMorphAlgorithm::VALIDITY_SUB_STEP;
+}
+
+bool Validity::Repairs(int mode)
+{
+  return mode == vtkMorphAlgorithm::VALIDITY_REPAIR ||
+         mode == vtkMorphAlgorithm::VALIDITY_REPAIR_ALL;
+}
+
+const morph::InvertedBefore& Validity::BeforeFor(int mode, const morph::InvertedBefore& before)
+{
+  static const morph::InvertedBefore none{};
+  return mode == vtkMorphAlgorithm::VALIDITY_REPAIR_ALL ? none : before;
+}
+
+void Validity::RequireFeasible(int mode, const std::vector<morph::Index>& determined)
+{
+  if (AsksForValidMesh(mode) && !determined.empty())
   {
     throw Infeasible(
       "The boundary itself inverts " + std::to_string(determined.size()) +
@@ -48,6 +71,47 @@ void Validity::RequireFeasible() const
         "to Report to see the mesh.",
       static_cast<morph::Index>(determined.size()));
   }
+}
+
+std::string Validity::Note(int mode, const std::vector<morph::Index>& ids)
+{
+  if (mode == vtkMorphAlgorithm::VALIDITY_NONE || mode == vtkMorphAlgorithm::VALIDITY_REPAIR_ALL ||
+      ids.empty())
+  {
+    return {};
+  }
+  return std::to_string(ids.size()) +
+         " cells of the undeformed mesh are inverted or degenerate. Unless they become worse, they "
+         "do not count as inverted by the motion: cell ids " +
+         morph::listIds(ids) + ". Validity set to Repair All repairs them, too.";
+}
+
+void Validity::RequireFeasible() const
+{
+  if (!AsksForValidMesh(this->Mode))
+  {
+    return;
+  }
+  morph::Points points = this->Mesh.points;
+  for (std::size_t i = 0; i < this->Partition.prescribed.size(); ++i)
+  {
+    points.row(this->Partition.prescribed[i]) = this->Targets.row(static_cast<morph::Index>(i));
+  }
+  RequireFeasible(this->Mode, this->Before.without(morph::boundaryDeterminedInversions(
+                                this->Mesh, this->Partition, this->Orientation, points)));
+}
+
+std::vector<morph::Index> Validity::Inverted(
+  const morph::Quality& quality, const morph::Points& points) const
+{
+  return this->Before.added(points, morph::invertedCells(quality));
+}
+
+std::vector<morph::Index> Validity::Inverted(
+  const morph::Points& points, morph::Monitor& monitor) const
+{
+  return this->Before.added(
+    points, morph::invertedCells(this->Mesh, points, this->Orientation, monitor));
 }
 
 std::string Validity::Describe(const std::vector<morph::Index>& inverted,
@@ -78,7 +142,7 @@ std::string Validity::Describe(const std::vector<morph::Index>& inverted,
 
 std::string Validity::Found(const morph::Quality& quality, const morph::Points& points) const
 {
-  const std::vector<morph::Index> inverted = morph::invertedCells(quality);
+  const std::vector<morph::Index> inverted = this->Inverted(quality, points);
   return std::to_string(inverted.size()) +
          " cells are inverted or degenerate. The worst, with their centres:" +
          this->Describe(inverted, quality, points);
@@ -118,15 +182,19 @@ Validity::Outcome Validity::OfSubSteps(
 
 bool Validity::Repair(morph::Points& moved, morph::Monitor& monitor) const
 {
+  const auto bad = [&](const morph::Points& points)
+  { return this->Inverted(points, monitor).size(); };
   if (morph::hasPolyhedra(this->Mesh))
   {
-    return PolyhedralRepair::Run(
-      this->Mesh, this->Reference, this->Partition, this->Orientation, moved, monitor);
+    return PolyhedralRepair::Run(this->Mesh, this->Reference, this->Partition, bad, moved, monitor);
   }
-  const auto bad = [&](const morph::Points& points)
-  { return morph::invertedCells(this->Mesh, points, this->Orientation, monitor).size(); };
   std::size_t least = bad(moved);
-  // Near the inverted cells at first: the linear methods of the whole mesh take far longer.
+  // Near the inverted cells at first: the linear methods of the whole mesh take far longer. Cells
+  // that were inverted before are not seen there: they would be repaired, too, or nothing would.
+  const bool leavesSome = !this->Before.cells().empty();
+  const morph::Mesh others = leavesSome ? withoutCells(this->Mesh, this->Before) : morph::Mesh();
+  const morph::NodePartition ofOthers =
+    leavesSome ? morph::partitionNodes(others, this->Partition.prescribed) : morph::NodePartition();
   const double end[] = { 0, 0.2, 1 };
   for (int attempt = 0; attempt < 2 && least > 0; ++attempt)
   {
@@ -135,7 +203,9 @@ bool Validity::Repair(morph::Points& moved, morph::Monitor& monitor) const
     morph::InversionFree repair;
     repair.setReference(this->Reference);
     repair.setNearOnly(attempt == 0);
-    repair.prepare(this->Mesh, this->Partition, first);
+    const bool seesOthers = leavesSome && attempt == 0;
+    repair.prepare(
+      seesOthers ? others : this->Mesh, seesOthers ? ofOthers : this->Partition, first);
     morph::Points repaired = moved;
     repair.repair(repaired, second);
     const std::size_t left = bad(repaired);
@@ -163,17 +233,16 @@ Validity::Outcome Validity::Remaining(
 Validity::Outcome Validity::SubStep(const std::function<std::unique_ptr<morph::Morpher>()>& make,
   morph::Points& moved, morph::Monitor& monitor) const
 {
-  const std::vector<morph::Index> atRest =
-    morph::invertedCells(this->Mesh, this->Mesh.points, this->Orientation, monitor);
+  const bool repairs = this->IsInversionFree || Repairs(this->Mode);
+  const std::vector<morph::Index> atRest = this->Inverted(this->Mesh.points, monitor);
   if (!atRest.empty())
   {
-    const bool repaired = this->IsInversionFree || this->Mode == vtkMorphAlgorithm::VALIDITY_REPAIR;
     return this->Remaining(moved,
       "The undeformed mesh has inverted or degenerate cells, too, so there is no valid mesh to "
       "take steps from: cell ids " +
         morph::listIds(atRest) +
-        (repaired ? ". Mend the mesh or the boundary there, or leave more nodes free."
-                  : ". Repair it first, its boundary held, by Morph Inversion Free."),
+        (repairs ? ". Mend the mesh or the boundary there, or leave more nodes free."
+                 : ". Repair it first, its boundary held, by Morph Inversion Free."),
       monitor);
   }
   const morph::BoundaryPath path =
@@ -182,13 +251,13 @@ Validity::Outcome Validity::SubStep(const std::function<std::unique_ptr<morph::M
     this->Mesh, this->Partition, this->Orientation, this->Faces, monitor);
   morph::SubStepLimits limits;
   limits.attempts = this->MaximumSubSteps;
-  if (this->IsInversionFree || this->Mode == vtkMorphAlgorithm::VALIDITY_REPAIR)
+  if (repairs)
   {
     limits.failures = RepairFailures;
   }
-  limits.forbidden = [&](double time) { return check.at(path(time)).all(); };
-  const morph::SubStepResult result = morph::morphIncrementally(
-    this->Mesh, this->Reference, this->Partition, this->Orientation, path, make, limits, monitor);
+  limits.forbidden = [&](double time) { return check.at(path(time)).all(this->Before); };
+  const morph::SubStepResult result = morph::morphIncrementally(this->Mesh, this->Reference,
+    this->Partition, this->Orientation, this->Before, path, make, limits, monitor);
   moved = result.moved;
   if (result.reached >= 1)
   {
@@ -211,12 +280,12 @@ Validity::Outcome Validity::Ensure(morph::Points& moved, morph::Monitor& monitor
 {
   Outcome outcome;
   morph::Quality quality = morph::measureQuality(this->Mesh, moved, this->Orientation, {}, monitor);
-  if (morph::invertedCells(quality).empty())
+  if (this->Inverted(quality, moved).empty())
   {
     outcome.Measured = std::move(quality);
     return outcome;
   }
-  if (this->AsksForValidMesh() && this->Mode != vtkMorphAlgorithm::VALIDITY_REFUSE &&
+  if (AsksForValidMesh(this->Mode) && this->Mode != vtkMorphAlgorithm::VALIDITY_REFUSE &&
       this->Partition.free.empty())
   {
     return this->Remaining(
@@ -227,6 +296,7 @@ Validity::Outcome Validity::Ensure(morph::Points& moved, morph::Monitor& monitor
     case vtkMorphAlgorithm::VALIDITY_SUB_STEP:
       return this->SubStep(this->Make, moved, monitor);
     case vtkMorphAlgorithm::VALIDITY_REPAIR:
+    case vtkMorphAlgorithm::VALIDITY_REPAIR_ALL:
     {
       morph::ProgressRange first(monitor, 0, 0.5), second(monitor, 0.5, 1);
       if (this->Repair(moved, first))

@@ -4,6 +4,7 @@
 #include "Mesh/Topology.h"
 #include "Morpher/IncrementalMorph.h"
 #include "Morpher/Morpher.h"
+#include "Quality/InvertedBefore.h"
 #include "Quality/ScaledJacobian.h"
 #include "Support/Error.h"
 
@@ -15,7 +16,7 @@
 
 namespace morph::filters
 {
-/// Treats the inverted cells that a method leaves, as vtkMorphAlgorithm::SetValidity() asks for.
+/// Treats the inverted cells that a motion makes, as vtkMorphAlgorithm::SetValidity() asks for.
 class Validity
 {
 public:
@@ -25,6 +26,8 @@ public:
   const morph::Mesh& Mesh; ///< before the motion
   /// #nodes x 3, the undeformed mesh; see morph::Morpher::setReference()
   const morph::Points& Reference;
+  /// of the undeformed mesh: cells that do not count unless they are worse; see BeforeFor()
+  const morph::InvertedBefore& Before;
   const morph::NodePartition& Partition;
   const std::vector<std::int8_t>& Orientation;
   const morph::Points& Targets;      ///< #prescribed x 3
@@ -60,6 +63,19 @@ public:
   /// as long as its successes.
   static constexpr morph::Index RepairFailures = 6;
 
+  /// Whether a mode wants no inverted cells, and whether it repairs.
+  ///@{
+  static bool AsksForValidMesh(int mode);
+  static bool Repairs(int mode);
+  ///@}
+  /// What a mode judges by: the cells that were inverted `before`, or none if it repairs all.
+  static const morph::InvertedBefore& BeforeFor(int mode, const morph::InvertedBefore& before);
+  /// Throws Infeasible if the mode asks for a valid mesh and the boundary inverts these cells.
+  static void RequireFeasible(int mode, const std::vector<morph::Index>& determined);
+  /// A warning of cells that were inverted before and do not count in that mode, or nothing. `ids`:
+  /// ascending.
+  static std::string Note(int mode, const std::vector<morph::Index>& ids);
+
   /// The outcome of sub-steps. Where they have not made the whole motion, its error names what
   /// stopped them: `room`, what the boundary does where the next step is forbidden, as "leaves";
   /// `cells`, a text of where the cells are, to which a sentence may follow.
@@ -74,11 +90,14 @@ public:
   Outcome Ensure(morph::Points& moved, morph::Monitor& monitor) const;
 
 private:
-  bool AsksForValidMesh() const;
+  /// The inverted cells that count.
+  std::vector<morph::Index> Inverted(
+    const morph::Quality& quality, const morph::Points& points) const;
+  std::vector<morph::Index> Inverted(const morph::Points& points, morph::Monitor& monitor) const;
   /// Describes the worst of these cells, a line for each.
   std::string Describe(const std::vector<morph::Index>& inverted, const morph::Quality& quality,
     const morph::Points& points) const;
-  /// Repairs the mesh, if that leaves fewer bad cells. Returns whether none are left.
+  /// Repairs the mesh, if that leaves fewer cells that count. Returns whether none are left.
   bool Repair(morph::Points& moved, morph::Monitor& monitor) const;
   Outcome SubStep(const std::function<std::unique_ptr<morph::Morpher>()>& make,
     morph::Points& moved, morph::Monitor& monitor) const;

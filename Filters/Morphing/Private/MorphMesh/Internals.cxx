@@ -18,7 +18,7 @@
 #include "Private/Project/TargetDistance.h"
 #include "Support/Error.h"
 #include "Support/ProgressRange.h"
-#include "vtkStiffnessMorph.h"
+#include "vtkFEMWarpMorph.h"
 
 #include <vtkDataArray.h>
 #include <vtkDataObjectTree.h>
@@ -258,7 +258,7 @@ void vtkMorphMesh::vtkInternals::ConfigureMorph(vtkDataArray* soft, morph::Monit
   to->SetStepping(from->Stepping);
   to->SetOutputPointsPrecision(from->OutputPointsPrecision);
   to->SetNumberOfThreads(from->NumberOfThreads);
-  if (auto* stiff = vtkStiffnessMorph::SafeDownCast(to))
+  if (auto* stiff = vtkFEMWarpMorph::SafeDownCast(to))
   {
     stiff->SetStiffness(from->Stiffness);
     stiff->SetStiffnessExponent(from->StiffnessExponent);
@@ -268,12 +268,11 @@ void vtkMorphMesh::vtkInternals::ConfigureMorph(vtkDataArray* soft, morph::Monit
   }
   else if (soft)
   {
-    throw morph::Error("This method has no stiffness, so there are no soft zones. Use FEMWARP or "
-                       "LBWARP.");
+    throw morph::Error("This method has no stiffness, so there are no soft zones. Use FEMWARP.");
   }
   else if (from->Stiffness != 0 || !filters::Input::ArrayName(from->StiffnessArray).empty())
   {
-    monitor.warn("This method has no stiffness: Stiffness counts for FEMWARP and LBWARP alone.");
+    monitor.warn("This method has no stiffness: Stiffness counts for FEMWARP alone.");
   }
 }
 
@@ -431,6 +430,8 @@ void vtkMorphMesh::vtkInternals::TakeResults()
   to.SetNumber("BoundaryMinimum", from->GetBoundaryMinimum());
   to.SetInteger("InvertedCells", from->GetInvertedCells());
   to.SetInteger("DegenerateCells", from->GetDegenerateCells());
+  to.SetInteger("InvertedBefore", from->GetInvertedBefore());
+  to.SetInteger("NewInvertedCells", from->GetNewInvertedCells());
   to.SetInteger("WorstCellId", from->GetWorstCellId());
   to.SetInteger("SurfaceInvertedCells", from->GetSurfaceInvertedCells());
   to.SetInteger("BoundaryInvertedCells", from->GetBoundaryInvertedCells());

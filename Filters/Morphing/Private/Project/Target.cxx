@@ -2,6 +2,7 @@
 #include "Private/Project/Target.h"
 
 #include "Private/Data/GridMesh.h"
+#include "Private/Data/Precision.h"
 #include "Support/Error.h"
 
 #include <vtkCellArray.h>
@@ -17,8 +18,14 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
+#include <iterator>
+#include <map>
 #include <numeric>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 namespace morph::filters
@@ -39,8 +46,13 @@ vtkSmartPointer<vtkPoints> makePoints(const morph::Points& x)
   return points;
 }
 
-/// Gives for each point the one that replaces all points within the rounding of single precision,
-/// in which STL files are written.
+/// The rounding of single precision, in which STL files are written.
+double roundingOf(const morph::Points& x)
+{
+  return x.rows() == 0 ? 0 : 1e-7 * (x.colwise().maxCoeff() - x.colwise().minCoeff()).norm();
+}
+
+/// Gives for each point the one that replaces all points within the rounding.
 std::vector<Index> mergedPoints(const morph::Points& x)
 {
   if (x.rows() == 0)
@@ -53,25 +65,197 @@ std::vector<Index> mergedPoints(const morph::Points& x)
   locator->SetDataSet(data);
   locator->BuildLocator();
   std::vector<vtkIdType> merged(x.rows());
-  locator->MergePoints(1e-7 * data->GetLength(), merged.data());
+  locator->MergePoints(roundingOf(x), merged.data());
   return { merged.begin(), merged.end() };
 }
 
-/// The triangles of polygons and strips by merged points. Those without three different points are
-/// left out.
-morph::BoundaryFaces triangles(vtkPolyData* surface, const std::vector<Index>& merged)
+using Triangle = std::array<Index, 3>;
+
+/// A list of triangles without those that are no part of a surface: repeated ones, and flat ones,
+/// whose height is within the rounding. A flat one may join a long edge of one side to the shorter
+/// edges of the other side. It goes by dividing the triangle at its long edge, so that the surface
+/// stays connected.
+class TriangleList
 {
-  morph::BoundaryFaces faces;
-  faces.offsets.push_back(0);
+public:
+  TriangleList(const morph::Points& x, double rounding)
+    : X(x)
+    , Rounding(rounding)
+  {
+  }
+
+  void Add(Triangle triangle)
+  {
+    std::rotate(
+      triangle.begin(), std::min_element(triangle.begin(), triangle.end()), triangle.end());
+    this->Triangles.push_back(triangle);
+  }
+
+  /// In the order in which they were added, the parts of divided ones last.
+  std::vector<Triangle> Clean()
+  {
+    this->RemoveRepeated();
+    std::vector<Triangle> all;
+    all.swap(this->Triangles);
+    for (Triangle& triangle : all)
+    {
+      (this->TurnFlat(triangle) ? this->Flat : this->Triangles).push_back(triangle);
+    }
+    if (!this->Flat.empty())
+    {
+      this->FindEdges();
+    }
+    // Thin triangles may become flat ones in turn.
+    for (std::size_t left = 10 * this->Flat.size(); left > 0 && !this->Flat.empty(); --left)
+    {
+      this->RemoveFlat();
+    }
+    std::vector<Triangle> result;
+    std::copy_if(this->Triangles.begin(), this->Triangles.end(), std::back_inserter(result),
+      [](const Triangle& triangle) { return triangle != Divided; });
+    return result;
+  }
+
+private:
+  using Edge = std::pair<Index, Index>;
+  static constexpr Triangle Divided = { -1, -1, -1 };
+
+  void RemoveRepeated()
+  {
+    std::vector<std::size_t> order(this->Triangles.size());
+    std::iota(order.begin(), order.end(), std::size_t(0));
+    std::sort(order.begin(), order.end(),
+      [&](std::size_t a, std::size_t b)
+      { return std::tie(this->Triangles[a], a) < std::tie(this->Triangles[b], b); });
+    std::vector<std::uint8_t> isFirst(order.size(), 1);
+    for (std::size_t i = 1; i < order.size(); ++i)
+    {
+      isFirst[order[i]] = this->Triangles[order[i]] != this->Triangles[order[i - 1]];
+    }
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < order.size(); ++i)
+    {
+      if (isFirst[i])
+      {
+        this->Triangles[kept++] = this->Triangles[i];
+      }
+    }
+    this->Triangles.resize(kept);
+  }
+
+  /// Whether it is flat; its longest edge then becomes that of its first two points.
+  bool TurnFlat(Triangle& triangle) const
+  {
+    const auto length = [&](int k)
+    { return (this->X.row(triangle[(k + 1) % 3]) - this->X.row(triangle[k])).norm(); };
+    int longest = 0;
+    for (int k = 1; k < 3; ++k)
+    {
+      longest = length(k) > length(longest) ? k : longest;
+    }
+    const double area = 2 * morph::vectorArea(this->X, triangle.data(), 3).norm();
+    if (area > this->Rounding * length(longest))
+    {
+      return false;
+    }
+    std::rotate(triangle.begin(), triangle.begin() + longest, triangle.end());
+    return true;
+  }
+
+  template <typename Act>
+  void ForEdges(std::size_t number, const Act& act) const
+  {
+    const Triangle& t = this->Triangles[number];
+    for (int k = 0; k < 3; ++k)
+    {
+      act(Edge(std::minmax(t[k], t[(k + 1) % 3])));
+    }
+  }
+
+  void FindEdges()
+  {
+    for (std::size_t i = 0; i < this->Triangles.size(); ++i)
+    {
+      this->ForEdges(i, [&](const Edge& edge) { this->AtEdge.emplace_back(edge, i); });
+    }
+    std::sort(this->AtEdge.begin(), this->AtEdge.end());
+  }
+
+  /// The triangles at an edge.
+  std::vector<std::size_t> Beside(const Edge& edge) const
+  {
+    std::vector<std::size_t> result;
+    for (auto at = std::lower_bound(
+           this->AtEdge.begin(), this->AtEdge.end(), std::pair(edge, std::size_t(0)));
+         at != this->AtEdge.end() && at->first == edge; ++at)
+    {
+      if (this->Triangles[at->second] != Divided)
+      {
+        result.push_back(at->second);
+      }
+    }
+    const auto [first, last] = this->AtNewEdge.equal_range(edge);
+    for (auto at = first; at != last; ++at)
+    {
+      if (this->Triangles[at->second] != Divided)
+      {
+        result.push_back(at->second);
+      }
+    }
+    return result;
+  }
+
+  void RemoveFlat()
+  {
+    const Triangle flat = this->Flat.back();
+    this->Flat.pop_back();
+    const std::vector<std::size_t> beside = this->Beside(Edge(std::minmax(flat[0], flat[1])));
+    if (beside.size() != 1)
+    {
+      return;
+    }
+    Triangle divided = std::exchange(this->Triangles[beside.front()], Divided);
+    while (Edge(std::minmax(divided[0], divided[1])) != Edge(std::minmax(flat[0], flat[1])))
+    {
+      std::rotate(divided.begin(), divided.begin() + 1, divided.end());
+    }
+    for (Triangle part :
+      { Triangle{ divided[0], flat[2], divided[2] }, Triangle{ flat[2], divided[1], divided[2] } })
+    {
+      if (part[0] == part[1] || part[1] == part[2] || part[2] == part[0])
+      {
+        continue;
+      }
+      if (this->TurnFlat(part))
+      {
+        this->Flat.push_back(part);
+        continue;
+      }
+      this->Triangles.push_back(part);
+      this->ForEdges(this->Triangles.size() - 1,
+        [&](const Edge& edge) { this->AtNewEdge.emplace(edge, this->Triangles.size() - 1); });
+    }
+  }
+
+  const morph::Points& X;
+  double Rounding;
+  std::vector<Triangle> Triangles;
+  std::vector<Triangle> Flat;
+  std::vector<std::pair<Edge, std::size_t>> AtEdge; ///< sorted, the numbers in Triangles
+  std::multimap<Edge, std::size_t> AtNewEdge;       ///< of those behind them
+};
+
+/// The triangles of polygons and strips by merged points.
+morph::BoundaryFaces triangles(
+  vtkPolyData* surface, const morph::Points& x, const std::vector<Index>& merged)
+{
+  TriangleList list(x, roundingOf(x));
   const auto add = [&](Index a, Index b, Index c)
   {
-    a = merged[a];
-    b = merged[b];
-    c = merged[c];
-    if (a != b && b != c && c != a)
+    const Triangle triangle = { merged[a], merged[b], merged[c] };
+    if (triangle[0] != triangle[1] && triangle[1] != triangle[2] && triangle[2] != triangle[0])
     {
-      faces.connectivity.insert(faces.connectivity.end(), { a, b, c });
-      faces.offsets.push_back(static_cast<Index>(faces.connectivity.size()));
+      list.Add(triangle);
     }
   };
   vtkNew<vtkIdList> points;
@@ -93,6 +277,13 @@ morph::BoundaryFaces triangles(vtkPolyData* surface, const std::vector<Index>& m
       // Every other triangle of a strip is wound the other way.
       add(points->GetId(k - 2), points->GetId(k - 1 + k % 2), points->GetId(k - k % 2));
     }
+  }
+  morph::BoundaryFaces faces;
+  faces.offsets.push_back(0);
+  for (const Triangle& triangle : list.Clean())
+  {
+    faces.connectivity.insert(faces.connectivity.end(), triangle.begin(), triangle.end());
+    faces.offsets.push_back(static_cast<Index>(faces.connectivity.size()));
   }
   faces.nodes = faces.connectivity;
   std::sort(faces.nodes.begin(), faces.nodes.end());
@@ -122,6 +313,42 @@ vtkIdType nearest(
   }
   y = Row(to[0], to[1], to[2]);
   return id;
+}
+
+/// Throws for places that no search is made for: VTK's take endless time to come from there, or end
+/// the process.
+void requireUsable(const morph::Points& x, const morph::Points& mesh)
+{
+  constexpr double Farthest = 1e5; // sizes of the mesh
+  Eigen::AlignedBox3d box;
+  for (Index i = 0; i < mesh.rows(); ++i)
+  {
+    box.extend(mesh.row(i).transpose());
+  }
+  std::vector<Index> notFinite, far;
+  for (Index i = 0; i < x.rows(); ++i)
+  {
+    if (!x.row(i).allFinite())
+    {
+      notFinite.push_back(i);
+    }
+    else if (box.exteriorDistance(x.row(i).transpose()) > Farthest * box.diagonal().norm())
+    {
+      far.push_back(i);
+    }
+  }
+  if (!notFinite.empty())
+  {
+    throw morph::Error("The target surface has coordinates that are not finite (NaN or infinite), "
+                       "at its points " +
+                       morph::listIds(notFinite) + ".");
+  }
+  if (!far.empty())
+  {
+    throw morph::Error("The target surface is farther from the mesh than 100,000 times its size, "
+                       "at its points " +
+                       morph::listIds(far) + ". Give it the unit and the origin of the mesh.");
+  }
 }
 
 /// Triangles that can be searched.
@@ -203,6 +430,50 @@ public:
     return found;
   }
 
+  /// Whether the line through `x` meets a triangle that `fits` within `radius`; `y` is then the
+  /// nearest such place. A triangle is wider by `tolerance` than its edges.
+  template <typename Fits>
+  bool NearestAlong(const Row& x, const Row& direction, double radius, double tolerance,
+    const Fits& fits, Row& y) const
+  {
+    // At the rim of the surface, searching a little inside finds what is within the tolerance.
+    double bounds[6];
+    this->Data->GetBounds(bounds);
+    const Row middle = Row(bounds[0] + bounds[1], bounds[2] + bounds[3], bounds[4] + bounds[5]) / 2;
+    Row inside = middle - x;
+    inside -= inside.dot(direction) * direction;
+    const double far = inside.norm();
+    inside *= far > 0 ? std::min(1., 2 * tolerance / far) : 0;
+    const Row from = x + inside - radius * direction, to = x + inside + radius * direction;
+    vtkNew<vtkIdList> near;
+    vtkNew<vtkGenericCell> cell;
+    this->Locator->IntersectWithLine(from.data(), to.data(), 4 * tolerance, nullptr, near, cell);
+    near->Sort(); // of equally near triangles the first
+    double least = radius;
+    bool found = false;
+    for (vtkIdType k = 0; k < near->GetNumberOfIds(); ++k)
+    {
+      const vtkIdType triangle = near->GetId(k);
+      const Row triangleNormal = this->Normal(triangle);
+      const double across = triangleNormal.dot(direction);
+      if (across == 0 || !fits(triangle))
+      {
+        continue;
+      }
+      const double along = (this->Centers.row(triangle) - x).dot(triangleNormal) / across;
+      const Row place = x + along * direction;
+      const bool isNear =
+        (place - this->Centers.row(triangle)).norm() <= this->Radii[triangle] + 4 * tolerance;
+      if (isNear && (std::abs(along) < least || (!found && std::abs(along) <= least)))
+      {
+        least = std::abs(along);
+        y = place;
+        found = true;
+      }
+    }
+    return found;
+  }
+
 private:
   vtkNew<vtkPolyData> Data;
   vtkNew<vtkStaticCellLocator> Locator;
@@ -230,6 +501,22 @@ struct Target::Implementation
   double Sign = 1;
   double Cosine = 0;
   double Reach = 0;
+  Precision PointPrecision;
+
+  /// How far a place may be off in single precision.
+  double Rounding() const
+  {
+    return this->PointPrecision.IsFloat ? std::sqrt(3) / 2 * this->PointPrecision.Step() : 0;
+  }
+  /// Returns `found`. A place `y` that was found as near to `x` as that is `x` itself.
+  bool Found(bool found, const Row& x, Row& y) const
+  {
+    if (found && (y - x).norm() <= this->Rounding())
+    {
+      y = x;
+    }
+    return found;
+  }
 
   /// Adds one to the count of each of the target's surfaces within `distance` of `x`.
   void Vote(const Row& x, double distance, std::vector<Index>& count) const
@@ -264,29 +551,17 @@ struct Target::Implementation
   }
 };
 
-Target::Target(vtkPolyData* surface, double featureAngle, double normalAngle, double reach,
-  morph::Monitor& monitor)
+Target::Target(vtkPolyData* surface, const morph::Points& mesh, double featureAngle,
+  double normalAngle, double reach, morph::Monitor& monitor)
   : Internals(new Implementation)
 {
   Implementation& own = *this->Internals;
   own.Cosine = std::cos(normalAngle * std::acos(-1.) / 180);
   own.Reach = reach;
   own.X = GridMesh::FromPoints(surface->GetPoints());
-  std::vector<Index> wrong;
-  for (Index i = 0; i < own.X.rows(); ++i)
-  {
-    if (!own.X.row(i).allFinite())
-    {
-      wrong.push_back(i);
-    }
-  }
-  if (!wrong.empty())
-  {
-    throw morph::Error("The target surface has coordinates that are not finite (NaN or infinite), "
-                       "at its points " +
-                       morph::listIds(wrong) + ".");
-  }
-  own.Faces = triangles(surface, mergedPoints(own.X));
+  own.PointPrecision = Precision::Of(surface->GetPoints(), own.X);
+  requireUsable(own.X, mesh);
+  own.Faces = triangles(surface, own.X, mergedPoints(own.X));
   std::vector<Index> all(own.Faces.offsets.size() - 1);
   if (all.empty())
   {
@@ -378,6 +653,23 @@ bool Target::HasFeatures() const
   return this->Internals->Features->GetNumberOfCells() > 0;
 }
 
+void Target::TakePrecision(const Target& original)
+{
+  this->Internals->PointPrecision = original.Internals->PointPrecision;
+}
+
+void Target::WarnOfRounding(double size, morph::Monitor& monitor) const
+{
+  const Implementation& own = *this->Internals;
+  if (own.Rounding() > 1e-6 * size)
+  {
+    monitor.warn(
+      "The target has " + own.PointPrecision.Text() +
+      ". Nodes as near to it as that stay, and others are as far off. Write it in double "
+      "precision, in a VTK file for instance, or with an origin near the mesh.");
+  }
+}
+
 vtkPolyData* Target::Surface() const
 {
   return this->Internals->All->Surface();
@@ -398,7 +690,7 @@ bool Target::ClosestOnVertices(const Row& x, Row& y) const
       found = true;
     }
   }
-  return found;
+  return own.Found(found, x, y);
 }
 
 bool Target::closestOnSurface(Index surface, const Row& x, const Row& normal, Row& y) const
@@ -413,7 +705,7 @@ bool Target::closestOnSurface(Index surface, const Row& x, const Row& normal, Ro
   const vtkIdType first = place.Nearest(x, own.Reach, y);
   if (first < 0 || fits(first))
   {
-    return first >= 0;
+    return own.Found(first >= 0, x, y);
   }
   // Another wall is nearer, or an edge where triangles meet: search farther, and only triangles
   // that fit.
@@ -423,7 +715,7 @@ bool Target::closestOnSurface(Index surface, const Row& x, const Row& normal, Ro
     radius = std::min(radius, own.Reach);
     if (place.NearestThat(x, radius, fits, y))
     {
-      return true;
+      return own.Found(true, x, y);
     }
     if (radius >= own.Reach)
     {
@@ -432,10 +724,19 @@ bool Target::closestOnSurface(Index surface, const Row& x, const Row& normal, Ro
   }
 }
 
-bool Target::closestOnFeatures(const Row& x, Row& y) const
+bool Target::ClosestAlong(const Row& x, const Row& direction, const Row& normal, Row& y) const
+{
+  const Implementation& own = *this->Internals;
+  const auto fits = [&](vtkIdType triangle)
+  { return normal.isZero(0) || own.Sign * own.All->Normal(triangle).dot(normal) >= own.Cosine; };
+  return own.All->NearestAlong(x, direction, own.Reach, roundingOf(own.X), fits, y);
+}
+
+bool Target::closestOnFeatures(Index, const Row& x, Row& y) const
 {
   const Implementation& own = *this->Internals;
   vtkNew<vtkGenericCell> cell;
-  return this->HasFeatures() && nearest(own.FeatureLocator, x, own.Reach, cell, y) >= 0;
+  return own.Found(
+    this->HasFeatures() && nearest(own.FeatureLocator, x, own.Reach, cell, y) >= 0, x, y);
 }
 }

@@ -121,6 +121,7 @@ const std::vector<std::size_t>& Designs::Inverted(const ShapeModes& modes, morph
     skip[c] = morph::cellShape(mesh.types[c])->dimension < 3; // a process may have faces alone
   }
   std::vector<morph::Index> bad(this->Rows.size());
+  const morph::InvertedBefore& before = modes.GetSolver()->Before(monitor);
   processes.Together(
     [&]
     {
@@ -132,7 +133,8 @@ const std::vector<std::size_t>& Designs::Inverted(const ShapeModes& modes, morph
         morph::blend(mesh.points, modes.Weighted(this->Rows[row]), moved, monitor);
         const morph::Quality quality =
           morph::measureQuality(mesh, moved, modes.Orientation(), skip, monitor);
-        bad[row] = quality.inverted + quality.degenerate;
+        bad[row] =
+          static_cast<morph::Index>(before.added(moved, morph::invertedCells(quality)).size());
       }
     });
   processes.Sum(bad.data(), bad.size());

@@ -36,7 +36,7 @@ public:
   std::size_t Number() const { return this->Rows.size(); }
   const std::vector<double>& operator[](std::size_t row) const { return this->Rows[row]; }
 
-  /// The rows that leave inverted or degenerate cells. The last answer is kept for the same rows
+  /// The rows that make inverted or degenerate cells. The last answer is kept for the same rows
   /// and shapes. Cost: a blend and a measure of quality for each row.
   const std::vector<std::size_t>& Inverted(const ShapeModes& modes, morph::Monitor& monitor);
   /// Takes over the answer of `last` where that is for the same rows.

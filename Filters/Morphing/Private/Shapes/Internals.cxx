@@ -214,6 +214,7 @@ void vtkMorphShapes::vtkInternals::Morph(vtkUnstructuredGrid* grid,
   }
   this->Modes.SetFeatureLines(this->Filter->FeatureLines, monitor);
   this->Results.SetInteger("MirroredBodies", this->Modes.GetSolver()->MirroredBodies());
+  this->Modes.GetSolver()->ReportMesh(monitor);
   morph::ProgressRange solving(monitor, 0, 0.6);
   this->Solve(boundaries, solving);
   morph::ProgressRange checking(monitor, 0.6, 0.8);
@@ -228,17 +229,14 @@ void vtkMorphShapes::vtkInternals::Morph(vtkUnstructuredGrid* grid,
     });
   this->Results.SetNumber("EvaluateSeconds",
     group.Maximum(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count()));
-  if (this->Filter->FindValidRanges)
-  {
-    this->FindRanges(weights, monitor);
-  }
-  this->Write(grid, outputs, monitor);
+  morph::ProgressRange writing(monitor, 0.8, 1);
+  this->Write(grid, weights, outputs, writing);
   this->WriteShapes(weights, this->Ports.Output(outputs));
   this->Weights = weights;
 }
 
-void vtkMorphShapes::vtkInternals::Write(
-  vtkUnstructuredGrid* grid, vtkInformationVector* outputs, morph::Monitor& monitor)
+void vtkMorphShapes::vtkInternals::Write(vtkUnstructuredGrid* grid,
+  const std::vector<double>& weights, vtkInformationVector* outputs, morph::Monitor& monitor)
 {
   const bool all = this->Filter->Quality == QUALITY_ALL;
   const filters::ModeSolver::Outputs written = { this->Ports.Output(outputs),
@@ -250,16 +248,21 @@ void vtkMorphShapes::vtkInternals::Write(
   if (all)
   {
     this->Results.Set(quality);
+    this->Results.Set(measured.Judged);
   }
-  const bool isBad = quality.inverted + quality.degenerate > 0;
+  const bool isBad = measured.Judged.Added > 0;
   this->Results.SetText("MorphStatus", !all ? "Unmeasured" : isBad ? "Inverted" : "Valid");
+  if (this->Filter->FindValidRanges) // of a mesh that can be written
+  {
+    this->FindRanges(weights, monitor);
+  }
   this->Results.Write(written.Mesh);
 }
 
 void vtkMorphShapes::vtkInternals::FindRanges(
   const std::vector<double>& weights, morph::Monitor& monitor)
 {
-  this->Ranges = filters::WeightRanges::Find(this->Modes, weights, this->Moved, monitor);
+  this->Ranges = filters::WeightRanges::Find(this->Modes, weights, monitor);
   this->Results.SetText("ValidRanges", this->Ranges.Text(this->Names(weights.size())));
   this->Results.SetNumber("LargestFactor", this->Ranges.LargestFactor);
 }

@@ -69,7 +69,8 @@ private:
   morph::filters::ShapeModes::Options Options() const;
   std::vector<morph::filters::ShapeModes::Shape> Shapes(vtkInformationVector* boundaries) const;
   void Solve(vtkInformationVector* boundaries, morph::Monitor& monitor);
-  void Write(vtkUnstructuredGrid* grid, vtkInformationVector* outputs, morph::Monitor& monitor);
+  void Write(vtkUnstructuredGrid* grid, const std::vector<double>& weights,
+    vtkInformationVector* outputs, morph::Monitor& monitor);
   /// The present weights: the filter's, or those of the table's row.
   std::vector<double> PresentWeights(
     std::size_t shapes, vtkDataObject* table, morph::Monitor& monitor);

@@ -5,6 +5,7 @@
 #include "Mesh/Polyhedra.h"
 #include "Morpher/PolyhedralMorpher.h"
 #include "Private/Data/BadCells.h"
+#include "Private/Data/MeshNotes.h"
 #include "Private/Data/Output.h"
 #include "Private/Data/Quality.h"
 
@@ -40,6 +41,11 @@ bool KeptModeSolver::Take(vtkUnstructuredGrid* grid, const CreateMorpher&, morph
     this->Method.reset();
   }
   return isCopied;
+}
+
+void KeptModeSolver::ReportMesh(morph::Monitor& monitor) const
+{
+  MeshNotes::WarnOfShared(this->Kept.RepeatedCells(), this->Kept.TouchingNodes(), monitor);
 }
 
 BoundaryMatch::Result KeptModeSolver::Match(
@@ -80,6 +86,7 @@ ModeSolver::Measured KeptModeSolver::Write(vtkUnstructuredGrid* grid, const morp
   if (all)
   {
     Quality::Write(result.Whole, output);
+    result.Judged = Quality::Judge(this->Before(monitor), result.Whole, output);
     BadCells::Extract(result.Whole, output, outputs.BadCells);
   }
   return result;

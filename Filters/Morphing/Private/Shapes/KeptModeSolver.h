@@ -18,6 +18,11 @@ public:
   const std::vector<std::int8_t>& Orientation() const override { return this->Kept.Orientation(); }
   double Size() const override { return this->Kept.Size(); }
   morph::Index MirroredBodies() const override { return this->Kept.MirroredBodies(); }
+  void ReportMesh(morph::Monitor& monitor) const override;
+  const morph::InvertedBefore& Before(morph::Monitor& monitor) const override
+  {
+    return this->Kept.Before(monitor);
+  }
   bool Owns(morph::Index) const override { return true; }
   std::int64_t NodeId(morph::Index node) const override { return node; }
   BoundaryMatch::Result Match(

@@ -3,6 +3,7 @@
 
 #include "Morpher/Blend.h"
 #include "Private/Shapes/ShapeModes.h"
+#include "Support/ProgressRange.h"
 
 #include <cmath>
 #include <limits>
@@ -14,7 +15,8 @@ namespace
 {
 /// `ranges`: of the shapes' weights.
 double largestFactor(const ShapeModes& modes, const std::vector<double>& weights,
-  const std::vector<morph::ValidRange>& ranges, const morph::Points& moved, morph::Monitor& monitor)
+  const std::vector<morph::ValidRange>& ranges, const morph::InvertedBefore& before,
+  morph::Monitor& monitor)
 {
   const morph::Mesh& mesh = modes.Mesh();
   const std::vector<std::int8_t>& orientation = modes.Orientation();
@@ -30,12 +32,7 @@ double largestFactor(const ShapeModes& modes, const std::vector<double>& weights
       }
     }
   }
-  if (turned.empty())
-  {
-    const morph::Points motion = moved - mesh.points;
-    return morph::validRange(mesh, { &mesh.points, &motion }, orientation, monitor).highest;
-  }
-  if (weighted.size() == 1)
+  if (weighted.size() == 1 && turned.size() == 1)
   {
     const double weight = weights[turned[0]];
     const morph::ValidRange& range = ranges[turned[0]]; // the others are at 0
@@ -43,7 +40,12 @@ double largestFactor(const ShapeModes& modes, const std::vector<double>& weights
   }
   morph::Points straight;
   const morph::CombinedMotion motion = modes.Combined(weights, straight, monitor);
-  return morph::largestFactor(mesh, motion, orientation, monitor).factor;
+  if (turned.empty())
+  {
+    return morph::validRange(mesh, { &mesh.points, &straight }, orientation, before, monitor)
+      .highest;
+  }
+  return morph::largestFactor(mesh, motion, orientation, before, monitor).factor;
 }
 
 /// The range in which the cells of all processes are valid.
@@ -71,25 +73,28 @@ std::string endText(double end)
 }
 }
 
-WeightRanges WeightRanges::Find(const ShapeModes& modes, const std::vector<double>& weights,
-  const morph::Points& moved, morph::Monitor& monitor)
+WeightRanges WeightRanges::Find(
+  const ShapeModes& modes, const std::vector<double>& weights, morph::Monitor& monitor)
 {
   const RankGroup& processes = modes.Group();
   WeightRanges result;
   morph::Points base;
+  const morph::InvertedBefore& before = modes.GetSolver()->Before(monitor);
   processes.Together(
     [&]
     {
       for (std::size_t i = 0; i < weights.size(); ++i)
       {
-        monitor.check();
+        const double share = 1. / static_cast<double>(weights.size() + 1);
+        morph::ProgressRange part(
+          monitor, share * static_cast<double>(i), share * static_cast<double>(i + 1));
         std::vector<double> others = weights;
         others[i] = 0;
-        morph::blend(modes.Mesh().points, modes.Weighted(others), base, monitor);
-        result.Shapes.push_back(
-          morph::validRange(modes.Mesh(), modes.MotionOf(i, base), modes.Orientation(), monitor));
+        morph::blend(modes.Mesh().points, modes.Weighted(others), base, part);
+        result.Shapes.push_back(morph::validRange(
+          modes.Mesh(), modes.MotionOf(i, base), modes.Orientation(), before, part));
       }
-      result.LargestFactor = largestFactor(modes, weights, result.Shapes, moved, monitor);
+      result.LargestFactor = largestFactor(modes, weights, result.Shapes, before, monitor);
     });
   for (morph::ValidRange& range : result.Shapes)
   {

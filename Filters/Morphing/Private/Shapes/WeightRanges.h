@@ -10,7 +10,7 @@ namespace morph::filters
 {
 class ShapeModes;
 
-/// The weights with which no cell is inverted.
+/// The weights with which no cell gets inverted; see InvertedBefore.h for those that were before.
 struct WeightRanges
 {
   /// For each shape the interval of its weight around 0, the others at their present values.
@@ -20,10 +20,10 @@ struct WeightRanges
   /// inverted.
   double LargestFactor = 0;
 
-  /// `modes`: after Solve(). `weights`: #shapes. `moved`: #nodes x 3, the mesh at these weights.
-  /// Cost: one validRange() a shape, and one for the factor.
-  static WeightRanges Find(const ShapeModes& modes, const std::vector<double>& weights,
-    const morph::Points& moved, morph::Monitor& monitor);
+  /// `modes`: after Solve(). `weights`: #shapes. Cost: one validRange() a shape, and one for
+  /// the factor.
+  static WeightRanges Find(
+    const ShapeModes& modes, const std::vector<double>& weights, morph::Monitor& monitor);
 
   /// One line for people: "wide -0.5 to 1.25, long any". `names`: #shapes.
   std::string Text(const std::vector<std::string>& names) const;

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Mesh/Mesh.h"
+#include "Mesh/Topology.h"
+#include "Support/Monitor.h"
+
+#include <vector>
+
+namespace morph
+{
+/// Returns the volume cells, ascending, that have the same corners as another one. Cost: a sort of
+/// the cells by their lowest corner.
+std::vector<Index> repeatedCells(const Mesh& mesh, Monitor& monitor);
+
+/// Returns the nodes, ascending, where cells meet that are not joined by faces there, as where two
+/// bodies share a node by chance. Two cells are joined if they have three corners in common. Left
+/// out are all corners of an outer face if they are all such nodes: a cell of one side meets
+/// several of the other side there. `faces`: the mesh's boundaryFaces(). Cost: a pass over the
+/// faces and, where there may be such nodes, one over the cells.
+std::vector<Index> touchingNodes(const Mesh& mesh, const BoundaryFaces& faces);
+}

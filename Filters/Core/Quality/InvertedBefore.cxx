@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Quality/InvertedBefore.h"
+
+#include "Quality/MeasuredPlaces.h"
+#include "Quality/PolyhedronPlaces.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <iterator>
+
+namespace morph
+{
+using Vector = Eigen::Vector3d;
+
+InvertedBefore::InvertedBefore(
+  const Mesh& mesh, const std::vector<std::int8_t>& orientation, const Quality& atRest)
+{
+  this->mesh_ = &mesh;
+  for (std::size_t c = 0; c < atRest.scaledJacobian.size(); ++c)
+  {
+    if (atRest.scaledJacobian[c] <= Flat)
+    {
+      this->cells_.push_back(static_cast<Index>(c));
+      this->signs_.push_back(orientation.empty() ? 1 : orientation[c]);
+      this->positive_.push_back(
+        this->placesOf(this->cells_.back(), this->signs_.back(), mesh.points));
+    }
+  }
+}
+
+std::vector<bool> InvertedBefore::placesOf(Index cell, double sign, const ConstPoints& points) const
+{
+  std::vector<bool> positive;
+  const auto add = [&](const Vector& a, const Vector& b, const Vector& c)
+  { positive.push_back(sign * a.dot(b.cross(c)) > Flat * a.norm() * b.norm() * c.norm()); };
+  const Index* nodes = this->mesh_->cell(cell);
+  const CellShape& shape = *cellShape(this->mesh_->types[cell]);
+  if (shape.shape == Shape::Polyhedron)
+  {
+    std::vector<Vector> x;
+    std::transform(nodes, nodes + this->mesh_->cellSize(cell), std::back_inserter(x),
+      [&](Index node) { return points.row(node).transpose(); });
+    PolyhedronPlaces places;
+    places.take(*this->mesh_, cell, points, sign);
+    places.forEach(x.data(), add);
+    return positive;
+  }
+  Vector x[8];
+  for (int k = 0; k < shape.numberOfCorners; ++k)
+  {
+    x[k] = points.row(nodes[shape.cornerNode[k]]).transpose();
+  }
+  forEachMeasuredPlace(shape.shape, x, add);
+  return positive;
+}
+
+const std::vector<bool>* InvertedBefore::positivePlaces(Index cell) const
+{
+  const auto at = std::lower_bound(this->cells_.begin(), this->cells_.end(), cell);
+  return at != this->cells_.end() && *at == cell ? &this->positive_[at - this->cells_.begin()]
+                                                 : nullptr;
+}
+
+std::vector<Index> InvertedBefore::added(
+  const ConstPoints& points, const std::vector<Index>& inverted) const
+{
+  std::vector<Index> result;
+  for (const Index cell : inverted)
+  {
+    if (const std::vector<bool>* before = this->positivePlaces(cell))
+    {
+      const std::ptrdiff_t i = before - this->positive_.data();
+      std::vector<bool> now = this->placesOf(cell, this->signs_[i], points);
+      now.resize(before->size(), false); // without volume, a polyhedron has fewer places
+      if (std::equal(before->begin(), before->end(), now.begin(),
+            [](bool was, bool is) { return is || !was; }))
+      {
+        continue;
+      }
+    }
+    result.push_back(cell);
+  }
+  return result;
+}
+
+std::vector<Index> InvertedBefore::without(const std::vector<Index>& cells) const
+{
+  std::vector<Index> result;
+  std::set_difference(cells.begin(), cells.end(), this->cells_.begin(), this->cells_.end(),
+    std::back_inserter(result));
+  return result;
+}
+}

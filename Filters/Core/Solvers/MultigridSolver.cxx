@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Solvers/MultigridSolver.h"
+
+#include "Solvers/RowProducts.h"
+#include "Support/Error.h"
+#include "Support/Parallel.h"
+#include "Support/ReproducibleSum.h"
+
+#include <cassert>
+#include <cmath>
+
+namespace morph
+{
+void MultigridSolver::prepare(LinearEquations&& equations, Monitor& monitor)
+{
+  assert(equations.ghostNumbers.empty());
+  auto fresh = std::make_unique<Parts>();
+  fresh->A.swap(equations.matrix); // Eigen 3.4 would copy on a move
+  fresh->A.makeCompressed();
+  const Eigen::VectorXd diagonal = fresh->A.diagonal();
+  std::vector<Index> notPositive;
+  for (Index i = 0; i < diagonal.size(); ++i)
+  {
+    if (!(diagonal[i] > 0 && std::isfinite(diagonal[i])))
+    {
+      notPositive.push_back(i);
+    }
+  }
+  if (!notPositive.empty())
+  {
+    throw SingularRows(notPositive);
+  }
+  fresh->components = rowComponents(fresh->A, monitor);
+  fresh->multigrid.prepare(fresh->A, this->symmetry_, equations.coordinates, monitor);
+  this->parts_ = std::move(fresh);
+}
+
+SolveReport MultigridSolver::solve(
+  const Points& b, Points& x, double tolerance, int maxIterations, Monitor& monitor) const
+{
+  MultiVector rows = toRows(x, monitor);
+  const SolveReport report =
+    this->solve(toRows(b, monitor), rows, tolerance, maxIterations, monitor);
+  fromRows(rows, x, monitor);
+  return report;
+}
+
+void MultigridSolver::product(const Points& from, Points& to, Monitor& monitor) const
+{
+  constexpr Index Grain = 4096;
+  const MultiVector rows = toRows(from, monitor);
+  to.resize(from.rows(), 3);
+  monitor.parallelFor(from.rows(), Grain,
+    [&](Index first, Index last)
+    {
+      forRowProducts(CsrRows<double>(this->matrix()), rows.data(), first, last,
+        [&](Index i, const MultiVectorRow& product) { to.row(i) = product.head<3>(); });
+    });
+}
+
+void MultigridSolver::precondition(const Points& from, Points& to, Monitor& monitor) const
+{
+  const Index n = from.rows();
+  std::unique_ptr<Workspace> work = this->parts_->takeWorkspace();
+  // Single precision: scales the numbers to the preconditioner's size.
+  const double norm2 = dot(from, from, monitor);
+  const double unscale =
+    norm2 > 0 ? std::sqrt(norm2 / static_cast<double>(n)) / Multigrid::Size : 1;
+  parallel(n, monitor,
+    [&](Index i) { work->residual32[i] = (toRow(from.row(i)) / unscale).cast<float>(); });
+  this->parts_->multigrid.apply(
+    work->residual32.data(), work->step.data(), work->multigrid, monitor);
+  const double factor = unscale / this->parts_->multigrid.unit();
+  to.resize(n, 3);
+  parallel(
+    n, monitor, [&](Index i) { to.row(i) = factor * work->step[i].head<3>().cast<double>(); });
+  this->parts_->giveBack(std::move(work));
+}
+
+std::size_t MultigridSolver::memory() const
+{
+  const Parts& my = *this->parts_;
+  return CsrRows<double>(my.A).memory() + sizeof(int) * my.components.ofRow.size() +
+         my.multigrid.memory() + my.workspaceBytes();
+}
+
+std::unique_ptr<MultigridSolver::Workspace> MultigridSolver::Parts::takeWorkspace() const
+{
+  return this->spare.take(
+    [this] { return std::make_unique<Workspace>(this->A.rows(), this->multigrid); });
+}
+
+void MultigridSolver::Parts::giveBack(std::unique_ptr<Workspace> workspace) const
+{
+  this->spare.giveBack(std::move(workspace), this->workspaceBytes());
+}
+
+std::size_t MultigridSolver::Parts::workspaceBytes() const
+{
+  return this->A.rows() * (2 * sizeof(MultiVectorRow) + 3 * sizeof(Multigrid::Row)) +
+         this->multigrid.workspaceBytes();
+}
+
+Sums MultigridSolver::Parts::residual(
+  const RightHandSide& b, const MultiVector& x, MultiVector& r, Monitor& monitor) const
+{
+  return this->components.sums(this->A.rows(), monitor,
+    [&](Index first, Index last, int)
+    {
+      MultiVectorRow norm2 = MultiVectorRow::Zero();
+      forRowProducts(CsrRows<double>(this->A), x.data(), first, last,
+        [&](Index i, const MultiVectorRow& product)
+        {
+          r[i] = b[i] - product;
+          norm2 += r[i].cwiseAbs2();
+        });
+      return norm2;
+    });
+}
+
+Sums MultigridSolver::Parts::unscale(const Sums& norm2, const SumsMask& wanted) const
+{
+  // By the mean over all rows: the sizes of components need not be exact.
+  const auto rows = static_cast<double>(this->A.rows());
+  return wanted.select((norm2 / rows).sqrt() / Multigrid::Size, 0);
+}
+}

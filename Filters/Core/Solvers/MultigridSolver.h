@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solvers/ConjugateGradients.h"
+#include "Solvers/LinearSolver.h"
+#include "Solvers/MultiVector.h"
+#include "Solvers/Multigrid.h"
+#include "Solvers/RightHandSide.h"
+#include "Solvers/RowComponents.h"
+#include "Solvers/SpareWorkspace.h"
+
+#include <cstddef>
+#include <memory>
+
+namespace morph
+{
+/// What the solvers of one process share: the matrix, its components, and a multigrid
+/// preconditioner. Each component is a system of its own: it stops at its own norms, so that a body
+/// that hardly moves is as exact, in its own size, as one that moves far.
+class MultigridSolver : public LinearSolver
+{
+public:
+  /// `x`: up to four columns, without copies; what it is after an error has no meaning. Each column
+  /// of each component stops at |b - A x| <= max(tolerance |b_column|, 1e-14 |b_all|); the second
+  /// term ends columns that are pure rounding. A guess with a larger residual than 0 is not used. If
+  /// rounding keeps the residual above the goal, the best x is returned and the residual reported.
+  /// Throws Error of kind NoConvergence, with the residual, after `maxIterations` or on overflow.
+  virtual SolveReport solve(const RightHandSide& b, MultiVector& x, double tolerance,
+    int maxIterations, Monitor& monitor) const = 0;
+
+  void prepare(LinearEquations&& equations, Monitor& monitor) override;
+  SolveReport solve(const Points& b, Points& x, double tolerance, int maxIterations,
+    Monitor& monitor) const override;
+  void product(const Points& from, Points& to, Monitor& monitor) const override;
+  void precondition(const Points& from, Points& to, Monitor& monitor) const override;
+
+  const CsrMatrix& matrix() const { return this->parts_->A; }
+  const RowComponents& components() const { return this->parts_->components; }
+  /// Returns the bytes of matrix, hierarchy and the work vectors of one solve.
+  virtual std::size_t memory() const;
+
+protected:
+  explicit MultigridSolver(Multigrid::Symmetry symmetry)
+    : symmetry_(symmetry)
+  {
+  }
+
+  /// The vectors of one solve. Floats are in units of `unscale`, in which the first residual has
+  /// Multigrid::Size. The iterate moves along directions as rounded, so that rounding them costs no
+  /// accuracy.
+  struct Workspace
+  {
+    Workspace(Index rows, const Multigrid& multigrid)
+      : residual(rows)
+      , image(rows)
+      , residual32(rows)
+      , step(rows)
+      , direction(rows)
+      , multigrid(multigrid)
+    {
+    }
+
+    MultiVector residual, image;
+    FloatMultiVector residual32, step, direction;
+    Multigrid::Workspace multigrid;
+  };
+  /// In their own place, as the hierarchy refers to the matrix.
+  struct Parts
+  {
+    CsrMatrix A;
+    RowComponents components;
+    Multigrid multigrid;
+    SpareWorkspace<Workspace> spare;
+
+    std::unique_ptr<Workspace> takeWorkspace() const;
+    void giveBack(std::unique_ptr<Workspace> workspace) const;
+    std::size_t workspaceBytes() const;
+    /// Sets r to b - A x; returns the squared norms.
+    Sums residual(
+      const RightHandSide& b, const MultiVector& x, MultiVector& r, Monitor& monitor) const;
+    /// Returns the units of floats for residuals of these norms; 0 where none is wanted.
+    Sums unscale(const Sums& norm2, const SumsMask& wanted) const;
+  };
+  std::unique_ptr<Parts> parts_;
+
+private:
+  Multigrid::Symmetry symmetry_;
+};
+}

@@ -1,0 +1,402 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "MotionOracles.h"
+
+#include "RandomMesh.h"
+#include "Recount.h"
+#include "SameData.h"
+#include "vtkDisplacementAlgorithm.h"
+#include "vtkMorphAlgorithm.h"
+#include "vtkMorphBoundary.h"
+#include "vtkMorphMesh.h"
+#include "vtkMorphShapes.h"
+
+#include <vtkCompositeDataSet.h>
+#include <vtkDataArray.h>
+#include <vtkPointData.h>
+#include <vtkPointSet.h>
+#include <vtkPoints.h>
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+namespace fuzz
+{
+namespace
+{
+using morph::Index;
+using Row = Eigen::RowVector3d;
+
+constexpr double Infinity = std::numeric_limits<double>::infinity();
+
+std::string text(double value)
+{
+  std::ostringstream stream;
+  stream << value;
+  return stream.str();
+}
+
+bool isOfType(vtkPointSet* data, int type)
+{
+  return data->GetPoints() && data->GetPoints()->GetDataType() == type;
+}
+
+bool isFloat(vtkPointSet* data)
+{
+  return isOfType(data, VTK_FLOAT);
+}
+
+/// What coordinates lose, in their unit.
+double rounding(const morph::Points& x, bool isSingle)
+{
+  return x.size() == 0 ? 0 : (isSingle ? 1.2e-7 : 4.5e-16) * x.cwiseAbs().maxCoeff();
+}
+
+/// By how much a case moves the boundary, at most, in sizes of the mesh; infinite if that is not
+/// known.
+double motionOf(const Case& made, vtkAlgorithm* filter)
+{
+  const Choices& choices = made.choices;
+  double scale = std::abs(choices.value("property.ScaleFactor"));
+  if (vtkDisplacementAlgorithm::SafeDownCast(filter))
+  {
+    return made.isRegular && scale <= Tiny ? scale : Infinity;
+  }
+  if (!vtkMorphAlgorithm::SafeDownCast(filter) && !vtkMorphShapes::SafeDownCast(filter) &&
+      !vtkMorphBoundary::SafeDownCast(filter))
+  {
+    return Infinity;
+  }
+  if (vtkMorphShapes::SafeDownCast(filter))
+  {
+    const int shapes = static_cast<int>(made.inputs.size()) - 1;
+    scale = 0;
+    for (int i = 0; i < shapes; ++i)
+    {
+      scale += std::abs(choices.value("property.Weight" + std::to_string(i)));
+    }
+    if (shapes > 1 && scale > 0)
+    {
+      return Infinity;
+    }
+  }
+  const bool isKnown = made.boundary.isRight || vtkCompositeDataSet::SafeDownCast(made.grid.data);
+  const bool isMatched = choices.value("property.MatchTolerance") <= 1e-3;
+  if (!isKnown || !isMatched || !std::isfinite(scale) || !made.inputs[1] ||
+      (vtkMorphBoundary::SafeDownCast(filter) && made.inputs[2]))
+  {
+    return Infinity;
+  }
+  if (made.boundary.isNothing || scale == 0)
+  {
+    return 0;
+  }
+  double most = made.boundary.isRight ? 0 : Infinity;
+  for (const auto& [node, target] : made.boundary.targets)
+  {
+    most = std::max(most, (target - made.grid.mesh.points.row(node)).norm());
+  }
+  return scale * most / made.grid.size;
+}
+
+/// Whether a case may move nodes though its motion is that small: methods that improve any mesh.
+bool mayImprove(const Case& made, double motion)
+{
+  const auto value = [&](const char* name)
+  { return made.choices.value(std::string("property.") + name); };
+  const bool isMesh = made.filter.name == "MorphMesh" || made.filter.name == "FitToSurface";
+  const double method = isMesh ? value("Method") : -1;
+  const bool isInversionFree =
+    made.filter.name == "InversionFreeMorph" || method == vtkMorphMesh::METHOD_INVERSION_FREE;
+  const morph::Mesh& mesh = made.grid.mesh;
+  return made.filter.name == "SmoothingMorph" || method == vtkMorphMesh::METHOD_SMOOTHING ||
+         value("PostSmooth") != 0 || value("Validity") == vtkMorphAlgorithm::VALIDITY_REPAIR_ALL ||
+         (isInversionFree &&
+           (motion > 0 || value("TargetShape") == 2 || !made.grid.isAsMesh ||
+             made.choices.value("mesh.order") != 0 || !isValid(mesh, mesh.points, 0)));
+}
+
+/// The largest motion of a point of output 0.
+double farthest(const Case& made, const Run& run, double& rounded)
+{
+  const bool isBoundary =
+    made.filter.name == "MorphBoundary" || made.filter.name == "BoundaryDisplacement";
+  const std::vector<vtkDataObject*> outputs = leaves(run.outputs.front()),
+                                    inputs = leaves(made.inputs.front());
+  double most = 0;
+  for (std::size_t i = 0; i < std::min(outputs.size(), inputs.size()); ++i)
+  {
+    auto *output = vtkPointSet::SafeDownCast(outputs[i]),
+         *input = vtkPointSet::SafeDownCast(inputs[i]);
+    if (!output || !input || (isBoundary && !made.grid.isAsMesh))
+    {
+      continue;
+    }
+    const morph::Points x = pointsOf(output);
+    morph::Points rest = pointsOf(input);
+    if (isBoundary)
+    {
+      vtkDataArray* ids = output->GetPointData()->GetArray("MorphPointId");
+      rest.resize(x.rows(), 3);
+      for (Index p = 0; p < x.rows(); ++p)
+      {
+        rest.row(p) = made.grid.mesh.points.row(static_cast<Index>(ids->GetComponent(p, 0)));
+      }
+    }
+    if (rest.rows() == x.rows() && x.rows() > 0)
+    {
+      const double motion = (x - rest).rowwise().norm().maxCoeff();
+      most = motion <= most ? most : motion; // not a number: kept
+      rounded = std::max(rounded, rounding(rest, isFloat(output)));
+    }
+  }
+  return most;
+}
+
+/// A map of space under which a morph is to stay what it is.
+struct Frame
+{
+  Eigen::Matrix3d matrix = Eigen::Matrix3d::Identity();
+  Row shift = Row::Zero();
+
+  Row point(const Row& x) const { return x * this->matrix.transpose() + this->shift; }
+  Row vector(const Row& x) const { return x * this->matrix.transpose(); }
+};
+
+Frame randomFrame(Choices& choices, int kind, double size)
+{
+  Random random = choices.stream("frame");
+  Frame frame;
+  switch (kind)
+  {
+    case 1:
+      frame.matrix *= random.power(-9, 6);
+      break;
+    case 2:
+      frame.shift = 1e6 * size * Row(1, -0.7, 0.3);
+      break;
+    case 3:
+      frame.matrix = Eigen::AngleAxisd(std::acos(0.), Eigen::Vector3d::Unit(random.below(3)))
+                       .toRotationMatrix()
+                       .array()
+                       .round();
+      break;
+    default:
+      frame.matrix.col(random.below(3)) *= -1;
+      break;
+  }
+  return frame;
+}
+
+vtkSmartPointer<vtkDataObject> inFrame(vtkDataObject* data, const Frame& frame)
+{
+  vtkSmartPointer<vtkDataObject> copy = deepCopy(data);
+  auto* points = vtkPointSet::SafeDownCast(copy);
+  for (vtkIdType p = 0; points && p < points->GetNumberOfPoints(); ++p)
+  {
+    const Row x =
+      frame.point(Row(points->GetPoint(p)[0], points->GetPoint(p)[1], points->GetPoint(p)[2]));
+    points->GetPoints()->SetPoint(p, x.data());
+    for (const char* name : { "RestPosition", "MyDisplacement" })
+    {
+      vtkDataArray* array = points->GetPointData()->GetArray(name);
+      double value[9];
+      if (array)
+      {
+        array->GetTuple(p, value);
+        const Row from(value[0], value[1], value[2]);
+        const Row to = *name == 'R' ? frame.point(from) : frame.vector(from);
+        std::copy_n(to.data(), 3, value);
+        array->SetTuple(p, value);
+      }
+    }
+  }
+  return copy;
+}
+
+/// Whether a result is to be the same to rounding: else counts and qualities are. Of centres that
+/// are equally far some are chosen by their places.
+bool isExact(const Case& made, vtkAlgorithm* filter)
+{
+  auto* morph = vtkMorphAlgorithm::SafeDownCast(filter);
+  return !morph || (made.filter.isLinear && !morph->GetPostSmooth() &&
+                     made.choices.value("property.NumberOfCenters") == 0 &&
+                     (std::string(morph->GetMorphStatus()) == "Valid" ||
+                       std::string(morph->GetMorphStatus()) == "Inverted"));
+}
+
+/// Whether rounding decides which of a target's places is nearest, or which simplex extrapolates to
+/// a node outside all.
+bool isUndecided(const Case& made, vtkAlgorithm* filter)
+{
+  const bool isBySimplices = made.filter.name.rfind("Simplex", 0) == 0;
+  const bool isHeld =
+    made.choices.value("property.HoldUnnamedBoundary") != 0 && made.choices.value("with.mask") == 0;
+  return (vtkMorphBoundary::SafeDownCast(filter) && made.inputs[2]) || (isBySimplices && !isHeld);
+}
+
+bool isPlain(const Case& made)
+{
+  const std::vector<Choices::Choice>& choices = made.choices.made();
+  const bool isHostile = std::any_of(choices.begin(), choices.end(),
+    [](const Choices::Choice& choice) { return choice.name.rfind("hostile", 0) == 0; });
+  return !isHostile && made.isRegular && made.grid.isAsMesh && made.boundary.isRight &&
+         !made.varying && isValid(made.grid.mesh, made.grid.mesh.points, 0.1);
+}
+}
+
+Finding checkNothing(const Case& made, vtkAlgorithm* filter, const Run& run)
+{
+  const double motion = motionOf(made, filter);
+  const bool isPoor = motion > 0 && !isPlain(made);
+  if (!(motion <= Tiny) || isPoor || !std::isfinite(made.grid.size) || !run.errors.empty() ||
+      !run.fromExecutive.empty() || mayImprove(made, motion))
+  {
+    return {};
+  }
+  double rounded = 0;
+  const double most = farthest(made, run, rounded);
+  const double allowed = (motion == 0 ? 1e-12 : 1e-7) * made.grid.size + rounded;
+  return most <= allowed
+           ? Finding{}
+           : Finding{ motion == 0 ? "nothing asked" : "next to nothing asked",
+               "a node moves by " + text(most / made.grid.size) + " sizes, for " + text(motion) };
+}
+
+Finding checkFrame(Case& made, vtkAlgorithm* filter, const Run& first)
+{
+  const bool isOfData = vtkMorphAlgorithm::SafeDownCast(filter) ||
+                        vtkMorphShapes::SafeDownCast(filter) ||
+                        vtkMorphBoundary::SafeDownCast(filter);
+  const int kind =
+    isOfData ? made.choices.pick("with.frame",
+                 { "none", "unit", "origin", "quarter turn", "reflection" }, { 8, 1, 1, 1, 1 })
+             : 0;
+  const double tolerance = made.choices.value("property.Tolerance");
+  const bool isMatched = made.choices.value("property.MatchTolerance") <= 1e-3;
+  auto* output = vtkPointSet::SafeDownCast(first.outputs.front());
+  auto* input = vtkPointSet::SafeDownCast(made.inputs.front());
+  if (kind == 0 || !isPlain(made) || tolerance > 1e-10 || !isMatched || !output || !input ||
+      !isOfType(output, VTK_DOUBLE) || !isOfType(input, VTK_DOUBLE) ||
+      made.choices.value("boundary.float") != 0 || isUndecided(made, filter))
+  {
+    return {};
+  }
+  const Frame frame = randomFrame(made.choices, kind, made.grid.size);
+  std::vector<vtkSmartPointer<vtkDataObject>> data;
+  for (const auto& given : made.inputs)
+  {
+    data.push_back(given ? inFrame(given, frame) : nullptr);
+  }
+  const auto other = made.makeFilter(data, 0);
+  const Run second = execute(other, made.time);
+  if (first.errors.empty() != second.errors.empty())
+  {
+    return { "frame",
+      "an error in one of them: " + (first.errors.empty() ? second.errors : first.errors).front() };
+  }
+  auto* moved = vtkPointSet::SafeDownCast(second.outputs.front());
+  if (!first.errors.empty() || output->GetNumberOfPoints() == 0)
+  {
+    return {};
+  }
+  if (moved->GetNumberOfPoints() != output->GetNumberOfPoints())
+  {
+    return { "frame", "other numbers of points" };
+  }
+  const double unit = std::cbrt(std::abs(frame.matrix.determinant()));
+  const morph::Points x = pointsOf(moved);
+  if (isExact(made, filter) && isExact(made, other))
+  {
+    const morph::Points y = pointsOf(output);
+    double most = 0;
+    for (Index p = 0; p < x.rows(); ++p)
+    {
+      most = std::max(most, (x.row(p) - frame.point(y.row(p))).norm() / unit);
+    }
+    const double lost = std::max(rounding(x, false) / unit, rounding(y, false));
+    return most <= 1e-9 * made.grid.size + 1e3 * lost
+             ? Finding{}
+             : Finding{ "frame", "a node is " + text(most / made.grid.size) + " sizes off" };
+  }
+  const auto measure = [](vtkAlgorithm* algorithm)
+  {
+    auto* morph = vtkMorphAlgorithm::SafeDownCast(algorithm);
+    return std::make_pair(
+      static_cast<double>(morph->GetInvertedCells() + morph->GetDegenerateCells()),
+      morph->GetMinScaledJacobian());
+  };
+  const auto [bad, least] = measure(filter);
+  const auto [otherBad, otherLeast] = measure(other);
+  const bool areAlike =
+    std::abs(bad - otherBad) <= 0.02 * bad &&
+    std::abs(least - otherLeast) <= 0.02 * std::max(std::abs(least), std::abs(otherLeast));
+  return areAlike ? Finding{}
+                  : Finding{ "frame", text(bad) + " and " + text(otherBad) + " inverted, minimum " +
+                                        text(least) + " and " + text(otherLeast) };
+}
+
+Finding checkRanges(Case& made, vtkAlgorithm* filter, const Run& run)
+{
+  auto* shapes = vtkMorphShapes::SafeDownCast(filter);
+  auto* output = vtkPointSet::SafeDownCast(run.outputs.front());
+  if (!shapes || !run.errors.empty() || !made.grid.isAsMesh || made.grid.hasGhosts || !output ||
+      output->GetNumberOfPoints() == 0 || isFloat(output) ||
+      shapes->GetQuality() != vtkMorphShapes::QUALITY_ALL || !shapes->GetFindValidRanges() ||
+      !made.choices.chance("with.ranges", 0.3))
+  {
+    return {};
+  }
+  constexpr double Inside = 1 - 1e-6;
+  std::vector<std::vector<double>> tries;
+  std::vector<double> weights;
+  for (int i = 0; i < shapes->GetNumberOfShapes(); ++i)
+  {
+    weights.push_back(shapes->GetWeight(i));
+  }
+  for (int i = 0; i < shapes->GetNumberOfShapes(); ++i)
+  {
+    for (const double end : { shapes->GetLowestWeight(i), shapes->GetHighestWeight(i) })
+    {
+      if (std::isfinite(end) && end != 0) // the range is open
+      {
+        tries.push_back(weights);
+        tries.back()[i] = Inside * end;
+      }
+    }
+  }
+  if (std::isfinite(shapes->GetLargestFactor()) && shapes->GetLargestFactor() != 0)
+  {
+    tries.push_back(weights);
+    for (double& weight : tries.back())
+    {
+      weight *= Inside * shapes->GetLargestFactor();
+    }
+  }
+  for (const std::vector<double>& tried : tries)
+  {
+    for (std::size_t i = 0; i < tried.size(); ++i)
+    {
+      shapes->SetWeight(static_cast<int>(i), tried[i]);
+    }
+    const Run again = execute(shapes, made.time);
+    // Of places that are too far the determinants are rounding.
+    const bool isFar =
+      pointsOf(vtkPointSet::SafeDownCast(again.outputs.front())).cwiseAbs().maxCoeff() >
+      1e4 * made.grid.size;
+    if (again.errors.empty() && !isFar && shapes->GetNewInvertedCells() > 0)
+    {
+      std::string list;
+      for (const double weight : tried)
+      {
+        list += " " + text(weight);
+      }
+      return { "valid range", text(shapes->GetMinScaledJacobian()) + " at weights" + list };
+    }
+  }
+  return {};
+}
+}
