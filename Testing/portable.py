@@ -16,7 +16,6 @@ EXTENSIONS = re.compile(
 ALLOWED = {
     "Filters/Core/Support/Simd.h",         # has a scalar twin
     "Filters/IO/Files/ReplaceFile.cxx",    # has a twin for Windows
-    "Filters/IO/Files/MappedFile.cxx",     # compiled with netCDF alone
     "Programs/MorphMesh/ProgressBar.cxx",  # isatty
 }
 

@@ -56,7 +56,7 @@ system() {
       packages=(emscripten)
       compiler=em++
       flags+=(-fexceptions -DCGAL_ALWAYS_ROUND_TO_NEAREST)
-      link=(-fexceptions -sALLOW_MEMORY_GROWTH -sSTACK_SIZE=8MB -sNODERAWFS -sEXIT_RUNTIME)
+      link=(-fexceptions -sALLOW_MEMORY_GROWTH -sSTACK_SIZE=8MB -sWASM_ASYNC_COMPILATION=0 -sNODERAWFS -sEXIT_RUNTIME)
       run=(env NODE_PATH=/usr/share/nodejs node) ;;
   esac
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Formats/NetCdf.h"
 
-#include "Files/MappedFile.h"
 #include "Files/ReadFile.h"
 #include "Support/Error.h"
 
@@ -57,9 +56,9 @@ NetCdf::NetCdf(const std::string& path, const std::string& name, Access access)
     return;
   }
   // Behind the end of a classic file netCDF reads zeros. Behind that of its content it fails.
-  this->content_ = std::make_unique<MappedFile>(path);
-  this->isOpen_ = nc_open_mem(path.c_str(), NC_NOWRITE, this->content_->size(),
-                    this->content_->data(), &this->file_) == NC_NOERR;
+  this->content_ = readFile(path);
+  this->isOpen_ = nc_open_mem(path.c_str(), NC_NOWRITE, this->content_.size(),
+                    this->content_.data(), &this->file_) == NC_NOERR;
   if (!this->isOpen_ || !isWhole(this->file_))
   {
     if (this->isOpen_)

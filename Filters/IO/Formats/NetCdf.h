@@ -4,14 +4,11 @@
 #include "Support/Types.h"
 
 #include <cstdint>
-#include <memory>
 #include <string>
 #include <vector>
 
 namespace morph::io
 {
-class MappedFile;
-
 /// A file of netCDF: classic, 64-bit offset, 64-bit data or netCDF-4. Each function throws Error
 /// where the file is damaged.
 class NetCdf
@@ -50,7 +47,7 @@ private:
   void check(int status, const std::string& what) const;
 
   std::string name_;
-  std::unique_ptr<MappedFile> content_; ///< of a classic file that is read
+  std::string content_; ///< of a classic file that is read
   std::uintmax_t longest_ = 0;
   int file_ = -1;
   bool isOpen_ = false;
