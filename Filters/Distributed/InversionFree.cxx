@@ -75,31 +75,41 @@ void InversionFree::doPrepare(Monitor& monitor)
   }
 }
 
-Points InversionFree::betterGuess(const Points& target, const std::vector<Index>& hopeless,
-  EvaluateReport& report, Monitor& monitor) const
+void InversionFree::findStart(const Points& target, const std::vector<Index>& hopeless,
+  Points& points, EvaluateReport& report, Monitor& monitor) const
 {
-  Points warped;
-  report.iterations += this->femWarp_.evaluate(target, warped, monitor).iterations;
+  const Points atRest = points;
+  Points simplex;
+  report.iterations += this->femWarp_.evaluate(target, points, monitor).iterations;
   if (this->simplexLinear_)
   {
-    Points simplex;
     this->simplexLinear_->evaluate(target, simplex, monitor);
-    bool isBetter = false;
-    this->own_->communicator().run(
-      [&]
-      {
-        const MovableQuality quality = this->improvement(hopeless).quality();
-        const auto at = [&](const Points& points)
-        { return quality.measure(this->own_->take(points) * this->scale_, monitor); };
-        const MovableQuality::Result ofWarped = at(warped);
-        isBetter = ofWarped < at(simplex);
-      });
-    if (isBetter)
-    {
-      return simplex;
-    }
   }
-  return warped;
+  this->own_->communicator().run(
+    [&]
+    {
+      const MovableQuality quality = this->improvement(hopeless).quality();
+      const auto at = [&](const Points& start)
+      { return quality.measure(this->own_->take(start) * this->scale_, monitor); };
+      MovableQuality::Result best = at(points);
+      const auto keepBetter = [&](const Points& start)
+      {
+        MovableQuality::Result result = at(start);
+        if (best < result)
+        {
+          best = std::move(result);
+          points = start;
+        }
+      };
+      if (this->simplexLinear_)
+      {
+        keepBetter(simplex);
+      }
+      if (best.inverted > 0)
+      {
+        keepBetter(atRest);
+      }
+    });
 }
 
 EvaluateReport InversionFree::displace(
@@ -131,7 +141,7 @@ EvaluateReport InversionFree::displace(
       determined = boundaryDeterminedInversions(
         own.mesh(), own.partition(), own.orientation(), own.take(points) * this->scale_);
     });
-  points = this->betterGuess(target, determined, guesses, first);
+  this->findStart(target, determined, points, guesses, first);
   MeshImprovement::Outcome outcome;
   own.communicator().run(
     [&]

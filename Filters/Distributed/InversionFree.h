@@ -39,8 +39,8 @@ protected:
 
 private:
   MeshImprovement improvement(const std::vector<Index>& hopeless) const;
-  /// The better of FEMWARP's mesh and the simplex-linear one, of all local nodes.
-  Points betterGuess(const Points& target, const std::vector<Index>& hopeless,
+  /// Replaces `points`, the undeformed mesh with its boundary moved, by the best of the starts.
+  void findStart(const Points& target, const std::vector<Index>& hopeless, Points& points,
     EvaluateReport& report, Monitor& monitor) const;
 
   ImprovementOptions options_;

@@ -19,12 +19,11 @@ namespace
 using namespace foldover;
 
 constexpr double Infinity = std::numeric_limits<double>::infinity();
-/// What an edge may become: these parts of the undeformed length, in the scale of the cell.
-constexpr double LeastLength = 0.2, MostLength = 5;
+/// What an edge may become: this part of the undeformed length, in the scale of the cell, or as
+/// many times longer.
+constexpr double LeastLength = 0.2;
 /// A limit that gives way leaves its edge this much room.
 constexpr double Room = 0.8;
-/// The weight of an edge's limits: that of a cell or two.
-constexpr double LimitWeight = 2;
 /// Gauss-Newton leaves out how cosines bend. A step that turns edges far is not to be trusted, so
 /// the matrix has this times the square of each edge's change over its length.
 constexpr double Proximity = 30;
@@ -171,8 +170,8 @@ struct EdgeTerms
       SimdDouble4 most = widened(limits.byMost[k]) * sample.q[k];
       least *= least;
       most *= most;
-      this->ofLeast[k] = LimitWeight * least * least;
-      this->ofMost[k] = LimitWeight * most * most;
+      this->ofLeast[k] = 2. * least * least;
+      this->ofMost[k] = 2. * most * most;
     }
   }
 };
@@ -664,7 +663,7 @@ void StiffenedDistortion::findLimits(
       }
       const double undeformed = scale * before[k][edge], near = LeastLength * undeformed,
                    least = std::min(near, Room * now[k][edge]),
-                   most = std::max(MostLength * undeformed, now[k][edge] / Room);
+                   most = std::max(undeformed / LeastLength, now[k][edge] / Room);
       limits[k].near[edge][lane] = static_cast<float>(near * near);
       limits[k].least[edge][lane] = static_cast<float>(least * least);
       limits[k].byMost[edge][lane] = static_cast<float>(most > 0 ? 1 / (most * most) : 0);

@@ -126,11 +126,14 @@ TargetConstruction InversionFree::findStart(const Points& boundary, const Movabl
   {
     keepBetter(this->moved(this->simplexLinear_, boundary, report, second));
   }
+  if (best.inverted > 0)
+  {
+    keepBetter(atRest);
+  }
   if (this->validAtRest_)
   {
     return TargetConstruction::Stretched;
   }
-  keepBetter(atRest);
   // Where it is the better start, the undeformed shapes are worth nothing.
   return keepBetter(graphLaplaceMesh(this->referenceMesh_, this->partition(), atRest, monitor))
            ? TargetConstruction::IdealSkew

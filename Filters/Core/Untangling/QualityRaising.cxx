@@ -17,25 +17,21 @@ namespace morph
 namespace
 {
 constexpr double NearBound = 2.5e-3; // a mesh within this part of the bound is left as it is
-// The barrier is at this part of the way to the worst sample. Where a step gains less than Slow,
-// the rest of the way shrinks by Closing.
-constexpr double FirstLevel = 0.85, LastLevel = 0.99, Slow = 2e-3, Closing = 0.7;
-constexpr int Doublings = 3;     // of a step: half of the way to a barrier is typical
+// The barrier is at this part of the way to the worst sample. Where a step gains less than
+// WorthWhile, the rest of the way shrinks by Closing.
+constexpr double FirstLevel = 0.85, LastLevel = 0.99, Closing = 0.7;
 constexpr int StepsOfRound = 12; // on a part of the mesh
 // A search ends where this many steps, or a round, gain less than this.
 constexpr int Patience = 4;
 constexpr double WorthWhile = 3e-3;
-// With few rings of hexahedra the nodes that stay hold the minimum down. A ring of tetrahedra has
-// several times as many cells, so it counts as three, and a cell itself as one.
-constexpr int Rings = 7, RingsOfOthers = 3;
-constexpr double MostOfMesh = 0.7; // free nodes in a part: more is the whole mesh
-// Worst are cells above the minimum m by at most these shares of m and of 1 - m.
-constexpr double OfTheLeast = 0.5, OfTheWay = 0.1;
+// With few rings of hexahedra the nodes that stay hold the minimum down. Two rings of tetrahedra
+// have as many cells.
+constexpr int Rings = 7;
+// Worst are cells above the minimum m by at most m / 2 and this share of 1 - m.
+constexpr double OfTheWay = 0.1;
 constexpr double WorstShare = 0.01; // cells that rise when the minimum is at its bound
-constexpr int StepsOfOthers = 6;
-constexpr double WorthOthers = 1e-2; // gain of a step
-constexpr double Growth = 1.1;       // of the floor under samples at their bounds, a step
-constexpr double MostLoss = 2e-3;    // of the minimum, for the other cells
+constexpr double Growth = 1.1;      // of the floor under samples at their bounds, a step
+constexpr double ForTheMean = 1.1;  // gain of the minimum that is worth a lower mean
 
 bool isMostlyTetrahedra(const Mesh& mesh, const Communicator& communicator)
 {
@@ -108,14 +104,12 @@ public:
     {
       this->raiseOthers();
     }
+    this->guardMean();
     return this->effort_;
   }
 
 private:
-  int rings(int ofHexahedra) const
-  {
-    return this->isOfTetrahedra_ ? (ofHexahedra - 1) / 3 : ofHexahedra;
-  }
+  int rings() const { return this->isOfTetrahedra_ ? 2 : Rings; }
   int left() const { return this->steps_ - static_cast<int>(this->effort_.steps); }
 
   /// Returns the cells up to `limit`.
@@ -138,7 +132,7 @@ private:
       this->mesh_, this->around_, this->measured_.free(), seeds, rings, this->communicator_);
     const auto count = [&](const std::vector<Index>& nodes)
     { return this->communicator_.sum(static_cast<double>(nodes.size())); };
-    isWhole = count(ring.nodes) > MostOfMesh * count(this->measured_.free());
+    isWhole = rings == 0 || 2 * count(ring.nodes) > count(this->measured_.free());
     outside = std::numeric_limits<double>::infinity();
     std::vector<char> isInside(this->mesh_.numberOfCells(), isWhole ? 1 : 0);
     for (const Index c : ring.cells)
@@ -169,15 +163,70 @@ private:
     this->measured_.measureAgain(part.mesh.cells, this->points_, this->quality_, this->monitor_);
   }
 
+  /// Takes `points` back where the minimum is lower now.
+  void keepAtLeast(double minimum, const Points& points, const MovableQuality::Result& quality)
+  {
+    if (this->quality_.minimum < minimum)
+    {
+      this->points_ = points;
+      this->quality_ = quality;
+    }
+  }
+
+  double meanOf(const MovableQuality::Result& quality) const
+  {
+    double sum = 0;
+    for (const double s : quality.scaledJacobian)
+    {
+      sum += std::isnan(s) ? 0 : s;
+    }
+    return this->communicator_.sum(sum);
+  }
+
+  /// The mean does not fall below the start's, unless the minimum has risen by ForTheMean: the
+  /// energy at a fixed level is that of a mean, with a barrier just below the minimum.
+  void guardMean()
+  {
+    const MovableQuality::Result start = this->measured_.measure(this->start_, this->monitor_);
+    const double mean = this->meanOf(start);
+    const auto isEnough = [&]
+    {
+      return this->quality_.minimum > ForTheMean * start.minimum ||
+             this->meanOf(this->quality_) >= mean;
+    };
+    if (isEnough())
+    {
+      return;
+    }
+    bool isWhole = false;
+    double outside = 0;
+    Part part = this->partAround({}, 0, isWhole, outside);
+    part.objective.setLevel(
+      FirstLevel / part.objective.evaluate(part.points, this->monitor_).largest);
+    MinimizerLimits limits;
+    limits.steps = StepsOfRound / 2;
+    BlockCsr3f matrix;
+    newton(part.objective, part.points, limits, matrix, this->effort_, this->monitor_);
+    const Points before = this->points_;
+    const MovableQuality::Result had = this->quality_;
+    this->take(part);
+    this->keepAtLeast((1 - NearBound) * had.minimum, before, had);
+    if (!isEnough())
+    {
+      this->points_ = this->start_;
+    }
+  }
+
   void raiseMinimum()
   {
-    int rings = this->rings(Rings);
+    int rings = this->rings();
     for (bool isWhole = false;
          this->left() > 0 && !hasReached(this->quality_.minimum, this->goal_);)
     {
-      const double before = this->quality_.minimum;
+      const MovableQuality::Result before = this->quality_;
       const Points pointsBefore = this->points_;
-      const double limit = before + std::min(OfTheLeast * before, OfTheWay * (1 - before));
+      const double least = before.minimum;
+      const double limit = least + std::min(least / 2, OfTheWay * (1 - least));
       double outside = 0;
       Part part =
         this->partAround(this->cellsBelow(std::min(limit, this->goal_)), rings, isWhole, outside);
@@ -186,13 +235,9 @@ private:
       this->take(part);
       // Where other cells are the worst now, these nodes were enough.
       rings *= this->quality_.minimum < most ? 2 : 1;
-      if (this->quality_.minimum < (1 + WorthWhile) * before)
+      if (this->quality_.minimum < (1 + WorthWhile) * least)
       {
-        if (this->quality_.minimum < before) // a pyramid that is too high counts as flat
-        {
-          this->points_ = pointsBefore;
-          this->quality_ = this->measured_.measure(this->points_, this->monitor_);
-        }
+        this->keepAtLeast(before.minimum, pointsBefore, before);
         break;
       }
     }
@@ -225,17 +270,13 @@ private:
     bool isWhole = false;
     double outside = 0;
     Part part =
-      this->partAround(this->cellsBelow(*nth), this->rings(RingsOfOthers), isWhole, outside);
+      this->partAround(this->cellsBelow(*nth), this->rings() / 2, isWhole, outside);
     this->way_ = 1 - FirstLevel;
-    this->climb(part, 1, StepsOfOthers, true);
+    this->climb(part, 1, StepsOfRound / 2, true);
     this->take(part);
     this->steps_ = static_cast<int>(this->effort_.steps) + StepsOfRound;
     this->raiseMinimum();
-    if (this->quality_.minimum < (1 - MostLoss) * had.minimum)
-    {
-      this->points_ = before;
-      this->quality_ = had;
-    }
+    this->keepAtLeast((1 - NearBound) * had.minimum, before, had);
   }
 
   /// The least sample. With a floor that follows it samples at their bounds do not count.
@@ -273,7 +314,7 @@ private:
     double last = best;
     MinimizerLimits limits;
     limits.steps = 1;
-    limits.doublings = Doublings;
+    limits.doublings = 2; // half of the way to a barrier is typical
     BlockCsr3f matrix;
     double mark = best; // of the last steps' start
     for (int step = 0; step < most && best < goal; ++step)
@@ -290,8 +331,7 @@ private:
       const Index before = this->effort_.steps;
       newton(objective, x, limits, matrix, this->effort_, this->monitor_);
       this->effort_.steps = before + 1;
-      // How many steps there will be is not known.
-      this->monitor_.progress(1 - std::pow(0.97, static_cast<double>(this->effort_.steps)));
+      this->monitor_.progress(std::min(1., static_cast<double>(before) / this->steps_));
       objective.restoreLimits(x);
       const double least = this->leastOf(objective, x, floor), gain = least / last - 1;
       last = least;
@@ -300,8 +340,8 @@ private:
         best = least;
         part.points = x;
       }
-      way = gain < Slow ? std::max(1 - LastLevel, Closing * way) : way;
-      if (aboveBounds && gain < WorthOthers)
+      way = gain < WorthWhile ? std::max(1 - LastLevel, Closing * way) : way;
+      if (aboveBounds && gain < WorthWhile)
       {
         break;
       }
