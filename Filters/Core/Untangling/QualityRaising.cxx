@@ -314,7 +314,7 @@ private:
     double last = best;
     MinimizerLimits limits;
     limits.steps = 1;
-    limits.doublings = 2; // half of the way to a barrier is typical
+    limits.doublings = StepsOfRound; // as long as they lower the energy: half of the way is typical
     BlockCsr3f matrix;
     double mark = best; // of the last steps' start
     for (int step = 0; step < most && best < goal; ++step)
