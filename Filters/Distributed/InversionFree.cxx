@@ -134,21 +134,24 @@ EvaluateReport InversionFree::displace(
   Points points = rest;
   points(this->partition().prescribed, allColumns) = target;
   mesh.halo().update(ranks, points);
-  std::vector<Index> determined;
+  std::vector<Index> determined, hopeless;
   own.communicator().run(
     [&]
     {
-      determined = boundaryDeterminedInversions(
-        own.mesh(), own.partition(), own.orientation(), own.take(points) * this->scale_);
+      const Points moved = own.take(points) * this->scale_;
+      determined = inversionsByBoundaryMotion(own.mesh(), own.partition(), own.orientation(),
+        own.take(rest) * this->scale_, moved, second);
+      hopeless =
+        boundaryDeterminedInversions(own.mesh(), own.partition(), own.orientation(), moved);
     });
-  this->findStart(target, determined, points, guesses, first);
+  this->findStart(target, hopeless, points, guesses, first);
   MeshImprovement::Outcome outcome;
   own.communicator().run(
     [&]
     {
       Points improved = own.take(points) * this->scale_;
       const Points guide = improved;
-      outcome = this->improvement(determined)
+      outcome = this->improvement(hopeless)
                   .run(guide, TargetConstruction::Stretched, false, improved, second);
       points(own.nodes(), allColumns) = improved / this->scale_;
     });

@@ -15,7 +15,8 @@
  *
  * On structured meshes many sets of boundary nodes lie on one sphere, and the tessellation is not
  * unique. The convex cell of such a set is then divided from the mean of its corners. So neither
- * renumbering the nodes nor rotating the mesh changes the result beyond rounding.
+ * renumbering the nodes nor rotating the mesh moves a node in the prescribed nodes' convex hull
+ * elsewhere, but for rounding. Outside it can change the tetrahedron that a node follows.
  *
  * It is an error if all prescribed nodes lie in one plane. Memory: 56 bytes an interior node, and
  * some 300 a prescribed node.

@@ -46,7 +46,7 @@ public:
 private:
   /// The bytes of a set that no cache holds.
   double beyondCaches() const;
-  void bandwidth(const Problem& problem, double workingSet);
+  void bandwidth(const Problem& problem);
 };
 
 void Run::peakMemory(const Problem& problem)
@@ -77,23 +77,18 @@ double Run::beyondCaches() const
                               : std::min(std::max(4 * lastLevelCacheBytes(), 1e9), 0.5 * available);
 }
 
-/// The bandwidth that bounds a step, of memory and of where its working set is.
-void Run::bandwidth(const Problem& problem, double workingSet)
+/// The memory bandwidth that bounds a step.
+void Run::bandwidth(const Problem& problem)
 {
   say("memory bandwidth");
   const auto monitor = makeMonitor(this->cores_);
   const double large = this->beyondCaches();
-  for (const bool memory : { true, false })
-  {
-    const double bytes = memory ? large : workingSet;
-    this->settleDown();
-    const Bandwidth measured = measureBandwidth(static_cast<std::size_t>(bytes), *monitor);
-    const std::string where = memory ? "memory bandwidth" : "bandwidth of its working set";
-    const std::string size =
-      " over " + std::to_string(static_cast<int>(bytes / 1e6)) + " MB" + withThreads(this->cores_);
-    this->add(problem, where + ", read" + size, measured.read, "B/s");
-    this->add(problem, where + ", triad" + size, measured.triad, "B/s");
-  }
+  this->settleDown();
+  const Bandwidth measured = measureBandwidth(static_cast<std::size_t>(large), *monitor);
+  const std::string size =
+    " over " + std::to_string(static_cast<int>(large / 1e6)) + " MB" + withThreads(this->cores_);
+  this->add(problem, "memory bandwidth, read" + size, measured.read, "B/s");
+  this->add(problem, "memory bandwidth, triad" + size, measured.triad, "B/s");
 }
 
 void Run::cube(const Problem& problem)
@@ -142,9 +137,7 @@ void Run::cube(const Problem& problem)
   this->add(problem, "CHOLMOD cold / cold", median(cholmodCold) / median(all.cold), "",
     Target::atLeast(15));
   this->add(problem, "warm / CHOLMOD solve", warm / median(cholmodSolve), "", Target::atMost(1));
-  const auto kept = static_cast<double>(femWarp->memory());
-  this->bandwidth(problem, kept);
-  this->add(problem, "memory kept a node", perNode(kept, problem), "B", Target::atMost(1000));
+  this->bandwidth(problem);
 
   this->add(problem, "iterations", all.iterations, "");
   this->addTimes(problem, 1, one);

@@ -170,8 +170,6 @@ void Run::againstFemWarp(const Problem& problem)
     median(barrierAll.cold) / median(femWarpAll.cold), "", Target::atMost(4));
   this->add(problem, "warm / FEMWARP's warm" + withThreads(1),
     median(barrier.warm) / median(femWarp.warm), "");
-  this->add(problem, "memory kept a node",
-    static_cast<double>(method->memory()) / static_cast<double>(problem.mesh.numberOfNodes()), "B");
   this->add(problem, "iterations", barrier.iterations, "");
   this->add(problem, "FEMWARP's iterations", femWarp.iterations, "");
   this->addTimes(problem, 1, barrier);

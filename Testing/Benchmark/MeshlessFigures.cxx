@@ -89,8 +89,6 @@ void Run::radialBasis(const Problem& problem)
   this->add(problem, "radial basis: centres", static_cast<double>(method->centres()), "");
   this->add(problem, "radial basis: prepare" + tail, median(times.prepare), "s", prepare);
   this->add(problem, "radial basis: warm" + tail, median(times.warm), "s", warm);
-  this->add(problem, "radial basis: bytes kept, of the two matrices' and the coordinates",
-    static_cast<double>(method->memory()), "B");
   this->add(problem, "radial basis: bytes of a matrix of sites by nodes", 8 * sites * nodes, "B");
   this->add(problem, "radial basis: kernels a second in a warm step, 17 operations each" + tail,
     pairs / median(times.warm), "1/s");

@@ -102,9 +102,6 @@ double Run::method(const Problem& problem, const std::string& name)
   const auto evaluate = [&](morph::Monitor& monitor)
   { report = prepared->evaluate(problem.target, moved, monitor); };
   const double warm = this->stage(problem, name + ", warm evaluate", evaluate);
-  const auto nodes = static_cast<double>(problem.mesh.numberOfNodes());
-  this->add(
-    problem, name + ": memory kept a node", static_cast<double>(prepared->memory()) / nodes, "B");
   this->add(problem, name + ": iterations", report.iterations, "");
   return prepare + warm;
 }

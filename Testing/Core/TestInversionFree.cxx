@@ -217,6 +217,19 @@ TEST(InversionFree, CellsThatTheBoundaryInvertsAreNamedAndTheOthersMorphed)
   const std::vector<Index> inverted =
     morph::invertedCells(mesh, moved, std::vector<std::int8_t>(mesh.numberOfCells(), 1), monitor);
   EXPECT_EQ(inverted, std::vector<Index>{ 0 });
+
+  // A cell that was inverted before is none of these.
+  Mesh pushed = mesh;
+  pushed.points.row(0) << 1.5, 1.5, 1.5;
+  meshes::ThreadedMonitor other;
+  InversionFree again;
+  again.prepare(pushed, motions::outerPartition(pushed), other);
+  const morph::EvaluateReport next = again.evaluate(target(pushed, waves), moved, other);
+  EXPECT_EQ(count(next, "BoundaryDeterminedCells"), 0);
+  for (const std::string& warning : other.warnings)
+  {
+    EXPECT_NE(warning.find("The reference mesh has"), std::string::npos) << warning;
+  }
 }
 
 TEST(InversionFree, CellsBehindAFoldOfTheBoundaryDoNotHoldUpTheOthers)

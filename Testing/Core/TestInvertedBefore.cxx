@@ -87,6 +87,10 @@ TEST(InvertedBefore, WhatWasValidOrHasOneMoreInvertedCornerIsAdded)
   Points points = pushed.mesh.points;
   points.row(0) << 0.9, 0.9, 0.9; // the same corner, farther
   EXPECT_TRUE(pushed.added(points).empty());
+  const double sheared = 1e11; // nearly flat, and not inverted
+  points.col(0) += sheared * points.col(1);
+  EXPECT_TRUE(pushed.added(points).empty());
+  points.col(0) -= sheared * points.col(1);
   const Index top = pushed.mesh.cell(0)[6];
   points.row(top) << -0.2, -0.2, -0.2; // the opposite one, too, which both cells share
   EXPECT_EQ(pushed.added(points), (std::vector<Index>{ 0, 1 }));

@@ -184,21 +184,19 @@ TEST(LogBarrierWarp, FreeNodesStayInTheHullOfThePrescribedOnes)
   }
 }
 
-TEST(LogBarrierWarp, TheTransposedSystemIsKept)
+TEST(LogBarrierWarp, TheTransposedSystemGivesTheSameEachTime)
 {
   const Mesh mesh = hexes(4, 4, 4);
   Monitor monitor;
   LogBarrierWarp method;
   method.setTolerance(1e-13);
   method.prepare(mesh, outerPartition(mesh), monitor);
-  const std::size_t before = method.memory();
   Points adjoint;
   const EvaluateReport report = method.applyTranspose(mesh.points, adjoint, monitor);
   EXPECT_LE(report.relativeResidual, 1e-13);
-  const std::size_t after = method.memory();
-  EXPECT_GT(after, before);
-  method.applyTranspose(mesh.points, adjoint, monitor);
-  EXPECT_EQ(method.memory(), after);
+  Points again;
+  method.applyTranspose(mesh.points, again, monitor);
+  EXPECT_TRUE(motions::identical(adjoint, again));
 }
 
 TEST(LogBarrierWarp, RandomNumbersChangeTheRowsNotTheResult)

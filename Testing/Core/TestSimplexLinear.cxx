@@ -411,16 +411,3 @@ TEST(SimplexLinear, PrescribedNodesInOnePlaneAreRefused)
     EXPECT_NE(message.find("FEMWARP"), std::string::npos) << message;
   }
 }
-
-TEST(SimplexLinear, MemoryCountsWhatIsKept)
-{
-  const Mesh mesh = meshes::hexes(12, 12, 12);
-  const NodePartition partition = outerPartition(mesh);
-  const auto result = morphed(mesh, partition, affine);
-  const std::size_t free = partition.free.size();
-  const std::size_t tetrahedra = result->method.tessellation().tetrahedra().size();
-  EXPECT_GT(result->method.memory(), 56 * free + 32 * tetrahedra);
-  const std::size_t means = result->method.means().values.size();
-  EXPECT_LT(result->method.memory(),
-    56 * free + 40 * tetrahedra + 100 * partition.prescribed.size() + 16 * means);
-}

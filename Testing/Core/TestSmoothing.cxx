@@ -569,6 +569,13 @@ TEST(Smoothing, ABoundaryThatInvertsCellsIsNamed)
     << monitor.warnings.front();
   EXPECT_EQ(report.statistics.back().name, "BoundaryDeterminedCells");
   EXPECT_EQ(report.statistics.back().value, 1);
+
+  // A cell that was inverted before is none of these.
+  Mesh pushed = mesh;
+  pushed.points.row(0) = target.row(0);
+  method.prepare(pushed, partition, monitor);
+  target.rowwise() += Row(0, 0, .1);
+  EXPECT_EQ(method.evaluate(target, result, monitor).statistics.back().value, 0);
 }
 
 TEST(Smoothing, WhatCannotBeUntangledComesWithAWarning)

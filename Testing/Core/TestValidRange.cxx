@@ -175,6 +175,13 @@ TEST(PolynomialRoot, FindsTheFirst)
   EXPECT_EQ(firstPositiveRoot(none, 2), HUGE_VAL);
   const double small[] = { 1e-9, -1, 0, 0 };
   EXPECT_NEAR(firstPositiveRoot(small, 3), 1e-9, 1e-20);
+  for (double unit : { 1e-100, 1e-12, 1e3, 1e12, 1e100 })
+  {
+    const double scaled[] = { 6, -11 / unit, 6 / unit / unit, -1 / unit / unit / unit };
+    EXPECT_NEAR(firstPositiveRoot(scaled, 3) / unit, 1, 1e-11);
+    const double rising[] = { 1, 1 / unit, 0, -2 / unit / unit / unit }; // up, then down
+    EXPECT_NEAR(firstPositiveRoot(rising, 3) / unit, 1, 1e-11);
+  }
   const double negative[] = { -1, 5 };
   EXPECT_EQ(firstPositiveRoot(negative, 1), 0);
   EXPECT_TRUE(isPositiveUntil(cubic, 3, .5));

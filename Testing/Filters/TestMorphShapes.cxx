@@ -399,6 +399,7 @@ TEST(MorphShapes, ValidRangesEndWhereCellsAreInverted)
   };
   expectLargestFactor(.5, .1, .25);
   expectLargestFactor(0, -.1, 0);
+  expectLargestFactor(.5e-12, 0, .25e-12);
   filter->FindValidRangesOff();
   filter->Update();
   EXPECT_TRUE(std::isnan(filter->GetHighestWeight(0)));

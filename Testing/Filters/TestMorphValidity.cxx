@@ -323,6 +323,15 @@ TEST_F(MorphValidity, CellsThatWereInvertedBeforeRefuseNothing)
   ASSERT_EQ(listener.Errors.size(), 1u);
   EXPECT_NE(listener.Errors[0].find("The boundary itself inverts"), std::string::npos);
   EXPECT_STREQ(filter->GetMorphStatus(), "Failed");
+
+  auto other = morphed<vtkFEMWarpMorph>(grid, waves); // which inverts others
+  grids::Listener heard(other);
+  other->SetValidityToRefuse();
+  other->Update();
+  ASSERT_EQ(heard.Errors.size(), 1u);
+  EXPECT_NE(
+    heard.Errors[0].find(" cells are inverted or degenerate by the motion."), std::string::npos)
+    << heard.Errors[0];
 }
 
 TEST_F(MorphValidity, RepairMendsWhatTheMotionMadeAndRepairAllTheRest)

@@ -7,7 +7,8 @@
 A row (rows.py) is one filter on one mesh. There are three kinds:
     exact    points agree to 1e-10 of the size of the mesh, counts and texts are the same
     solved   as exact, to 1e-8: Morph Mesh and Morph Shapes solve to their own tolerance
-    search   counts and the minimum agree within 2 %; the points are not compared
+    search   counts and the minimum agree within 2 %; the points are not compared: methods that
+             search, and what was repaired
 Without --store the exit status is 1 where a row differs. --store writes the rows chosen by --rows,
 or all of them, and leaves the others. Rows on meshes that are not there are left out, and named."""
 
@@ -35,7 +36,8 @@ NUMBER_TOLERANCE = {"exact": 1e-7, "solved": 1e-5, "search": 0.02}
 SEARCH_NUMBERS = {"InvertedCells", "DegenerateCells", "MinScaledJacobian", "MorphStatus",
                   "PrescribedPoints", "UnmatchedPoints", "BoundaryInvertedCells", "FoldedFaces"}
 # Effort is no result, several cells may be the worst one, and lists of surfaces are long.
-IGNORED = re.compile("Seconds|Iterations|Evaluations|Memory|(Prepare|Solve|Classify|Choose)Count"
+IGNORED = re.compile("Seconds|Iterations|Evaluations|Memory|Megabytes|SlideReport"
+                     "|(Prepare|Solve|Classify|Choose)Count"
                      "|MethodCounts|WorstCellId|(Patch|Surface)(List|Sizes|Bounds)|Picked|Timestep"
                      "|FinalDisplacement|MorphDisplacement|RestPosition")
 NOTHING = ("0", "0.0", "-1.0", "nan", "'None'", "''", "[]")  # what a filter without a result says
@@ -122,6 +124,8 @@ def measured(kind, proxy, port=0, at=None):
     # Without places in the sources, addresses, and cells of which several may be as bad.
     said = [re.sub(r" \(0x\w+\)", "", line) for line in window.GetOutput().splitlines()
             if line.strip() and not re.search(r"^\w+: In .*, line \d+$|^ +(cell \d|\.\.\.)", line)]
+    if numbers.get("MorphStatus") == "'Repaired'":
+        kind = "search"
     row = {"kind": kind, "said": said, "numbers": numbers}
     if isinstance(data, vtkTable):
         row["table"] = table_of(data)

@@ -9,6 +9,8 @@
 #include "vtkMorphBoundary.h"
 #include "vtkMorphMesh.h"
 #include "vtkMorphShapes.h"
+#include "vtkSimplexLinearMorph.h"
+#include "vtkSimplexNaturalNeighborMorph.h"
 
 #include <vtkCompositeDataSet.h>
 #include <vtkDataArray.h>
@@ -232,10 +234,16 @@ bool isExact(const Case& made, vtkAlgorithm* filter)
 /// a node outside all.
 bool isUndecided(const Case& made, vtkAlgorithm* filter)
 {
-  const bool isBySimplices = made.filter.name.rfind("Simplex", 0) == 0;
+  const auto extrapolates = [](auto* morph) { return morph && morph->GetExtrapolatedNodes() > 0; };
+  auto* shapes = vtkMorphShapes::SafeDownCast(filter);
   const bool isHeld =
     made.choices.value("property.HoldUnnamedBoundary") != 0 && made.choices.value("with.mask") == 0;
-  return (vtkMorphBoundary::SafeDownCast(filter) && made.inputs[2]) || (isBySimplices && !isHeld);
+  return (vtkMorphBoundary::SafeDownCast(filter) && made.inputs[2]) ||
+         (shapes && !isHeld &&
+           (shapes->GetMethod() == vtkMorphShapes::METHOD_SIMPLEX_LINEAR ||
+             shapes->GetMethod() == vtkMorphShapes::METHOD_SIMPLEX_NATURAL_NEIGHBOR)) ||
+         extrapolates(vtkSimplexLinearMorph::SafeDownCast(filter)) ||
+         extrapolates(vtkSimplexNaturalNeighborMorph::SafeDownCast(filter));
 }
 
 bool isPlain(const Case& made)

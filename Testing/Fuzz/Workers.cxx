@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Workers.h"
 
+#include <sys/time.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -64,6 +65,15 @@ std::string number(double value)
   return text;
 }
 
+/// Ends this process after so much processor time, whatever else the machine does, or after ten
+/// times as long if it waits for something.
+void limitTime()
+{
+  const itimerval time = { {}, { TimeOut, 0 } };
+  setitimer(ITIMER_PROF, &time, nullptr);
+  alarm(10 * TimeOut);
+}
+
 /// A process that runs `work`, which writes lines; each is handed to `read`. Returns what it ended
 /// by, "" if well, and what it wrote to its standard error.
 std::pair<std::string, std::string> inProcess(
@@ -112,8 +122,9 @@ std::pair<std::string, std::string> inProcess(
   std::string end;
   if (WIFSIGNALED(status))
   {
-    end = WTERMSIG(status) == SIGALRM ? "time-out"
-                                      : "crash by signal " + std::to_string(WTERMSIG(status));
+    const int signal = WTERMSIG(status);
+    end = signal == SIGALRM || signal == SIGPROF ? "time-out"
+                                                 : "crash by signal " + std::to_string(signal);
   }
   else if (WEXITSTATUS(status) != 0)
   {
@@ -155,7 +166,7 @@ void runSeeds(std::uint64_t from, std::uint64_t count, const std::string& filter
     {
       for (std::uint64_t s = seed; s < last; ++s)
       {
-        alarm(TimeOut);
+        limitTime();
         Choices choices(s);
         tell(lineOf(s, judge(choices, filterFor(s, filter))));
       }
@@ -183,7 +194,7 @@ Trial runOne(std::uint64_t seed, const std::string& filter, const Choices::Value
   trial.report.filter = filterFor(seed, filter).name;
   const auto work = [&](const std::function<void(const std::string&)>& tell)
   {
-    alarm(TimeOut);
+    limitTime();
     Choices choices(seed, set);
     const auto tellMade = [&](const std::string& data)
     {

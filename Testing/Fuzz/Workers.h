@@ -40,6 +40,6 @@ Trial runOne(std::uint64_t seed, const std::string& filter, const Choices::Value
 /// The case with as many plain choices, and as simple numbers, as still give the same finding.
 Trial reduce(const Trial& failing, const std::string& filter, Choices::Values& set);
 
-/// Seconds after which a case counts as endless.
+/// Seconds of processor time after which a case counts as endless.
 constexpr unsigned TimeOut = 30;
 }

@@ -5,8 +5,6 @@
 #include "Interpolation/RadialKernel.h"
 #include "Support/Error.h"
 
-#include <Eigen/SparseCholesky>
-
 #include <algorithm>
 #include <numeric>
 #include <utility>
@@ -96,24 +94,34 @@ WeightMatrix kernelsAt(const Points& targets, const Points& sites, double radius
   return matrix;
 }
 
-/// Of a symmetric matrix; its rows, with ascending columns, are taken as columns.
-Eigen::SparseMatrix<double> lowerTriangle(const WeightMatrix& matrix)
+/// Solves `matrix` x = `b`, #sites x 3, by conjugate gradients. The matrix is well conditioned: its
+/// diagonal is 1, and each kernel reaches few sites. A factor would take longer than the solutions
+/// of many motions, and could not be interrupted.
+Points solved(const WeightMatrix& matrix, const Points& b, Monitor& monitor)
 {
-  Eigen::SparseMatrix<double> lower(matrix.rows(), matrix.columns());
-  lower.reserve(matrix.entries() / 2 + matrix.rows());
-  for (Index j = 0; j < matrix.rows(); ++j)
+  constexpr double Squared = 1e-31; // of the tolerance
+  constexpr int MostIterations = 10000;
+  Points x = Points::Zero(b.rows(), 3), r = b, p = b, q;
+  Eigen::Array3d rr = r.colwise().squaredNorm();
+  const Eigen::Array3d goal = Squared * rr;
+  for (int i = 0; !(rr <= goal).all(); ++i)
   {
-    lower.startVec(j);
-    for (Index e = 0; e < matrix.entries(j); ++e)
+    if (i == MostIterations || !rr.allFinite())
     {
-      if (matrix.column(j)[e] >= j)
-      {
-        lower.insertBack(matrix.column(j)[e], j) = matrix.weight(j)[e];
-      }
+      throw Error(Error::Kind::NoConvergence,
+        "Compact kernels at " + std::to_string(b.rows()) +
+          " prescribed places were not solved for: merge prescribed nodes that nearly coincide.");
     }
+    monitor.check();
+    matrix.multiply(p, q, monitor);
+    const Eigen::Array3d pq = p.cwiseProduct(q).colwise().sum(), before = rr;
+    const Eigen::Array3d step = (rr > goal).select(rr / pq, 0.);
+    x += p * step.matrix().asDiagonal();
+    r -= q * step.matrix().asDiagonal();
+    rr = r.colwise().squaredNorm();
+    p = r + p * (before > goal).select(rr / before, 0.).matrix().asDiagonal();
   }
-  lower.finalize();
-  return lower;
+  return x;
 }
 }
 
@@ -121,8 +129,8 @@ Eigen::SparseMatrix<double> lowerTriangle(const WeightMatrix& matrix)
 struct CompactCorrection::Level
 {
   Index size = 0;
-  Eigen::SimplicialLLT<Eigen::SparseMatrix<double>> factor; ///< of the kernels at the sites
-  WeightMatrix atLater;                                     ///< the kernels at the other sites
+  WeightMatrix atOwn;   ///< the kernels at the sites
+  WeightMatrix atLater; ///< at the other sites
   WeightMatrix atTargets;
 };
 
@@ -148,15 +156,7 @@ void CompactCorrection::prepare(const Points& sites, const std::vector<double>& 
     level->size = end;
     const double radius = Reach * distances[end - 1];
     const Points own = sites.topRows(end);
-    const Eigen::SparseMatrix<double> lower = lowerTriangle(kernelsAt(own, own, radius, monitor));
-    level->factor.compute(lower);
-    if (level->factor.info() != Eigen::Success)
-    {
-      throw Error(Error::Kind::Singular,
-        "The compact kernels at " + std::to_string(end) +
-          " prescribed places are singular to rounding: merge prescribed nodes that nearly "
-          "coincide.");
-    }
+    level->atOwn = kernelsAt(own, own, radius, monitor);
     level->atLater = kernelsAt(sites.bottomRows(this->sites_ - end), own, radius, monitor);
     level->atTargets = kernelsAt(targets, own, radius, monitor);
     this->levels_.push_back(std::move(level));
@@ -175,7 +175,7 @@ void CompactCorrection::addTo(Points& values, Points residuals, Monitor& monitor
   for (const auto& level : this->levels_)
   {
     monitor.check();
-    const Points coefficients = level->factor.solve(residuals.topRows(level->size));
+    const Points coefficients = solved(level->atOwn, residuals.topRows(level->size), monitor);
     level->atLater.multiply(coefficients, part, monitor);
     residuals.topRows(level->size).setZero();
     residuals.bottomRows(part.rows()) -= part;
@@ -195,20 +195,9 @@ Points CompactCorrection::transposed(const Points& gradient, Monitor& monitor) c
     level.atTargets.multiplyTranspose(gradient, ofCoefficients, monitor);
     level.atLater.multiplyTranspose(result.bottomRows(this->sites_ - level.size), ofLater, monitor);
     ofCoefficients -= ofLater;
-    result.topRows(level.size) = level.factor.solve(ofCoefficients);
+    result.topRows(level.size) = solved(level.atOwn, ofCoefficients, monitor);
   }
   result.topRows(this->exact_).setZero();
   return result;
-}
-
-std::size_t CompactCorrection::memory() const
-{
-  std::size_t bytes = 0;
-  for (const auto& level : this->levels_)
-  {
-    bytes += level->atLater.memory() + level->atTargets.memory() +
-             12 * static_cast<std::size_t>(level->factor.matrixL().nestedExpression().nonZeros());
-  }
-  return bytes;
 }
 }

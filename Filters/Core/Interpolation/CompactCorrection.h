@@ -29,19 +29,17 @@ public:
 
   /// `sites`, #sites x 3, and `distances`, of each: in farthest-point order (FarthestPoints.h). The
   /// first `exact` have no residual. `targets`: #targets x 3. Cost and memory: some 20 neighbors of
-  /// a site and target a level, and a sparse Cholesky factor a level.
+  /// a site and target a level.
   void prepare(const Points& sites, const std::vector<double>& distances, Index exact,
     const Points& targets, Monitor& monitor);
 
   /// Returns the levels; 0 without residuals.
   Index numberOfLevels() const;
   /// Adds the interpolant to `values`, #targets x 3. `residuals`: #sites x 3; of the first `exact`
-  /// it takes 0 for granted.
+  /// it takes 0 for granted. Cost: some 50 products with the kernels at the sites a level.
   void addTo(Points& values, Points residuals, Monitor& monitor) const;
   /// The adjoint of addTo(): returns #sites x 3, of the first `exact` 0. `gradient`: #targets x 3.
   Points transposed(const Points& gradient, Monitor& monitor) const;
-  /// Returns the bytes in use.
-  std::size_t memory() const;
 
 private:
   struct Level;

@@ -228,11 +228,4 @@ void InterpolationSites::scatterTranspose(const Points& sites, Points& prescribe
     prescribed.row(i) += sites.row(s) / static_cast<double>(count);
   }
 }
-
-std::size_t InterpolationSites::memory() const
-{
-  return sizeof(double) * this->coordinates_.size() +
-         sizeof(Index) * (this->prescribed_.offsets.size() + this->prescribed_.values.size() +
-                           this->siteOf_.size());
-}
 }

@@ -42,8 +42,6 @@ public:
   /// The adjoint of average(): adds the transposed mean of `sites` (#sites x 3) to `prescribed`
   /// (#ids x 3).
   void scatterTranspose(const Points& sites, Points& prescribed) const;
-  /// Returns the bytes in use.
-  std::size_t memory() const;
 
 private:
   Points coordinates_;

@@ -71,8 +71,6 @@ public:
   /// rounding.
   bool compute(const Eigen::RowVector3d& x, int inside, Workspace& workspace) const;
 
-  std::size_t memory() const { return sizeof(Cell) * this->cells_.size(); }
-
 private:
   /// A tetrahedron in one cache line. The power distance of x to its sphere is |x|^2 - 2 centre.x +
   /// constant.

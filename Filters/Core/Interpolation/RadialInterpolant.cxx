@@ -133,9 +133,4 @@ RadialInterpolant::Coefficients RadialInterpolant::evaluateTranspose(
   result.ofPolynomial.bottomRows<3>() = targets.transpose() * gradient;
   return result;
 }
-
-std::size_t RadialInterpolant::memory() const
-{
-  return sizeof(double) * (this->matrix_.size() + this->reflectors_.size() + this->centres_.size());
-}
 }

@@ -53,9 +53,6 @@ public:
   Coefficients evaluateTranspose(
     const Points& targets, const Points& gradient, Monitor& monitor) const;
 
-  /// Returns the bytes in use.
-  std::size_t memory() const;
-
 private:
   using Reflector = Eigen::Matrix<double, Eigen::Dynamic, 4>;
   Eigen::MatrixXd reflect(const Points& values) const;

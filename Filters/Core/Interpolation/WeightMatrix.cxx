@@ -159,9 +159,4 @@ void WeightMatrix::multiplyTranspose(const Points& free, Points& sites, Monitor&
       }
     });
 }
-
-std::size_t WeightMatrix::memory() const
-{
-  return 12 * static_cast<std::size_t>(this->entries()) + sizeof(Index) * this->offsets_.size();
-}
 }

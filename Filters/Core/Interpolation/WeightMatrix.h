@@ -46,8 +46,6 @@ public:
   /// order, so the result does not depend on threads. Cost: one pass over the entries, and
   /// temporarily 24 bytes a column and block.
   void multiplyTranspose(const Points& free, Points& sites, Monitor& monitor) const;
-  /// Returns the bytes in use.
-  std::size_t memory() const;
 
 private:
   Index columns_ = 0;

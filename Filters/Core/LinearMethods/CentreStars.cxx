@@ -214,13 +214,4 @@ void CentreStars::recoverTranspose(Points& free, Points& prescribed) const
     }
   }
 }
-
-std::size_t CentreStars::memory() const
-{
-  return sizeof(Index) *
-           (this->centres_.size() + this->nodes_.offsets.size() + this->nodes_.values.size()) +
-         sizeof(Index) * (this->ofNode_.offsets.size() + this->ofNode_.values.size()) +
-         sizeof(double) * this->weights_.size() +
-         sizeof(int) * (this->ofCell_.size() + this->rowOfCentre_.size() + this->places_.size());
-}
 }

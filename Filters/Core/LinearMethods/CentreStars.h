@@ -54,8 +54,6 @@ public:
   ///@}
   /// Adds the gradient of the centres to that of their nodes: the adjoint of recover().
   void recoverTranspose(Points& free, Points& prescribed) const;
-  /// Returns the bytes in use.
-  std::size_t memory() const;
 
 private:
   std::vector<Index> centres_;

@@ -171,16 +171,6 @@ void AffineGuess::addTranspose(const Points& points, const NodePartition& partit
   }
 }
 
-std::size_t AffineGuess::memory() const
-{
-  std::size_t bytes = sizeof(int) * this->components_.ofRow.size();
-  for (const std::vector<int>& columns : this->coupled_)
-  {
-    bytes += sizeof(AffineLeastSquares) + (sizeof(int) + 3 * sizeof(double)) * columns.size();
-  }
-  return bytes;
-}
-
 void firstGuess(const Points& points, const std::vector<Index>& rows, const AffineGuess& guess,
   const AffineGuess::Fits& fits, MultiVector& x, Monitor& monitor)
 {

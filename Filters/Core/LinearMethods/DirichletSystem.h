@@ -76,8 +76,6 @@ public:
     const std::vector<Index>& rows, const CsrMatrix& coupling, const Points& gradient,
     const Points& solution, Points& prescribed) const;
   ///@}
-  /// Returns the bytes in use.
-  std::size_t memory() const;
 
 private:
   RowComponents components_;

@@ -147,13 +147,4 @@ EvaluateReport FemWarp::displaceTranspose(
   }
   return { report.iterations, report.relativeResidual, {} };
 }
-
-std::size_t FemWarp::memory() const
-{
-  const NodePartition& partition = this->partition();
-  return this->solver_.memory() + this->guess_.memory() + this->stars_.memory() +
-         12 * static_cast<std::size_t>(this->coupling_.nonZeros()) + 4 * this->coupling_.rows() +
-         24 * this->restPoints().rows() +
-         8 * (partition.free.size() + partition.prescribed.size() + this->rows_.size());
-}
 }

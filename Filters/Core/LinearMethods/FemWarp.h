@@ -52,8 +52,6 @@ public:
   /// Returns A_B, #rows x #prescribed; rows as above, columns in the order of
   /// NodePartition::prescribed.
   const CsrMatrix& coupling() const { return this->coupling_; }
-  /// Returns the bytes that prepare() keeps.
-  std::size_t memory() const;
 
 protected:
   void doPrepare(const Mesh& rest, Monitor& monitor) override;

@@ -135,13 +135,4 @@ EvaluateReport LogBarrierWarp::displaceTranspose(
   prescribed -= this->coupling_.transpose() * solution;
   return this->report(solved, monitor);
 }
-
-std::size_t LogBarrierWarp::memory() const
-{
-  const NodePartition& partition = this->partition();
-  return this->solver_.memory() + this->guess_.memory() +
-         12 * static_cast<std::size_t>(this->coupling_.nonZeros()) + 4 * this->coupling_.rows() +
-         24 * this->restPoints().rows() +
-         8 * (partition.free.size() + partition.prescribed.size() + this->rows_.size());
-}
 }

@@ -61,8 +61,6 @@ public:
   /// Newton steps for the weights: the mean and the maximum over the nodes.
   double meanWeightIterations() const { return this->meanWeightIterations_; }
   int mostWeightIterations() const { return this->mostWeightIterations_; }
-  /// Returns the bytes in use.
-  std::size_t memory() const;
 
 protected:
   void doPrepare(const Mesh& rest, Monitor& monitor) override;

@@ -154,11 +154,4 @@ std::vector<Index> RadialBasis::centreNodes() const
   }
   return nodes;
 }
-
-std::size_t RadialBasis::memory() const
-{
-  return this->sites_.memory() + this->interpolant_.memory() + this->correction_.memory() +
-         sizeof(double) * (this->otherPlaces_.size() + this->freePlaces_.size()) +
-         sizeof(Index) * this->order_.size();
-}
 }

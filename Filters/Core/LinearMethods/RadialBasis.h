@@ -66,8 +66,6 @@ public:
   /// before the correction, in the mesh's unit. Calls from several threads at once leave that of
   /// one.
   double largestResidual() const { return this->largestResidual_; }
-  /// Returns the bytes that prepare() keeps.
-  std::size_t memory() const;
 
 protected:
   /// Throws Error of kind Singular for sites in one plane, or where rounding makes the system

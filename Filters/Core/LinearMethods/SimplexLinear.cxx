@@ -192,12 +192,4 @@ EvaluateReport SimplexLinear::displaceTranspose(
   this->sites_.scatterTranspose(sites, prescribed);
   return {};
 }
-
-std::size_t SimplexLinear::memory() const
-{
-  return this->sites_.memory() + this->weights_.memory() +
-         sizeof(Index) * (this->means_.offsets.size() + this->means_.values.size()) +
-         sizeof(Delaunay::Tetrahedron) * this->delaunay_.tetrahedra().size() +
-         sizeof(int) * this->used_.size();
-}
 }

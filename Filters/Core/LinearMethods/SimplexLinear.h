@@ -18,7 +18,8 @@ namespace morph
 /// Coincident prescribed nodes (1e-12 of the size) count as one that moves by their mean.
 /// Cospherical nodes (on every structured boundary) leave the tessellation undetermined. Their
 /// convex cells are divided from the means of their corners (CosphericalStars.h). So neither
-/// renumbering nor turning the mesh has an effect beyond rounding.
+/// renumbering nor turning the mesh has an effect beyond rounding on nodes in the convex hull.
+/// Outside, rounding decides at which of several outer faces a walk ends.
 ///
 /// Counts: `FoldedTetrahedra`, with free nodes and without positive volume after the motion, which
 /// invert cells. `ExtrapolatedNodes`, outside the prescribed nodes' convex hull by more than
@@ -38,8 +39,6 @@ public:
   const Adjacency& means() const { return this->means_; }
   /// #free x #sites and means, four entries a row.
   const WeightMatrix& weights() const { return this->weights_; }
-  /// Returns the bytes that prepare() keeps.
-  std::size_t memory() const;
 
 protected:
   void doPrepare(const Mesh& rest, Monitor& monitor) override;

@@ -249,16 +249,4 @@ void SimplexNaturalNeighbor::forEachNode(
     use(place, work.sites, work.weights);
   }
 }
-
-std::size_t SimplexNaturalNeighbor::memory() const
-{
-  std::size_t bytes = this->sites_.memory() + this->neighbors_.memory() +
-                      sizeof(Delaunay::Tetrahedron) * this->delaunay_.tetrahedra().size() +
-                      this->order_.size() * (sizeof(Index) + sizeof(int) + 4 * sizeof(double));
-  for (const WeightMatrix& weights : this->stored_)
-  {
-    bytes += weights.memory();
-  }
-  return bytes;
-}
 }

@@ -44,8 +44,6 @@ public:
   void forEachNode(
     const std::function<void(Index, const std::vector<std::int32_t>&, const std::vector<double>&)>&
       use) const;
-  /// Returns the bytes that prepare() keeps.
-  std::size_t memory() const;
 
 protected:
   void doPrepare(const Mesh& rest, Monitor& monitor) override;

@@ -91,11 +91,4 @@ EvaluateReport WeightedResidual::displaceTranspose(
   this->sites_.scatterTranspose(result, prescribed);
   return this->report();
 }
-
-std::size_t WeightedResidual::memory() const
-{
-  // The fit keeps a vector per site.
-  return this->sites_.memory() + this->weights_.memory() +
-         sizeof(double) * (this->freePlaces_.size() + this->sites_.coordinates().size());
-}
 }

@@ -42,8 +42,6 @@ public:
   const InterpolationSites& sites() const { return this->sites_; }
   /// #free x #sites, rows in the order of NodePartition::free.
   const WeightMatrix& weights() const { return this->weights_; }
-  /// Returns the bytes that prepare() keeps.
-  std::size_t memory() const;
 
 protected:
   void doPrepare(const Mesh& rest, Monitor& monitor) override;

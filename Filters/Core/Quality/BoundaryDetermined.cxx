@@ -4,6 +4,7 @@
 #include "Mesh/CellShape.h"
 #include "Mesh/SimplicialDecomposition.h"
 #include "Mesh/Topology.h"
+#include "Quality/InvertedBefore.h"
 #include "Quality/PlaceOfNode.h"
 
 #include <Eigen/Geometry>
@@ -90,6 +91,21 @@ std::vector<Index> boundaryDeterminedInversions(const Mesh& mesh, const NodePart
     }
   }
   return result;
+}
+
+std::vector<Index> inversionsByBoundaryMotion(const Mesh& mesh, const NodePartition& partition,
+  const std::vector<std::int8_t>& orientation, const Points& rest, const Points& points,
+  Monitor& monitor)
+{
+  std::vector<Index> cells = boundaryDeterminedInversions(mesh, partition, orientation, points);
+  if (!cells.empty())
+  {
+    const Quality atRest = measureQuality(mesh, rest, orientation, {}, monitor);
+    cells.erase(std::remove_if(cells.begin(), cells.end(),
+                  [&](Index c) { return atRest.scaledJacobian[c] <= InvertedBefore::Flat; }),
+      cells.end());
+  }
+  return cells;
 }
 
 std::vector<NodeWithoutPlace> nodesWithoutPlace(const Mesh& mesh, const NodePartition& partition,

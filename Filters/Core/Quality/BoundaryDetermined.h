@@ -18,6 +18,12 @@ namespace morph
 std::vector<Index> boundaryDeterminedInversions(const Mesh& mesh, const NodePartition& partition,
   const std::vector<std::int8_t>& orientation, const Points& points);
 
+/// Of these cells, those that are neither inverted nor flat (InvertedBefore::Flat) at `rest`,
+/// #nodes x 3. Cost: a measureQuality() more, where there are any.
+std::vector<Index> inversionsByBoundaryMotion(const Mesh& mesh, const NodePartition& partition,
+  const std::vector<std::int8_t>& orientation, const Points& rest, const Points& points,
+  Monitor& monitor);
+
 /// A free node without a position where all cells around it are valid. Each of these cells alone
 /// leaves it a position.
 struct NodeWithoutPlace

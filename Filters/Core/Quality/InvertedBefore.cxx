@@ -24,16 +24,17 @@ InvertedBefore::InvertedBefore(
       this->cells_.push_back(static_cast<Index>(c));
       this->signs_.push_back(orientation.empty() ? 1 : orientation[c]);
       this->positive_.push_back(
-        this->placesOf(this->cells_.back(), this->signs_.back(), mesh.points));
+        this->placesOf(this->cells_.back(), this->signs_.back(), mesh.points, Flat));
     }
   }
 }
 
-std::vector<bool> InvertedBefore::placesOf(Index cell, double sign, const ConstPoints& points) const
+std::vector<bool> InvertedBefore::placesOf(
+  Index cell, double sign, const ConstPoints& points, double least) const
 {
   std::vector<bool> positive;
   const auto add = [&](const Vector& a, const Vector& b, const Vector& c)
-  { positive.push_back(sign * a.dot(b.cross(c)) > Flat * a.norm() * b.norm() * c.norm()); };
+  { positive.push_back(sign * a.dot(b.cross(c)) > least * a.norm() * b.norm() * c.norm()); };
   const Index* nodes = this->mesh_->cell(cell);
   const CellShape& shape = *cellShape(this->mesh_->types[cell]);
   if (shape.shape == Shape::Polyhedron)
@@ -71,7 +72,7 @@ std::vector<Index> InvertedBefore::added(
     if (const std::vector<bool>* before = this->positivePlaces(cell))
     {
       const std::ptrdiff_t i = before - this->positive_.data();
-      std::vector<bool> now = this->placesOf(cell, this->signs_[i], points);
+      std::vector<bool> now = this->placesOf(cell, this->signs_[i], points, 0);
       now.resize(before->size(), false); // without volume, a polyhedron has fewer places
       if (std::equal(before->begin(), before->end(), now.begin(),
             [](bool was, bool is) { return is || !was; }))

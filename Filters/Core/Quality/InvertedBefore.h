@@ -41,7 +41,9 @@ public:
   std::vector<Index> without(const std::vector<Index>& cells) const;
 
 private:
-  std::vector<bool> placesOf(Index cell, double sign, const ConstPoints& points) const;
+  /// Whether the scaled Jacobian is above `least`.
+  std::vector<bool> placesOf(
+    Index cell, double sign, const ConstPoints& points, double least) const;
 
   const Mesh* mesh_ = nullptr; ///< null without cells
   std::vector<Index> cells_;

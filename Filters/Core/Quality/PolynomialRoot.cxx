@@ -24,6 +24,28 @@ struct Part
   std::array<double, Size> b;
 };
 
+/// A lower bound of the positive roots: up to it each negative term is less than its share of a
+/// positive one of a lower power. Infinity without negative terms.
+double lowerBound(const double* a, int degree)
+{
+  const double negative = std::count_if(a, a + degree + 1, [](double c) { return c < 0; });
+  double bound = std::numeric_limits<double>::infinity();
+  for (int k = 1; k <= degree; ++k)
+  {
+    if (a[k] < 0)
+    {
+      double best = 0;
+      for (int j = 0; j < k; ++j)
+      {
+        const double ratio = std::max(a[j], 0.) / negative / -a[k];
+        best = std::max(best, std::pow(ratio, 1. / (k - j)));
+      }
+      bound = std::min(bound, best);
+    }
+  }
+  return bound;
+}
+
 /// Cuts off the lower half of `part`, which becomes the upper half.
 Part cutLower(Part& part, int degree)
 {
@@ -50,12 +72,22 @@ double firstPositiveRoot(const double* a, int degree)
   {
     return 0; // nothing says that it is positive
   }
+  // t = unit u / (1 - u): near u = 1 digits of t are lost.
+  const double unit = lowerBound(a, degree);
+  if (!(a[0] > 0 && unit > 0 && unit < Infinity))
+  {
+    return a[0] > 0 ? unit : 0;
+  }
   Part stack[MostHalvings + 2];
   int top = 0;
   stack[0] = { 0, 1, {} };
   for (int k = 0; k <= degree; ++k)
   {
     stack[0].b[k] = a[k] / Binomial[degree][k];
+    for (int power = 0; power < k; ++power)
+    {
+      stack[0].b[k] *= unit;
+    }
   }
   while (top >= 0)
   {
@@ -63,7 +95,7 @@ double firstPositiveRoot(const double* a, int degree)
     const double t = part.low < 1 ? part.low / (1 - part.low) : Infinity;
     if (!(part.b[0] > 0) || t == Infinity)
     {
-      return t;
+      return unit * t;
     }
     if (std::all_of(part.b.begin(), part.b.begin() + degree + 1, [](double b) { return b >= 0; }))
     {
@@ -73,7 +105,7 @@ double firstPositiveRoot(const double* a, int degree)
     const double upper = part.high < 1 ? part.high / (1 - part.high) : Infinity;
     if ((upper < Infinity && upper - t <= Precision * upper) || top == MostHalvings)
     {
-      return t;
+      return unit * t;
     }
     stack[top + 1] = cutLower(part, degree);
     ++top;

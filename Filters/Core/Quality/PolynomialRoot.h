@@ -10,8 +10,8 @@ constexpr int MostPolynomialDegree = 6;
 /// it, or infinity where the polynomial is positive throughout. 0 if its value at 0 is not
 /// positive, or a coefficient is not finite. `a`: degree + 1 coefficients, that of power 0 first. A
 /// place where the polynomial only touches zero counts as a root. Isolates the root by subdividing
-/// the Bernstein form on [0, infinity), u = t / (1 + t) (de Casteljau). Cost: some hundred
-/// operations.
+/// the Bernstein form on [0, infinity), u = t / (unit + t) (de Casteljau), the unit being a lower
+/// bound of the roots. Cost: some hundred operations.
 double firstPositiveRoot(const double* a, int degree);
 
 /// Whether the polynomial is certainly positive on [0, `last`]: its Bernstein coefficients there

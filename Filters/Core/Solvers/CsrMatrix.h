@@ -33,11 +33,6 @@ struct CsrRows
   }
 
   int entries() const { return this->rows > 0 ? this->start[this->rows] : 0; }
-  /// Returns the bytes of the arrays.
-  std::size_t memory() const
-  {
-    return (sizeof(int) + sizeof(Number)) * this->entries() + sizeof(int) * this->rows;
-  }
 
   Index rows = 0;
   const int* start = nullptr; ///< #rows + 1

@@ -35,16 +35,8 @@ void GeneralSolver::prepare(LinearEquations&& equations, Monitor& monitor)
 void GeneralSolver::findNorm()
 {
   const CsrMatrix& A = this->matrix();
-  this->norm_ = 0;
-  for (Index i = 0; i < A.rows(); ++i)
-  {
-    double sum = 0;
-    for (CsrMatrix::InnerIterator entry(A, i); entry; ++entry)
-    {
-      sum += std::abs(entry.value());
-    }
-    this->norm_ = std::max(this->norm_, sum);
-  }
+  const Eigen::VectorXd sums = A.cwiseAbs() * Eigen::VectorXd::Ones(A.cols());
+  this->norm_ = sums.size() > 0 ? sums.maxCoeff() : 0;
 }
 
 /// One solution by BiCGSTAB, with s in place of r after its first half:
@@ -185,17 +177,17 @@ SolveReport GeneralSolver::solve(const RightHandSide& b, MultiVector& x, double 
 {
   constexpr double Rounding = 1e-14;
   const Parts& parts = *this->parts_;
-  std::unique_ptr<Workspace> work = parts.takeWorkspace();
+  Workspace work = parts.workspace();
   const auto squares = [&](const auto& vectors)
   {
     return parts.components.sumsOfRows(
       b.rows(), monitor, [&](Index i, int) { return MultiVectorRow(vectors[i].cwiseAbs2()); });
   };
-  const auto residual = [&] { return parts.residual(b, x, work->residual, monitor); };
+  const auto residual = [&] { return parts.residual(b, x, work.residual, monitor); };
   const Sums bNorm2 = squares(b);
-  Sums norm2 = keepBetterGuess(parts.components, b, bNorm2, residual(), x, work->residual, monitor);
+  Sums norm2 = keepBetterGuess(parts.components, b, bNorm2, residual(), x, work.residual, monitor);
   const SolverGoal goal = solverGoal(bNorm2, norm2, tolerance, maxIterations);
-  Iteration iteration = { parts, goal, x, *work, monitor, MultiVector(x.size()),
+  Iteration iteration = { parts, goal, x, work, monitor, MultiVector(x.size()),
     FloatMultiVector(x.size()), {}, {} };
   SolveReport report;
   // The recurrence's residual drifts from b - A x, so each run ends with a check of x and a restart
@@ -215,7 +207,6 @@ SolveReport GeneralSolver::solve(const RightHandSide& b, MultiVector& x, double 
     goal.throwTooManyIterations(norm2, report.iterations);
   }
   goal.report(norm2, report);
-  parts.giveBack(std::move(work));
   return report;
 }
 
@@ -236,12 +227,5 @@ SolveReport GeneralSolver::solveTransposed(
     }
   }
   return this->transposed_->solver->solve(b, x, tolerance, maxIterations, monitor);
-}
-
-std::size_t GeneralSolver::memory() const
-{
-  const std::lock_guard<std::mutex> lock(this->transposed_->mutex);
-  return MultigridSolver::memory() +
-         (this->transposed_->solver ? this->transposed_->solver->memory() : 0);
 }
 }

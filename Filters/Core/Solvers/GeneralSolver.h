@@ -29,8 +29,6 @@ public:
   SolveReport solveTransposed(
     const Points& b, Points& x, double tolerance, int maxIterations, Monitor& monitor) const;
 
-  std::size_t memory() const override;
-
 private:
   struct Iteration;
   struct Transposed;

@@ -341,28 +341,4 @@ void Multigrid::cycle(
     });
   this->smooth(k, rhs, work, x, monitor);
 }
-
-std::size_t Multigrid::memory() const
-{
-  std::size_t bytes = sizeof(float) * this->finestValues_.size();
-  for (const Level& level : this->levels_)
-  {
-    for (const CsrMatrixOf<float>* m : { &level.A, &level.P, &level.R })
-    {
-      bytes += CsrRows<float>(*m).memory();
-    }
-    bytes += sizeof(float) * level.weight.size();
-  }
-  return bytes + sizeof(double) * this->coarsestInverse_.size();
-}
-
-std::size_t Multigrid::workspaceBytes() const
-{
-  std::size_t rows = 0;
-  for (const Level& level : this->levels_)
-  {
-    rows += (&level == &this->levels_.front() ? 1 : 3) * static_cast<std::size_t>(level.rows);
-  }
-  return rows * sizeof(Row);
-}
 }

@@ -70,10 +70,6 @@ public:
   void apply(const Row* rhs, Row* x, Workspace& workspace, Monitor& monitor) const;
 
   int numberOfLevels() const { return static_cast<int>(this->levels_.size()); }
-  /// Returns the bytes of the levels.
-  std::size_t memory() const;
-  /// Returns the bytes of a Workspace.
-  std::size_t workspaceBytes() const;
 
 private:
   struct Level

@@ -61,44 +61,18 @@ void MultigridSolver::product(const Points& from, Points& to, Monitor& monitor) 
 void MultigridSolver::precondition(const Points& from, Points& to, Monitor& monitor) const
 {
   const Index n = from.rows();
-  std::unique_ptr<Workspace> work = this->parts_->takeWorkspace();
+  Workspace work = this->parts_->workspace();
   // Single precision: scales the numbers to the preconditioner's size.
   const double norm2 = dot(from, from, monitor);
   const double unscale =
     norm2 > 0 ? std::sqrt(norm2 / static_cast<double>(n)) / Multigrid::Size : 1;
   parallel(n, monitor,
-    [&](Index i) { work->residual32[i] = (toRow(from.row(i)) / unscale).cast<float>(); });
-  this->parts_->multigrid.apply(
-    work->residual32.data(), work->step.data(), work->multigrid, monitor);
+    [&](Index i) { work.residual32[i] = (toRow(from.row(i)) / unscale).cast<float>(); });
+  this->parts_->multigrid.apply(work.residual32.data(), work.step.data(), work.multigrid, monitor);
   const double factor = unscale / this->parts_->multigrid.unit();
   to.resize(n, 3);
   parallel(
-    n, monitor, [&](Index i) { to.row(i) = factor * work->step[i].head<3>().cast<double>(); });
-  this->parts_->giveBack(std::move(work));
-}
-
-std::size_t MultigridSolver::memory() const
-{
-  const Parts& my = *this->parts_;
-  return CsrRows<double>(my.A).memory() + sizeof(int) * my.components.ofRow.size() +
-         my.multigrid.memory() + my.workspaceBytes();
-}
-
-std::unique_ptr<MultigridSolver::Workspace> MultigridSolver::Parts::takeWorkspace() const
-{
-  return this->spare.take(
-    [this] { return std::make_unique<Workspace>(this->A.rows(), this->multigrid); });
-}
-
-void MultigridSolver::Parts::giveBack(std::unique_ptr<Workspace> workspace) const
-{
-  this->spare.giveBack(std::move(workspace), this->workspaceBytes());
-}
-
-std::size_t MultigridSolver::Parts::workspaceBytes() const
-{
-  return this->A.rows() * (2 * sizeof(MultiVectorRow) + 3 * sizeof(Multigrid::Row)) +
-         this->multigrid.workspaceBytes();
+    n, monitor, [&](Index i) { to.row(i) = factor * work.step[i].head<3>().cast<double>(); });
 }
 
 Sums MultigridSolver::Parts::residual(

@@ -7,7 +7,6 @@
 #include "Solvers/Multigrid.h"
 #include "Solvers/RightHandSide.h"
 #include "Solvers/RowComponents.h"
-#include "Solvers/SpareWorkspace.h"
 
 #include <cstddef>
 #include <memory>
@@ -36,8 +35,6 @@ public:
 
   const CsrMatrix& matrix() const { return this->parts_->A; }
   const RowComponents& components() const { return this->parts_->components; }
-  /// Returns the bytes of matrix, hierarchy and the work vectors of one solve.
-  virtual std::size_t memory() const;
 
 protected:
   explicit MultigridSolver(Multigrid::Symmetry symmetry)
@@ -70,11 +67,8 @@ protected:
     CsrMatrix A;
     RowComponents components;
     Multigrid multigrid;
-    SpareWorkspace<Workspace> spare;
 
-    std::unique_ptr<Workspace> takeWorkspace() const;
-    void giveBack(std::unique_ptr<Workspace> workspace) const;
-    std::size_t workspaceBytes() const;
+    Workspace workspace() const { return { this->A.rows(), this->multigrid }; }
     /// Sets r to b - A x; returns the squared norms.
     Sums residual(
       const RightHandSide& b, const MultiVector& x, MultiVector& r, Monitor& monitor) const;

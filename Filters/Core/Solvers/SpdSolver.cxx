@@ -95,17 +95,16 @@ SolveReport SpdSolver::solve(const RightHandSide& b, MultiVector& x, double tole
   int maxIterations, Monitor& monitor) const
 {
   const Parts& parts = *this->parts_;
-  std::unique_ptr<Workspace> work = parts.takeWorkspace();
-  Iteration iteration = { parts, b, x, *work, monitor };
+  Workspace work = parts.workspace();
+  Iteration iteration = { parts, b, x, work, monitor };
   const Sums bNorm2 = parts.components.sumsOfRows(
     b.rows(), monitor, [&](Index i, int) { return MultiVectorRow(b[i].cwiseAbs2()); });
   Sums norm2 =
-    keepBetterGuess(parts.components, b, bNorm2, iteration.residual(), x, work->residual, monitor);
+    keepBetterGuess(parts.components, b, bNorm2, iteration.residual(), x, work.residual, monitor);
   const SolverGoal goal = solverGoal(bNorm2, norm2, tolerance, maxIterations);
   SolveReport report;
   report.iterations = conjugateGradients(iteration, norm2, goal, monitor);
   goal.report(norm2, report);
-  parts.giveBack(std::move(work));
   return report;
 }
 }

@@ -165,11 +165,13 @@ EvaluateReport InversionFree::displace(
     boundary.row(i) = this->restPoints().row(node) + prescribed.row(i);
     points.row(node) = boundary.row(i) * this->scale_;
   }
-  const std::vector<Index> determined =
+  const std::vector<Index> determined = inversionsByBoundaryMotion(this->referenceMesh_, partition,
+    this->orientation_, this->restPoints() * this->scale_, points, monitor);
+  const std::vector<Index> hopeless =
     boundaryDeterminedInversions(this->referenceMesh_, partition, this->orientation_, points);
 
   EvaluateReport guesses;
-  const MeshImprovement improvement = this->improvement(determined);
+  const MeshImprovement improvement = this->improvement(hopeless);
   const TargetConstruction target =
     this->findStart(boundary, improvement.quality(), points, guesses, monitor);
   const Points guide = points;
@@ -201,19 +203,21 @@ EvaluateReport InversionFree::repair(Points& moved, Monitor& whole) const
   EvaluateReport guesses;
   ProgressRange first(monitor, 0, 0.1);
   Points points = moved * this->scale_;
-  const std::vector<Index> determined =
+  const std::vector<Index> hopeless =
     boundaryDeterminedInversions(this->referenceMesh_, partition, this->orientation_, points);
   const Points guide =
     this->hasFemWarp_ ? this->moved(this->femWarp_, boundary, guesses, first) : points;
   // A mesh that is valid again is enough: the rest of it stays as its method made it.
   const MeshImprovement::Outcome outcome =
-    this->improvement(determined).run(guide, TargetConstruction::Stretched, true, points, monitor);
+    this->improvement(hopeless).run(guide, TargetConstruction::Stretched, true, points, monitor);
   if (this->nearOnly_ && !outcome.untangled)
   {
     MeshImprovement::Outcome failed;
     failed.effort = outcome.effort;
     return reportImprovement(failed, {}, monitor);
   }
+  const std::vector<Index> determined = inversionsByBoundaryMotion(this->referenceMesh_, partition,
+    this->orientation_, this->restPoints() * this->scale_, points, monitor);
 
   Points displacement = Points::Zero(moved.rows(), 3);
   for (Index node : partition.prescribed)

@@ -87,8 +87,8 @@ MotionSmoothing::Outcome MotionSmoothing::run(
   {
     points.row(this->partition_.prescribed[i]) += prescribed.row(i);
   }
-  outcome.determined =
-    boundaryDeterminedInversions(this->rest_, this->partition_, this->orientation_, points);
+  outcome.determined = inversionsByBoundaryMotion(
+    this->rest_, this->partition_, this->orientation_, this->rest_.points, points, monitor);
   const bool isAffine = this->start(prescribed, points, monitor);
   const Points start = points;
   outcome.smoothing = smoothMesh(this->rest_, this->orientation_, this->partition_, this->options_,

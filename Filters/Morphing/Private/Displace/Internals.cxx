@@ -315,6 +315,21 @@ bool vtkBoundaryDisplacement::vtkInternals::Prepare(vtkBoundaryDisplacement* fil
   moves.Choice = this->Choice;
   moves.Rest.FreeNodes = filters::Motion::TakeMissing(input, motion, moves.Choice, monitor);
   moves.Targets = filters::Motion::Targets(input, this->Model, moves.Choice, motion);
+  if (motion.How == filters::Motion::Kind::AlongNormals)
+  {
+    // In a plane of symmetry the facets on its other side count, too.
+    const filters::FitToTarget::Rim rim(this->Model, moves.Choice, rest.Sliding, this->Spread);
+    for (std::size_t i = 0; i < moves.Choice.Moving.size(); ++i)
+    {
+      const morph::Index node = moves.Choice.Moving[i];
+      auto target = moves.Targets.row(static_cast<morph::Index>(i));
+      const Eigen::RowVector3d from = this->Model.Points().row(node), step = target - from;
+      if (rim.Has(node) && step.norm() > 0)
+      {
+        target = from + step.norm() * rim.Along(node, step.normalized());
+      }
+    }
+  }
 
   rest.How = static_cast<filters::Surroundings::Kind>(filter->Surroundings);
   rest.Follow.method = static_cast<morph::SurfaceMorphOptions::Method>(filter->SurfaceMethod);

@@ -84,8 +84,9 @@ std::string Found(
   lines = mesh.ranks().gather(lines);
   keepWorst();
   std::ostringstream text;
-  text << measured.AddedOfAll
-       << " cells are inverted or degenerate. The worst, with their centres:";
+  text << measured.AddedOfAll << " cells are inverted or degenerate"
+       << (measured.AddedOfAll == measured.Bad() ? "" : " by the motion")
+       << ". The worst, with their centres:";
   for (const Line& line : lines)
   {
     text << "\n  cell " << line.id << " at (" << line.centre[0] << ", " << line.centre[1] << ", "

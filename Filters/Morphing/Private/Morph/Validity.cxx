@@ -143,9 +143,10 @@ std::string Validity::Describe(const std::vector<morph::Index>& inverted,
 std::string Validity::Found(const morph::Quality& quality, const morph::Points& points) const
 {
   const std::vector<morph::Index> inverted = this->Inverted(quality, points);
-  return std::to_string(inverted.size()) +
-         " cells are inverted or degenerate. The worst, with their centres:" +
-         this->Describe(inverted, quality, points);
+  const bool countsAll = inverted.size() == morph::invertedCells(quality).size();
+  return std::to_string(inverted.size()) + " cells are inverted or degenerate" +
+         (countsAll ? "" : " by the motion") +
+         ". The worst, with their centres:" + this->Describe(inverted, quality, points);
 }
 
 Validity::Outcome Validity::OfSubSteps(

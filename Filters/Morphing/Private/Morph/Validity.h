@@ -104,7 +104,7 @@ private:
   /// The outcome of a mesh that stays invalid though Mode asks for a valid one. `reason`: why.
   Outcome Remaining(
     const morph::Points& moved, const std::string& reason, morph::Monitor& monitor) const;
-  /// "N cells are inverted or degenerate ...", and the worst of them.
+  /// "N cells are inverted or degenerate ...", by the motion where others are, too, and the worst.
   std::string Found(const morph::Quality& quality, const morph::Points& points) const;
 };
 }
