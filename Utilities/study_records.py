@@ -25,8 +25,7 @@ class Step(NamedTuple):
     degenerate ones included; boundary: of these, the cells that the boundary inverts by itself, at
     a corner whose four nodes are all prescribed; folded: of the others, the cells with a folded
     boundary face. The remaining cells are the method's own. prepare, evaluate: seconds, with so
-    many threads. cells: ids of the first of the method's own. kept: 1 where the inversion-free
-    morph took Newton steps and returned a linear method's mesh, 0 otherwise, -1 if not recorded.
+    many threads. cells: ids of the first of the method's own.
     commit: of the sources, empty if not recorded."""
 
     step: int
@@ -40,7 +39,6 @@ class Step(NamedTuple):
     evaluate: float
     threads: int
     cells: str
-    kept: int = -1
     commit: str = ""
 
     @property
@@ -55,7 +53,7 @@ class Step(NamedTuple):
 
 
 #: Fields of a Step that earlier versions did not write, and what stands for them.
-LATER = Step._fields[-2:]
+LATER = Step._fields[-1:]
 
 
 class RowFile:

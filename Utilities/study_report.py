@@ -124,24 +124,15 @@ def _linear_table(records, steps):
         rows.append([f"{series.model} {series.kind} {series.stepping}, {series.surfaces}",
                      _minimum(own[steps]), _survived(own),
                      f"{best} {_minimum(linear[best][steps])}",
-                     f"{lasting} {_survived(linear[lasting])}", _kept(own[1:steps + 1])])
+                     f"{lasting} {_survived(linear[lasting])}"])
     if not rows:
         return []
     return (["## The inversion-free morph beside the linear methods", "",
              "Of the linear methods first that with the fewest inverted cells of its own at S_F, "
-             "and among those the highest minimum scaled Jacobian; then that with the largest t*. "
-             "KeptLinear: of the steps to S_F, those that took Newton steps and returned a linear "
-             "method's mesh.", ""]
+             "and among those the highest minimum scaled Jacobian; then that with the largest t*.", ""]
             + _table(["series, surfaces", "inversion-free at S_F", "t*",
-                      "best linear method at S_F", "longest-lived linear method, t*",
-                      "KeptLinear"],
+                      "best linear method at S_F", "longest-lived linear method, t*"],
                      sorted(rows)))
-
-
-def _kept(steps):
-    """How many of the steps kept a linear method's mesh, as a text."""
-    return ("not recorded" if any(step.kept < 0 for step in steps)
-            else f"{sum(step.kept for step in steps)} of {len(steps)}")
 
 
 def _draw_quality(path, records, model, surfaces, steps):

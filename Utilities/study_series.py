@@ -93,7 +93,6 @@ class SeriesRun:
                     value("MeanScaledJacobian"), len(inverted), boundary,
                     len(inverted) - len(own) - boundary, value("PrepareSeconds"),
                     value("EvaluateSeconds"), self._threads, " ".join(map(str, own[:NAMED_CELLS])),
-                    int(field.GetArray("KeptLinear") is not None and value("KeptLinear") > 0),
                     self._commit)
 
     def mesh(self):

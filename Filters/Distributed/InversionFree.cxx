@@ -14,29 +14,17 @@
 
 namespace morph::distributed
 {
-using Start = morph::InversionFree::Start;
-
-InversionFree::InversionFree(const morph::InversionFree& serial, std::unique_ptr<Method> guess)
-  : guess_(std::move(guess))
-{
-  this->takeEvaluateOptions(serial);
-}
-
 void InversionFree::takeEvaluateOptions(const Morpher& serial)
 {
   const auto& own = static_cast<const morph::InversionFree&>(serial);
   this->femWarp_.setTolerance(own.tolerance());
-  this->start_ = own.start();
-  this->options_.target = own.target();
-  this->options_.minimizer = own.minimizer();
-  this->options_.raising = own.raises();
-  this->options_.startsFromBest = own.start() == Start::FemWarp;
+  this->options_.steps = own.steps();
 }
 
-MeshImprovement InversionFree::improvement() const
+MeshImprovement InversionFree::improvement(const std::vector<Index>& hopeless) const
 {
   return { this->own_->mesh(), this->own_->orientation(), this->own_->partition(), this->boundary_,
-    this->geometry_, this->options_, this->own_->communicator() };
+    this->geometry_, hopeless, this->options_, this->own_->communicator() };
 }
 
 void InversionFree::doPrepare(Monitor& monitor)
@@ -46,8 +34,7 @@ void InversionFree::doPrepare(Monitor& monitor)
   const Points& reference = this->reference_.rows() > 0 ? this->reference_ : rest;
   mesh.ranks().together([&] { this->own_ = std::make_unique<OwnCells>(mesh, this->partition()); });
   OwnCells& own = *this->own_;
-  ProgressRange first(monitor, 0, 0.2), second(monitor, 0.2, 0.6), third(monitor, 0.6, 0.8),
-    last(monitor, 0.8, 1);
+  ProgressRange first(monitor, 0, 0.2), second(monitor, 0.2, 0.7), third(monitor, 0.7, 1);
   own.communicator().run(
     [&]
     {
@@ -86,38 +73,43 @@ void InversionFree::doPrepare(Monitor& monitor)
     }
     this->simplexLinear_.reset();
   }
-  if (this->guess_)
-  {
-    this->guess_->prepare(mesh, this->partition(), last);
-  }
 }
 
-Points InversionFree::betterGuess(
-  const Points& target, EvaluateReport& report, Monitor& monitor) const
+void InversionFree::findStart(const Points& target, const std::vector<Index>& hopeless,
+  Points& points, EvaluateReport& report, Monitor& monitor) const
 {
-  Points warped;
-  report.iterations += this->femWarp_.evaluate(target, warped, monitor).iterations;
-  // A user who asks for a certain target wants its minimum.
-  if (this->simplexLinear_ && this->options_.target == TargetConstruction::Stretched)
+  const Points atRest = points;
+  Points simplex;
+  report.iterations += this->femWarp_.evaluate(target, points, monitor).iterations;
+  if (this->simplexLinear_)
   {
-    Points simplex;
     this->simplexLinear_->evaluate(target, simplex, monitor);
-    bool isBetter = false;
-    this->own_->communicator().run(
-      [&]
-      {
-        const MovableQuality quality = this->improvement().quality();
-        const auto at = [&](const Points& points)
-        { return quality.measure(this->own_->take(points) * this->scale_, monitor); };
-        const MovableQuality::Result ofWarped = at(warped);
-        isBetter = ofWarped < at(simplex);
-      });
-    if (isBetter)
-    {
-      return simplex;
-    }
   }
-  return warped;
+  this->own_->communicator().run(
+    [&]
+    {
+      const MovableQuality quality = this->improvement(hopeless).quality();
+      const auto at = [&](const Points& start)
+      { return quality.measure(this->own_->take(start) * this->scale_, monitor); };
+      MovableQuality::Result best = at(points);
+      const auto keepBetter = [&](const Points& start)
+      {
+        MovableQuality::Result result = at(start);
+        if (best < result)
+        {
+          best = std::move(result);
+          points = start;
+        }
+      };
+      if (this->simplexLinear_)
+      {
+        keepBetter(simplex);
+      }
+      if (best.inverted > 0)
+      {
+        keepBetter(atRest);
+      }
+    });
 }
 
 EvaluateReport InversionFree::displace(
@@ -129,9 +121,7 @@ EvaluateReport InversionFree::displace(
   const OwnCells& own = *this->own_;
   Monitor quiet;
   Monitor& speaking = ranks.rank() == 0 ? monitor : quiet;
-  // Ideal skew differs from the undeformed cells': it changes the mesh without any motion.
-  if (this->options_.target != TargetConstruction::IdealSkew &&
-      ranks.sum(Index((prescribed.array() != 0).any())) == 0)
+  if (ranks.sum(Index((prescribed.array() != 0).any())) == 0)
   {
     free.setZero();
     MeshImprovement::Outcome nothing;
@@ -141,29 +131,28 @@ EvaluateReport InversionFree::displace(
   const Points target = rest(this->partition().prescribed, allColumns) + prescribed;
   ProgressRange first(monitor, 0, 0.1), second(monitor, 0.1, 1);
   EvaluateReport guesses;
-  const Points best = this->betterGuess(target, guesses, first);
-  Points points = best;
-  if (this->start_ == Start::Method && this->guess_)
-  {
-    guesses.iterations += this->guess_->evaluate(target, points, first).iterations;
-  }
-  else if (this->start_ == Start::Rest)
-  {
-    points = rest;
-    points(this->partition().prescribed, allColumns) = target;
-    mesh.halo().update(ranks, points);
-  }
-  MeshImprovement::Outcome outcome;
-  std::vector<Index> determined;
+  Points points = rest;
+  points(this->partition().prescribed, allColumns) = target;
+  mesh.halo().update(ranks, points);
+  std::vector<Index> determined, hopeless;
   own.communicator().run(
     [&]
     {
-      const Points alternative = own.take(best) * this->scale_;
-      Points improved = own.take(points) * this->scale_;
+      const Points moved = own.take(points) * this->scale_;
       determined = inversionsByBoundaryMotion(own.mesh(), own.partition(), own.orientation(),
-        own.take(rest) * this->scale_, improved, second);
-      outcome = this->improvement().run(
-        improved, { alternative, this->options_.target }, alternative, EnoughOfMinimum, second);
+        own.take(rest) * this->scale_, moved, second);
+      hopeless =
+        boundaryDeterminedInversions(own.mesh(), own.partition(), own.orientation(), moved);
+    });
+  this->findStart(target, hopeless, points, guesses, first);
+  MeshImprovement::Outcome outcome;
+  own.communicator().run(
+    [&]
+    {
+      Points improved = own.take(points) * this->scale_;
+      const Points guide = improved;
+      outcome = this->improvement(hopeless)
+                  .run(guide, TargetConstruction::Stretched, false, improved, second);
       points(own.nodes(), allColumns) = improved / this->scale_;
     });
   free = points(this->ownFree(), allColumns) - rest(this->ownFree(), allColumns);

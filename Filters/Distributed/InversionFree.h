@@ -10,11 +10,12 @@
 #include "Untangling/MeshImprovement.h"
 
 #include <memory>
+#include <vector>
 
 namespace morph::distributed
 {
 /// The inversion-free morph on ranks. It starts from the better of FEMWARP's and the simplex-linear
-/// mesh, or from another first guess. Then it takes the stages of the serial method
+/// mesh. Then it takes the stages of the serial method
 /// (MeshImprovement.h) on the cells that each rank owns. So energies, the line search and the
 /// minimum are those of the whole mesh. It needs a valid undeformed mesh. A folded boundary is
 /// recognised by the outer faces of each rank alone.
@@ -23,10 +24,10 @@ namespace morph::distributed
 class InversionFree : public Method
 {
 public:
-  /// Takes the options of the serial method. `guess`: the method of its first guess, or null.
-  InversionFree(const morph::InversionFree& serial, std::unique_ptr<Method> guess);
+  /// Takes the options of the serial method.
+  explicit InversionFree(const morph::InversionFree& serial) { this->takeEvaluateOptions(serial); }
 
-  int layers() const override { return this->guess_ ? this->guess_->layers() : 1; }
+  int layers() const override { return 1; }
   void takeEvaluateOptions(const Morpher& serial) override;
   void setReference(Points reference) override { this->reference_ = std::move(reference); }
 
@@ -37,16 +38,15 @@ protected:
     const Points& free, Points& prescribed, Monitor& monitor) const override;
 
 private:
-  MeshImprovement improvement() const;
-  /// The better of FEMWARP's mesh and the simplex-linear one, of all local nodes.
-  Points betterGuess(const Points& target, EvaluateReport& report, Monitor& monitor) const;
+  MeshImprovement improvement(const std::vector<Index>& hopeless) const;
+  /// Replaces `points`, the undeformed mesh with its boundary moved, by the best of the starts.
+  void findStart(const Points& target, const std::vector<Index>& hopeless, Points& points,
+    EvaluateReport& report, Monitor& monitor) const;
 
   ImprovementOptions options_;
-  morph::InversionFree::Start start_ = morph::InversionFree::Start::FemWarp;
   Points reference_;
   FemWarp femWarp_;
   std::unique_ptr<SiteMethod> simplexLinear_; ///< null where it cannot be prepared
-  std::unique_ptr<Method> guess_;
   std::unique_ptr<OwnCells> own_;
   double scale_ = 1;       ///< a power of two that makes edges about 1 long
   BoundaryFaces boundary_; ///< of own_: the outer faces of the whole mesh

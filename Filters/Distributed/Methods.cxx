@@ -39,11 +39,9 @@ std::unique_ptr<Method> makeMethod(std::unique_ptr<Morpher> serial)
   {
     return std::make_unique<SiteMethod>(std::move(serial));
   }
-  if (auto* inversionFree = dynamic_cast<morph::InversionFree*>(serial.get()))
+  if (const auto* inversionFree = dynamic_cast<const morph::InversionFree*>(serial.get()))
   {
-    std::unique_ptr<Morpher> guess = inversionFree->releaseMethod();
-    return std::make_unique<InversionFree>(
-      *inversionFree, guess ? makeMethod(std::move(guess)) : nullptr);
+    return std::make_unique<InversionFree>(*inversionFree);
   }
   if (const auto* smoothing = dynamic_cast<const morph::Smoothing*>(serial.get()))
   {

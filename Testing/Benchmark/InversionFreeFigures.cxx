@@ -15,7 +15,6 @@ namespace
 {
 constexpr int AxisZ = 2;
 constexpr double ExactMinimum = 0.80; // of the exact map 0.804
-using Minimizer = morph::FoldoverContinuation::Minimizer;
 
 struct Outcome
 {
@@ -29,30 +28,22 @@ class Run : public FigureRun
 public:
   using FigureRun::FigureRun;
 
-  /// `target`: how many times faster Newton's method should be.
-  void againstBfgs(const Problem& problem, Target target);
+  void whole(const Problem& problem);
   void againstCholmod(const Problem& problem);
   /// Repairs FEMWARP's mesh with some inner nodes put out of place, `spacing` cells apart.
   void repair(const Problem& problem, int side, int spacing);
 
 private:
   /// Appends to `outcome.seconds`.
-  void morphOnce(
-    const Problem& problem, Minimizer minimizer, bool energyAlone, Outcome& outcome) const;
+  void morphOnce(const Problem& problem, Outcome& outcome) const;
   void addCounts(const Problem& problem, const std::string& name, const Outcome& outcome);
 };
 
-/// `energyAlone`: without what follows the first minimum: new targets, and the worst cells.
-void Run::morphOnce(
-  const Problem& problem, Minimizer minimizer, bool energyAlone, Outcome& outcome) const
+void Run::morphOnce(const Problem& problem, Outcome& outcome) const
 {
   this->settleDown();
   const auto monitor = makeMonitor(this->cores_);
   morph::InversionFree method;
-  method.setStart(morph::InversionFree::Start::Rest);
-  method.setMinimizer(minimizer);
-  method.setRaising(!energyAlone);
-  method.setRefreshes(energyAlone ? 0 : 2);
   method.prepare(problem.mesh, problem.partition, *monitor);
   morph::Points moved;
   const Stopwatch watch;
@@ -71,33 +62,25 @@ void Run::addCounts(const Problem& problem, const std::string& name, const Outco
   this->add(problem, name + ": evaluate" + withThreads(this->cores_), median(outcome.seconds), "s");
 }
 
-void Run::againstBfgs(const Problem& problem, Target target)
+void Run::whole(const Problem& problem)
 {
-  Outcome newton, bfgs, whole;
+  Outcome outcome;
   for (int i = 0; i < this->options_.repeat; ++i)
   {
     say(problem.name + ", repetition " + std::to_string(i + 1));
-    this->morphOnce(problem, Minimizer::Newton, true, newton);
-    this->morphOnce(problem, Minimizer::LimitedMemoryBfgs, true, bfgs);
-    this->morphOnce(problem, Minimizer::Newton, false, whole);
+    this->morphOnce(problem, outcome);
   }
-  this->check(problem, "inverted cells", static_cast<double>(whole.quality.inverted), 0);
-  this->check(problem, "difference of the minimisers' mean scaled Jacobians",
-    std::abs(newton.quality.mean - bfgs.quality.mean), 1e-3);
+  this->check(problem, "inverted cells", static_cast<double>(outcome.quality.inverted), 0);
   this->add(
-    problem, "minimum scaled Jacobian", whole.quality.minimum, "", Target::atLeast(ExactMinimum));
-  this->add(problem, "L-BFGS / Newton, to the first minimum",
-    median(bfgs.seconds) / median(newton.seconds), "", target);
-  this->addCounts(problem, "Newton, to the first minimum", newton);
-  this->addCounts(problem, "L-BFGS, to the first minimum", bfgs);
-  this->addCounts(problem, "whole", whole);
+    problem, "minimum scaled Jacobian", outcome.quality.minimum, "", Target::atLeast(ExactMinimum));
+  this->addCounts(problem, "whole", outcome);
 }
 
 void Run::againstCholmod(const Problem& problem)
 {
   say(problem.name + ", once");
   Outcome whole;
-  this->morphOnce(problem, Minimizer::Newton, false, whole);
+  this->morphOnce(problem, whole);
   this->check(problem, "inverted cells", static_cast<double>(whole.quality.inverted), 0);
   this->addCounts(problem, "whole", whole);
 
@@ -165,9 +148,8 @@ Report measureInversionFreeFigures(const Options& options, bool& correct)
   Run run(options);
   const int small = options.quick ? 8 : 20, middle = options.quick ? 10 : 40;
   const int large = options.quick ? 12 : 50;
-  run.againstBfgs(twistedBrick(small, small, small, AxisZ), Target::atLeast(4));
-  // L-BFGS needs more steps the finer the mesh; Newton's method does not.
-  run.againstBfgs(twistedBrick(middle, middle, middle, AxisZ), Target::none());
+  run.whole(twistedBrick(small, small, small, AxisZ));
+  run.whole(twistedBrick(middle, middle, middle, AxisZ));
   const Problem largest = twistedBrick(large, large, large, AxisZ);
   run.againstCholmod(largest);
   run.repair(largest, large, 2);

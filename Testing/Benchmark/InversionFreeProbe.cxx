@@ -35,7 +35,7 @@ constexpr double Nanosecond = 1e-9;
 constexpr double MebiByte = 1024; // in kibibytes
 
 constexpr const char* Usage =
-  "Usage: inversion-free-probe PROBLEM femwarp|inversion-free|inversion-free-from-rest THREADS\n"
+  "Usage: inversion-free-probe PROBLEM femwarp|inversion-free THREADS\n"
   "Times prepare and evaluate on a problem that Utilities/benchmark_inversion_free.py writes, and\n"
   "prints one line of name=value pairs: seconds, processor seconds, minimum scaled Jacobian,\n"
   "inverted cells, counts of the method, and memory in MiB before and at most.\n";
@@ -205,11 +205,7 @@ int main(int argc, char** argv)
       return 0;
     }
     morph::InversionFree method;
-    if (name == "inversion-free-from-rest")
-    {
-      method.setStart(morph::InversionFree::Start::Rest);
-    }
-    else if (name != "inversion-free")
+    if (name != "inversion-free")
     {
       std::fputs(Usage, stderr);
       return 2;

@@ -50,7 +50,7 @@ std::vector<Method> methods()
     []
     {
       auto method = std::make_unique<InversionFree>();
-      method->setTarget(TargetConstruction::Initial);
+      method->setSteps(RaisingSteps::None);
       method->setTolerance(1e-12);
       return method;
     },

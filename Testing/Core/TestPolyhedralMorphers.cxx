@@ -56,7 +56,7 @@ std::vector<std::pair<std::string, Make>> allMethods()
     []() -> std::unique_ptr<Morpher>
     {
       auto method = std::make_unique<InversionFree>();
-      method->setTarget(TargetConstruction::Initial);
+      method->setSteps(RaisingSteps::None);
       method->setTolerance(1e-13);
       return method;
     });

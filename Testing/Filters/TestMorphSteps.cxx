@@ -404,28 +404,6 @@ TEST_F(RelativeSteps, ATimeAtWhichTheBoundaryFailsEndsTheExecution)
   EXPECT_EQ(listener.Errors.size(), 1u);
 }
 
-TEST(RelativeStepsOfInversionFree, AimForTheMeshAtRest)
-{
-  // There and back: a target of undeformed shapes, and not of those of the step before, comes
-  // back to them.
-  auto grid = grids::hexes(3);
-  auto rest = grids::boundary(grid, [](const grids::Row& x) { return x; });
-  vtkNew<MovingBoundary> boundary;
-  boundary->From = rest;
-  boundary->To = grids::boundary(grid, grids::twist);
-  boundary->Steps = { -0.4, -0.2, 0 };
-  vtkNew<vtkInversionFreeMorph> filter;
-  filter->SetInputData(grid);
-  filter->SetBoundaryConnection(boundary->GetOutputPort());
-  filter->SetTargetShapeToInitial();
-  filter->SetSteppingToRelative();
-  filter->UpdateTimeStep(0);
-  const morph::Points expected = grids::points(grid);
-  EXPECT_LT((grids::points(filter->GetOutput()) - expected).cwiseAbs().maxCoeff(),
-    1e-3 * meshes::size(expected));
-  EXPECT_EQ(filter->GetInvertedCells(), 0);
-}
-
 TEST(MorphStepsOfARange, AreEqualPartsOfIt)
 {
   auto grid = grids::hexes(3);

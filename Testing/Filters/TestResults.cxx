@@ -146,8 +146,7 @@ Getters countsOf(vtkInversionFreeMorph* f)
     { "BoundaryDeterminedCells", [f] { return f->GetBoundaryDeterminedCells(); } },
     { "FoldedBoundaryCells", [f] { return f->GetFoldedBoundaryCells(); } },
     { "LinearIterations", [f] { return f->GetLinearIterations(); } },
-    { "EnergyEvaluations", [f] { return f->GetEnergyEvaluations(); } },
-    { "KeptLinear", [f] { return f->GetKeptLinear(); } } };
+    { "EnergyEvaluations", [f] { return f->GetEnergyEvaluations(); } } };
 }
 
 Getters countsOf(vtkLBWarpMorph* f)

@@ -264,12 +264,9 @@ def option_rows():
     }.items():
         yield f"FEMWARP.{name}/canister_hex", "search", morph("FEMWARP", "canister_hex", **options)
         yield f"FEMWARP.{name}/canister_tet", "search", morph("FEMWARP", "canister_tet", **options)
-    for name, options in {
-        "from_rest": {"InitialGuess": "Rest"}, "ideal": {"TargetShape": "Ideal"},
-        "stretched": {"TargetShape": "Stretched"}, "mean": {"ImproveWorst": 0},
-    }.items():
-        yield (f"InversionFree.{name}/pipe_hex", "search",
-               morph("InversionFree", "pipe_hex", **options))
+    for effort in ("Quick", "Thorough"):
+        yield (f"InversionFree.{effort.lower()}/pipe_hex", "search",
+               morph("InversionFree", "pipe_hex", Effort=effort))
     for name, options in {
         "condition": {"Objective": "Condition number"}, "ratio": {"Objective": "Mean ratio"},
         "initial": {"TargetShape": "Initial"},

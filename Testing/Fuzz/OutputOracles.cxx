@@ -244,16 +244,8 @@ Finding checkPrescribed(const Case& made, vtkMorphAlgorithm* filter, vtkUnstruct
 bool keepsAffineMaps(const Case& made, vtkMorphAlgorithm* filter)
 {
   const Choices& choices = made.choices;
-  // Quadratic cells that are valid at their corners may be inverted between them.
-  const bool isValidBefore =
-    filter->GetInvertedBefore() == 0 &&
-    (choices.value("mesh.order") == 0 || filter->GetValidity() != vtkMorphAlgorithm::VALIDITY_NONE);
-  const bool isOne =
-    made.filter.isLinear ||
-    (vtkInversionFreeMorph::SafeDownCast(filter) && isValidBefore &&
-      choices.value("property.TargetShape") == 0 && made.boundary.matrix.determinant() > 0.2);
   const double tolerance = choices.value("property.Tolerance");
-  return isOne && tolerance <= 1e-9 && !filter->GetPostSmooth() &&
+  return made.filter.isLinear && tolerance <= 1e-9 && !filter->GetPostSmooth() &&
          (filter->GetValidity() < vtkMorphAlgorithm::VALIDITY_SUB_STEP ||
            filter->GetValidity() == vtkMorphAlgorithm::VALIDITY_REFUSE) &&
          made.choices.value("hostile.mesh") == 0 && made.choices.value("hostile.boundary") == 0;

@@ -114,10 +114,7 @@ Table ofLBWarp()
 Table ofInversionFree()
 {
   using F = vtkInversionFreeMorph;
-  return { whole<F>("InitialGuess", &F::SetInitialGuess, 0, 0, 5),
-    whole<F>("TargetShape", &F::SetTargetShape, 1, 0, 2),
-    flag<F>("ImproveWorst", &F::SetImproveWorst, true),
-    flag<F>("LowMemory", &F::SetLowMemory, false) };
+  return { whole<F>("Effort", &F::SetEffort, F::EFFORT_DEFAULT, 0, 2) };
 }
 
 Table ofSmoothing()

@@ -63,18 +63,4 @@ void gatherFromBatches(const CellBatches& batches, Points& parts, Points& result
     { dispatchedFor<Body>(first, last, batches, arguments..., parts); });
   gatherSum(batches.uses(), parts, result, monitor);
 }
-
-/// sumOverBatches() and gatherFromBatches() in one pass: Body::run(batch, batches, arguments...,
-/// parts, sum).
-template <typename Body, typename Sum, typename... Arguments>
-Sum sumAndGather(const CellBatches& batches, Points& parts, Points& result, Monitor& monitor,
-  const Arguments&... arguments)
-{
-  parts.resize(batches.places(), 3);
-  const Sum sum = detail::sumOfBlocks<Sum>(batches, monitor,
-    [&](Index first, Index last, Sum& own)
-    { dispatchedFor<Body>(first, last, batches, arguments..., parts, own); });
-  gatherSum(batches.uses(), parts, result, monitor);
-  return sum;
-}
 }

@@ -108,7 +108,8 @@ Objective::Value MeshEnergy::value(const Points& points, Monitor& monitor) const
 {
   const EnergyState state = this->evaluate(points, monitor);
   const bool isFinite = !this->isCondition_ && this->density_.epsilon > Barrier;
-  return { state.energy, isFinite || state.minimumDeterminant > 0 };
+  const bool isValid = state.minimumDeterminant > 0;
+  return { state.energy, isFinite || isValid, isFinite && isValid };
 }
 
 void MeshEnergy::gradient(const Points& points, Points& result, Monitor& monitor) const

@@ -32,7 +32,7 @@ public:
     this->density_.theta = targets.theta;
   }
   /// Sets the regularisation; theta is that of the targets. With a regularisation below 1e-9 no
-  /// step may end with an inverted tetrahedron.
+  /// step may end with an inverted tetrahedron. With a larger one a mesh without any is enough.
   void setDensity(const FoldoverDensity& density)
   {
     this->density_.epsilon = density.epsilon;
@@ -52,8 +52,6 @@ public:
   void hessian(const Points& points, BlockCsr3f& result, Monitor& monitor) const override;
 
 private:
-  void openMatrix(BlockCsr3f& matrix, Monitor& monitor) const;
-
   PatternId pattern_; ///< of the second derivatives
   std::vector<Index> free_;
   CellBatches batches_;

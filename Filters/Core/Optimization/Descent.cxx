@@ -24,18 +24,22 @@ bool LineSearch::run(const Points& direction, double slope, Points& points, Obje
   {
     this->trial_ = points;
   }
-  this->length_ = 1;
-  for (int halving = 0; halving < MostHalvings; ++halving, this->length_ /= 2)
+  const auto goTo = [&](const Points& from, double length, Points& to)
   {
-    monitor.check();
     monitor.parallelFor(direction.rows(), Grain,
       [&](Index first, Index last)
       {
         for (Index i = first; i < last; ++i)
         {
-          this->trial_.row(free[i]) = points.row(free[i]) + this->length_ * direction.row(i);
+          to.row(free[i]) = from.row(free[i]) + length * direction.row(i);
         }
       });
+  };
+  this->length_ = 1;
+  for (int halving = 0; halving < MostHalvings; ++halving, this->length_ /= 2)
+  {
+    monitor.check();
+    goTo(points, this->length_, this->trial_);
     ++effort.evaluations;
     this->hasGradient_ = this->keepsGradient_ && halving == 0;
     const Objective::Value next =
@@ -46,6 +50,20 @@ bool LineSearch::run(const Points& direction, double slope, Points& points, Obje
     {
       points.swap(this->trial_);
       value = next;
+      for (int doubling = 0; halving == 0 && doubling < this->doublings_; ++doubling)
+      {
+        this->farther_ = points;
+        goTo(this->trial_, 2 * this->length_, this->farther_);
+        ++effort.evaluations;
+        const Objective::Value far = this->objective_.value(this->farther_, monitor);
+        if (!(far.allowed && far.energy < value.energy))
+        {
+          break;
+        }
+        this->length_ *= 2;
+        points.swap(this->farther_);
+        value = far;
+      }
       return true;
     }
   }

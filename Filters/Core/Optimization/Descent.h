@@ -5,14 +5,16 @@
 
 namespace morph
 {
-/// A backtracking line search (Armijo), a full step first.
+/// A backtracking line search (Armijo), a full step first; a full step may double.
 class LineSearch
 {
 public:
   /// `keepsGradient`: the gradient is wanted after each step, and costs little beside a value.
-  LineSearch(const Objective& objective, bool keepsGradient)
+  /// `doublings`: of a full step, as long as each lowers the value.
+  LineSearch(const Objective& objective, bool keepsGradient, int doublings = 0)
     : objective_(objective)
     , keepsGradient_(keepsGradient)
+    , doublings_(doublings)
   {
   }
 
@@ -28,9 +30,10 @@ public:
 private:
   const Objective& objective_;
   bool keepsGradient_;
+  int doublings_;
   bool hasGradient_ = false;
   double length_ = 1;
-  Points trial_, gradient_; ///< memory that is kept between calls
+  Points trial_, farther_, gradient_; ///< memory that is kept between calls
 };
 
 /// Stopping criteria, by energies and gradient norms.

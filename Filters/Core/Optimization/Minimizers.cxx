@@ -55,7 +55,7 @@ Objective::Value newton(const SecondOrderObjective& objective, Points& points,
   ++effort.evaluations;
   Objective::Value value = objective.value(points, monitor);
   DescentProgress progress(limits);
-  LineSearch search(objective, false);
+  LineSearch search(objective, false, limits.doublings);
   Points gradient, direction;
   ForcingTerm forcing;
   for (int step = 0; step < limits.steps; ++step)

@@ -25,6 +25,8 @@ struct MinimizerLimits
   /// How many steps in a row have to say so in limitedMemoryBfgs(), which knows the curvature along
   /// a few directions alone at first.
   int settledSteps = 1;
+  /// How often newton() may double a full step, as long as that lowers the energy.
+  int doublings = 0;
   /// for Newton's linear systems, beside their diagonal blocks; null: none
   const NodePreconditioner* preconditioner = nullptr;
 };

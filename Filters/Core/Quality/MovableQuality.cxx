@@ -17,7 +17,8 @@ bool MovableQuality::Result::operator<(const Result& other) const
 }
 
 MovableQuality::MovableQuality(const Mesh& mesh, const std::vector<std::int8_t>& orientation,
-  const std::vector<Index>& free, const Communicator& communicator)
+  const std::vector<Index>& free, const Communicator& communicator,
+  const std::vector<Index>& hopeless)
   : mesh_(mesh)
   , orientation_(orientation)
   , free_(free)
@@ -29,10 +30,14 @@ MovableQuality::MovableQuality(const Mesh& mesh, const std::vector<std::int8_t>&
   {
     isFree[node] = 1;
   }
+  for (Index c : hopeless)
+  {
+    this->skip_[c] = 1;
+  }
   for (Index c = 0; c < mesh.numberOfCells(); ++c)
   {
     const CellShape& shape = *cellShape(mesh, c);
-    if (shape.dimension != 3 || shape.numberOfCorners == 0)
+    if (this->skip_[c] != 0 || shape.dimension != 3 || shape.numberOfCorners == 0)
     {
       this->skip_[c] = 1;
       continue;

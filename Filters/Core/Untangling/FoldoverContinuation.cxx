@@ -4,19 +4,14 @@
 #include <algorithm>
 
 #include <cmath>
-#include <limits>
 
 namespace morph
 {
 namespace
 {
 constexpr double Valid = 1e-10; // the regularisation of a valid mesh: only for rounding
-constexpr int MostSteps = 30;
-constexpr int RegularisedSteps = 4; // more are wasted, as the next regularisation changes the mesh
-constexpr int StepsOfBfgs = 20;     // equivalent to one Newton step
-constexpr double Settled = 1e-5;
-constexpr int MostPolishing = 2; // stages of a valid mesh
-constexpr int Patience = 10;     // stages without progress before untangling gives up
+constexpr int StepsOfStage = 4; // more are wasted, as the next regularisation changes the mesh
+constexpr int Patience = 10;    // stages without progress before untangling gives up
 // As many that have not lowered their energy by Moving either: the mesh has come to rest.
 constexpr int PatienceAtRest = 3;
 constexpr double Moving = 0.01;
@@ -36,16 +31,12 @@ public:
   double first(double least)
   {
     this->best_ = least;
-    return least > 0 ? Valid : fast(least);
+    return fast(least);
   }
 
-  /// `least`: the minimum determinant; `decrease`: of the stage's energy, relative.
+  /// `least`: the minimum determinant, not positive; `decrease`: of the stage's energy, relative.
   double next(double least, double decrease, double epsilon)
   {
-    if (least > 0)
-    {
-      return Valid;
-    }
     // Near 0 it is the regularisation that a gain has to be seen beside.
     const double gain = Gain * std::max(std::abs(this->best_), epsilon);
     this->idle_ = least > this->best_ + gain ? 0 : this->idle_ + 1;
@@ -58,7 +49,7 @@ public:
     }
     // The rule with a proof of convergence.
     const double mu = (1 - std::max(decrease, 0.1)) * chi(least, epsilon);
-    return least < mu ? 2 * std::sqrt(mu * (mu - least)) : Valid;
+    return 2 * std::sqrt(mu * (mu - least));
   }
 
 private:
@@ -82,7 +73,7 @@ public:
   /// Call it after each stage. `decrease`: of the stage's energy, relative.
   bool gaveUp(const EnergyState& state, double decrease)
   {
-    const bool isProgress = state.minimumDeterminant > 0 || state.inverted < this->inverted_ ||
+    const bool isProgress = state.inverted < this->inverted_ ||
                             state.minimumDeterminant > this->least_ + Gain * std::abs(this->least_);
     this->idle_ = isProgress ? 0 : this->idle_ + 1;
     this->atRest_ = isProgress || decrease > Moving ? 0 : this->atRest_ + 1;
@@ -118,65 +109,39 @@ EnergyState FoldoverContinuation::evaluate(const Points& points, Monitor& monito
   return this->energy_.evaluate(points, monitor);
 }
 
-EnergyState FoldoverContinuation::minimize(Points& points, int steps, Monitor& monitor)
-{
-  MinimizerLimits limits;
-  limits.steps = steps;
-  limits.preconditioner = this->preconditioner_;
-  if (this->minimizer_ == Minimizer::Newton)
-  {
-    newton(this->energy_, points, limits, this->matrix_, this->effort_, monitor);
-  }
-  else
-  {
-    limits.steps *= StepsOfBfgs;
-    limitedMemoryBfgs(this->energy_, points, limits, this->effort_, monitor);
-  }
-  return this->evaluate(points, monitor);
-}
-
 bool FoldoverContinuation::untangle(Points& points, Monitor& monitor, int stages)
 {
   this->setDensity(Valid);
   EnergyState state = this->evaluate(points, monitor);
+  if (state.minimumDeterminant > 0)
+  {
+    return true;
+  }
   Regularisation regularisation;
   double epsilon = regularisation.first(state.minimumDeterminant);
-  double settled = std::numeric_limits<double>::infinity();
   Stagnation stagnation(state);
-  int polishing = 0;
+  MinimizerLimits limits;
+  limits.steps = StepsOfStage;
+  limits.preconditioner = this->preconditioner_;
   for (int stage = 0; stage < stages; ++stage)
   {
     monitor.progress(1 - std::pow(0.8, stage));
     this->setDensity(epsilon);
     const double start = this->evaluate(points, monitor).energy;
-    state = this->minimize(points, epsilon > Valid ? RegularisedSteps : MostSteps, monitor);
-    if (!std::isfinite(start) || !std::isfinite(state.energy))
+    newton(this->energy_, points, limits, this->matrix_, this->effort_, monitor);
+    state = this->evaluate(points, monitor);
+    if (state.minimumDeterminant > 0)
     {
-      break; // no step is taken from here with any regularisation
-    }
-    if (epsilon <= Valid)
-    {
-      if (++polishing >= MostPolishing ||
-          std::abs(settled - state.energy) < Settled * state.energy ||
-          std::abs(start - state.energy) < Settled * state.energy)
-      {
-        break;
-      }
-      settled = state.energy;
+      return true;
     }
     const double decrease = 1 - state.energy / start;
-    if (stagnation.gaveUp(state, decrease))
+    // No step is taken from an infinite energy with any regularisation.
+    if (!std::isfinite(start) || !std::isfinite(state.energy) || stagnation.gaveUp(state, decrease))
     {
-      break;
+      return false;
     }
     epsilon = regularisation.next(state.minimumDeterminant, decrease, epsilon);
   }
-  return state.minimumDeterminant > 0;
-}
-
-void FoldoverContinuation::improve(Points& points, int steps, Monitor& monitor)
-{
-  this->setDensity(Valid);
-  this->minimize(points, steps, monitor);
+  return false;
 }
 }

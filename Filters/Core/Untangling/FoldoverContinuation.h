@@ -7,36 +7,25 @@
 namespace morph
 {
 /// Minimises a mesh's foldover-free energy by continuation in its regularisation. Source: Garanzha
-/// et al., ACM Trans. Graph. 40(4) (2021), arXiv 2102.03069. `points` in all functions: #nodes x 3,
-/// start and result.
+/// et al., ACM Trans. Graph. 40(4) (2021), arXiv 2102.03069. `points`: #nodes x 3, start and result.
 class FoldoverContinuation
 {
 public:
-  enum class Minimizer
-  {
-    Newton,
-    LimitedMemoryBfgs ///< needs no matrix; as fast for about 10,000 cells, slower for more
-  };
-
   /// `preconditioner`: for Newton's linear systems, by the rows of `energy`; null: none.
-  FoldoverContinuation(
-    MeshEnergy& energy, Minimizer minimizer, const NodePreconditioner* preconditioner = nullptr)
+  explicit FoldoverContinuation(
+    MeshEnergy& energy, const NodePreconditioner* preconditioner = nullptr)
     : energy_(energy)
-    , minimizer_(minimizer)
     , preconditioner_(preconditioner)
   {
   }
 
-  /// Lowers the regularisation in at most `stages` stages, until no tetrahedron is inverted and the
-  /// energy has settled. Gives up after ten successive stages without progress, or three that have
-  /// not lowered their energy by 1 % either, which soon ends it if the boundary admits no valid
-  /// mesh. Progress means fewer inverted tetrahedra, or a minimum determinant raised by 5 %.
-  /// Returns whether all tetrahedra are positive.
+  /// Lowers the regularisation in at most `stages` stages, until no tetrahedron is inverted. Gives
+  /// up after ten successive stages without progress, or three that have not lowered their energy by
+  /// 1 % either, which soon ends it if the boundary admits no valid mesh. Progress means fewer
+  /// inverted tetrahedra, or a minimum determinant raised by 5 %. Returns whether all tetrahedra are
+  /// positive.
   bool untangle(Points& points, Monitor& monitor, int stages = 60);
-  /// Improves a valid mesh by at most `steps` steps of the minimiser; the mesh stays valid.
-  void improve(Points& points, int steps, Monitor& monitor);
 
-  Minimizer minimizer() const { return this->minimizer_; }
   const MinimizerEffort& effort() const { return this->effort_; }
   /// Adds the effort of stages on a part of the mesh.
   void include(const MinimizerEffort& effort);
@@ -44,10 +33,8 @@ public:
 private:
   void setDensity(double epsilon);
   EnergyState evaluate(const Points& points, Monitor& monitor);
-  EnergyState minimize(Points& points, int steps, Monitor& monitor);
 
   MeshEnergy& energy_;
-  Minimizer minimizer_;
   const NodePreconditioner* preconditioner_;
   BlockCsr3f matrix_;
   MinimizerEffort effort_;

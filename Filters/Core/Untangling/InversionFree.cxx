@@ -12,12 +12,6 @@
 
 namespace morph
 {
-void InversionFree::setMethod(std::unique_ptr<Morpher> method)
-{
-  this->method_ = std::move(method);
-  this->start_ = Start::Method;
-}
-
 void InversionFree::doPrepare(const Mesh& rest, Monitor& monitor)
 {
   this->referenceMesh_ = rest;
@@ -32,25 +26,21 @@ void InversionFree::doPrepare(const Mesh& rest, Monitor& monitor)
   const Points atRest = rest.points * this->scale_;
   this->minimumAtRest_ =
     measureCorners(this->referenceMesh_, atRest, this->orientation_, {}, monitor).minimum;
+  const MovableQuality quality(this->referenceMesh_, this->orientation_, this->partition().free);
+  this->validAtRest_ = quality.measure(atRest, monitor).inverted == 0;
   if (this->nearOnly_)
   {
-    this->validAtRest_ = this->minimumAtRest_ > 0;
     this->hasFemWarp_ = false;
     this->hasSimplexLinear_ = false;
     this->preconditioner_.reset();
     return;
   }
 
-  ProgressRange first(monitor, 0, 0.1), second(monitor, 0.1, 0.4), third(monitor, 0.4, 0.5),
-    last(monitor, 0.5, 0.9);
+  ProgressRange first(monitor, 0, 0.1), second(monitor, 0.1, 0.4), third(monitor, 0.4, 0.9);
   this->boundary_ = boundaryFaces(this->referenceMesh_, first);
   monitor.check();
   this->geometry_ = classify(this->referenceMesh_, this->boundary_, {}, first);
   monitor.check();
-  MeshEnergy energy(this->referenceMesh_, this->partition().free);
-  energy.setTargets(targetMatrices(this->referenceMesh_, this->orientation_, atRest,
-    TargetConstruction::Initial, CellWeights::Volume, monitor));
-  this->validAtRest_ = energy.evaluate(atRest, monitor).minimumDeterminant > 0;
   this->prepareFemWarp(rest, second);
   try
   {
@@ -64,10 +54,6 @@ void InversionFree::doPrepare(const Mesh& rest, Monitor& monitor)
     {
       throw;
     }
-  }
-  if (this->method_)
-  {
-    this->method_->prepare(rest, this->partition(), last);
   }
 }
 
@@ -103,55 +89,55 @@ Points InversionFree::moved(
   return result * this->scale_;
 }
 
-MeshImprovement InversionFree::improvement() const
+MeshImprovement InversionFree::improvement(const std::vector<Index>& hopeless) const
 {
   ImprovementOptions options;
-  options.target = this->target_;
-  options.minimizer = this->minimizer_;
-  options.raising = this->raising_;
-  options.startsFromBest = this->start_ == Start::FemWarp;
+  options.steps = this->steps_;
   options.nearOnly = this->nearOnly_;
-  options.refreshes = this->refreshes_;
-  options.validAtRest = this->validAtRest_;
   options.minimumAtRest = this->minimumAtRest_;
   options.preconditioner = this->preconditioner_.get();
   return { this->referenceMesh_, this->orientation_, this->partition(), this->boundary_,
-    this->geometry_, options };
+    this->geometry_, hopeless, options };
 }
 
-Points InversionFree::betterGuess(
-  const Points& warped, const Points& boundary, Monitor& monitor) const
+TargetConstruction InversionFree::findStart(const Points& boundary, const MovableQuality& quality,
+  Points& points, EvaluateReport& report, Monitor& monitor) const
 {
-  // A user who asks for a certain target wants its minimum.
-  if (this->hasSimplexLinear_ && this->target_ == TargetConstruction::Stretched)
+  const Points atRest = points;
+  MovableQuality::Result best;
+  best.inverted = this->referenceMesh_.numberOfCells() + 1;
+  const auto keepBetter = [&](const Points& start)
   {
-    EvaluateReport ignored;
-    Points simplex = this->moved(this->simplexLinear_, boundary, ignored, monitor);
-    const MovableQuality quality = this->improvement().quality();
-    if (quality.measure(warped, monitor) < quality.measure(simplex, monitor))
+    MovableQuality::Result result = quality.measure(start, monitor);
+    const bool isBetter = best < result;
+    if (isBetter)
     {
-      return simplex;
+      best = std::move(result);
+      points = start;
     }
-  }
-  return warped;
-}
-
-void InversionFree::startFromGraph(
-  Points& points, Points& alternative, TargetConstruction& target, Monitor& monitor) const
-{
-  const MovableQuality quality = this->improvement().quality();
-  const Points graph = graphLaplaceMesh(this->referenceMesh_, this->partition(), points, monitor);
-  const MovableQuality::Result drawn = quality.measure(graph, monitor);
-  if (drawn.inverted < quality.measure(points, monitor).inverted)
+    return isBetter;
+  };
+  ProgressRange first(monitor, 0, 0.05), second(monitor, 0.05, 0.1);
+  if (this->hasFemWarp_)
   {
-    points = graph;
-    target =
-      this->target_ == TargetConstruction::Initial ? this->target_ : TargetConstruction::IdealSkew;
-    if (quality.measure(alternative, monitor) < drawn)
-    {
-      alternative = graph;
-    }
+    keepBetter(this->moved(this->femWarp_, boundary, report, first));
   }
+  if (this->hasSimplexLinear_)
+  {
+    keepBetter(this->moved(this->simplexLinear_, boundary, report, second));
+  }
+  if (best.inverted > 0)
+  {
+    keepBetter(atRest);
+  }
+  if (this->validAtRest_)
+  {
+    return TargetConstruction::Stretched;
+  }
+  // Where it is the better start, the undeformed shapes are worth nothing.
+  return keepBetter(graphLaplaceMesh(this->referenceMesh_, this->partition(), atRest, monitor))
+           ? TargetConstruction::IdealSkew
+           : TargetConstruction::Stretched;
 }
 
 EvaluateReport InversionFree::displace(
@@ -165,9 +151,7 @@ EvaluateReport InversionFree::displace(
       "prepare it without NearOnly.");
   }
   const NodePartition& partition = this->partition();
-  // Ideal skew differs from the undeformed cells': it changes the mesh without any motion.
-  if (this->validAtRest_ && this->target_ != TargetConstruction::IdealSkew &&
-      (prescribed.array() == 0).all())
+  if (this->validAtRest_ && (prescribed.array() == 0).all())
   {
     free.setZero();
     MeshImprovement::Outcome nothing;
@@ -183,30 +167,15 @@ EvaluateReport InversionFree::displace(
   }
   const std::vector<Index> determined = inversionsByBoundaryMotion(this->referenceMesh_, partition,
     this->orientation_, this->restPoints() * this->scale_, points, monitor);
+  const std::vector<Index> hopeless =
+    boundaryDeterminedInversions(this->referenceMesh_, partition, this->orientation_, points);
 
   EvaluateReport guesses;
-  ProgressRange first(monitor, 0, 0.04), second(monitor, 0.04, 0.08), third(monitor, 0.08, 0.1);
-  Points alternative = points;
-  if (this->hasFemWarp_)
-  {
-    alternative = this->moved(this->femWarp_, boundary, guesses, first);
-  }
-  if (this->start_ == Start::Method && this->method_)
-  {
-    points = this->moved(*this->method_, boundary, guesses, second);
-  }
-  alternative = this->betterGuess(alternative, boundary, third);
-  TargetConstruction target = this->target_;
-  if (this->start_ == Start::FemWarp && this->validAtRest_)
-  {
-    points = alternative;
-  }
-  else if (!this->validAtRest_ && this->start_ != Start::Method)
-  {
-    this->startFromGraph(points, alternative, target, third);
-  }
-  const MeshImprovement::Outcome outcome =
-    this->improvement().run(points, { alternative, target }, alternative, EnoughOfMinimum, monitor);
+  const MeshImprovement improvement = this->improvement(hopeless);
+  const TargetConstruction target =
+    this->findStart(boundary, improvement.quality(), points, guesses, monitor);
+  const Points guide = points;
+  const MeshImprovement::Outcome outcome = improvement.run(guide, target, false, points, monitor);
   for (Index i = 0; i < free.rows(); ++i)
   {
     const Index node = partition.free[i];
@@ -233,13 +202,14 @@ EvaluateReport InversionFree::repair(Points& moved, Monitor& whole) const
   }
   EvaluateReport guesses;
   ProgressRange first(monitor, 0, 0.1);
-  const Points before = moved * this->scale_;
+  Points points = moved * this->scale_;
+  const std::vector<Index> hopeless =
+    boundaryDeterminedInversions(this->referenceMesh_, partition, this->orientation_, points);
   const Points guide =
-    this->hasFemWarp_ ? this->moved(this->femWarp_, boundary, guesses, first) : before;
-  Points points = before;
+    this->hasFemWarp_ ? this->moved(this->femWarp_, boundary, guesses, first) : points;
   // A mesh that is valid again is enough: the rest of it stays as its method made it.
   const MeshImprovement::Outcome outcome =
-    this->improvement().run(points, { guide, this->target_ }, before, 0, monitor);
+    this->improvement(hopeless).run(guide, TargetConstruction::Stretched, true, points, monitor);
   if (this->nearOnly_ && !outcome.untangled)
   {
     MeshImprovement::Outcome failed;

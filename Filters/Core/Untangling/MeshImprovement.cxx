@@ -4,26 +4,29 @@
 #include "Energies/MeshEnergy.h"
 #include "Mesh/CellEdges.h"
 #include "Mesh/KRing.h"
-#include "Mesh/SubMesh.h"
 #include "Support/Error.h"
 #include "Support/ProgressRange.h"
-#include "Untangling/MinQualityAscent.h"
+#include "Untangling/QualityRaising.h"
 #include "Untangling/Untangling.h"
 
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <memory>
 
 namespace morph
 {
 namespace
 {
-constexpr int RefreshSteps = 3;
-// A minimum of this part of the best known one may be raised beyond it.
-constexpr double WorthRaising = 0.6;
-
 constexpr int RaisedRings = 10; // of cells around repaired ones, whose nodes raise the minimum
+// Rings of cells around inverted ones that move first: few in a repair.
+constexpr int RingsOfRepair = 2, RingsOfMorph = 5;
+
+void add(const MinimizerEffort& own, MinimizerEffort& effort)
+{
+  effort.steps += own.steps;
+  effort.linearIterations += own.linearIterations;
+  effort.evaluations += own.evaluations;
+}
 
 /// Returns the cells whose scaled Jacobian is 0 or less.
 std::vector<Index> notPositive(const std::vector<double>& scaledJacobian)
@@ -42,12 +45,14 @@ std::vector<Index> notPositive(const std::vector<double>& scaledJacobian)
 
 MeshImprovement::MeshImprovement(const Mesh& mesh, const std::vector<std::int8_t>& orientation,
   const NodePartition& partition, const BoundaryFaces& boundary, const Classification& geometry,
-  const ImprovementOptions& options, const Communicator& communicator)
+  const std::vector<Index>& hopeless, const ImprovementOptions& options,
+  const Communicator& communicator)
   : mesh_(mesh)
   , orientation_(orientation)
   , partition_(partition)
   , boundary_(boundary)
   , geometry_(geometry)
+  , hopeless_(hopeless)
   , options_(options)
   , communicator_(communicator)
 {
@@ -55,14 +60,8 @@ MeshImprovement::MeshImprovement(const Mesh& mesh, const std::vector<std::int8_t
 
 MovableQuality MeshImprovement::quality() const
 {
-  return { this->mesh_, this->orientation_, this->partition_.free, this->communicator_ };
-}
-
-TargetMatrices MeshImprovement::targets(const Aim& aim, bool isTangled, Monitor& monitor) const
-{
-  const bool equal = isTangled && aim.target != TargetConstruction::Initial;
-  return targetMatrices(this->mesh_, this->orientation_, aim.guide, aim.target,
-    equal ? CellWeights::Equal : CellWeights::Volume, monitor, this->communicator_);
+  return { this->mesh_, this->orientation_, this->partition_.free, this->communicator_,
+    this->hopeless_ };
 }
 
 double MeshImprovement::goal(const MovableQuality& quality, const Points& points) const
@@ -74,146 +73,88 @@ double MeshImprovement::goal(const MovableQuality& quality, const Points& points
   return spoilt ? bounds.movable : std::min(bounds.fixed, bounds.movable);
 }
 
-bool MeshImprovement::minimizeEnergy(const MovableQuality& quality, double goal, double best,
-  const Aim& aim, Points& points, Outcome& outcome, Monitor& monitor) const
+std::vector<Index> MeshImprovement::untangleWhole(
+  const Aim& aim, Points& points, MinimizerEffort& effort, Monitor& monitor) const
 {
   MeshEnergy energy(this->mesh_, this->partition_.free, this->communicator_);
-  FoldoverContinuation stages(energy, this->options_.minimizer, this->options_.preconditioner);
-  const bool isTangled = best <= 0;
-  monitor.check();
-  ProgressRange untangle(monitor, 0.1, 0.7);
-  const Untangling::Result untangling =
-    Untangling(this->mesh_, this->orientation_, this->partition_, this->boundary_, this->geometry_,
-      this->communicator_)
-      .run(
-        [&] { return this->targets(aim, isTangled, monitor); }, energy, stages, points, untangle);
-  outcome.onFolds = untangling.onFolds;
-  if (untangling.valid)
-  {
-    monitor.progress(0.7);
-    for (int refresh = 0; refresh < this->options_.refreshes &&
-                          this->options_.target == TargetConstruction::Stretched;
-         ++refresh)
-    {
-      energy.setTargets(this->targets({ points, aim.target }, isTangled, monitor));
-      stages.improve(points, RefreshSteps, monitor);
-    }
-    monitor.progress(0.8);
-    if (this->raisesMinimum() && quality.measure(points, monitor).minimum >= WorthRaising * best)
-    {
-      ProgressRange raise(monitor, 0.8, 0.95);
-      raiseMinimumQuality(quality, goal, points, raise);
-    }
-    monitor.progress(0.95);
-  }
-  stages.include(outcome.effort);
-  outcome.effort = stages.effort();
-  return untangling.valid;
+  FoldoverContinuation stages(energy, this->options_.preconditioner);
+  const Untangling::Result result = Untangling(this->mesh_, this->orientation_, this->partition_,
+    this->boundary_, this->geometry_, this->communicator_)
+                                      .run(
+                                        [&] {
+                                          return untanglingTargets(this->mesh_, this->orientation_,
+                                            aim, monitor, this->communicator_);
+                                        },
+                                        energy, stages, points, monitor);
+  add(stages.effort(), effort);
+  return result.onFolds;
 }
 
-void MeshImprovement::raiseNear(
-  const std::vector<Index>& repaired, double goal, Points& points, Monitor& monitor) const
-{
-  const KRing ring = kRingOfCells(this->mesh_, nodeToCells(this->mesh_), this->partition_.free,
-    repaired, RaisedRings, this->communicator_);
-  const SubMesh part(this->mesh_, ring.cells);
-  const std::unique_ptr<Communicator> processes = this->communicator_.part(part.nodes);
-  const std::vector<Index> free = part.numbersOf(ring.nodes);
-  std::vector<std::int8_t> signs;
-  for (const Index c : part.cells)
-  {
-    signs.push_back(this->orientation_[c]);
-  }
-  Points local = points(part.nodes, allColumns);
-  raiseMinimumQuality(MovableQuality(part.mesh, signs, free, *processes), goal, local, monitor);
-  points(part.nodes, allColumns) = local;
-}
-
-MeshImprovement::Outcome MeshImprovement::run(
-  Points& points, const Aim& aim, const Points& alternative, double enough, Monitor& monitor) const
+MeshImprovement::Outcome MeshImprovement::run(const Points& guide, TargetConstruction target,
+  bool isRepair, Points& points, Monitor& monitor) const
 {
   monitor.check();
   const MovableQuality quality = this->quality();
-  const double goal = this->goal(quality, points);
-  Points bestPoints = alternative;
-  MovableQuality::Result best = quality.measure(alternative, monitor);
-  Outcome outcome;
+  MovableQuality::Result best = quality.measure(points, monitor);
   const std::vector<Index> inverted = notPositive(best.scaledJacobian);
-  const bool anyInverted = !this->communicator_.all(inverted.empty());
-  const bool isRepair = enough == 0;
-  const bool raisesFirst =
-    this->raisesMinimum() && this->options_.target == TargetConstruction::Stretched;
-  if (raisesFirst && anyInverted && this->options_.validAtRest)
+  const bool wasValid = best.inverted == 0;
+  Outcome outcome;
+  const auto keepBetter = [&](Points& trial)
+  {
+    MovableQuality::Result result = quality.measure(trial, monitor);
+    const bool isBetter = best < result;
+    if (isBetter)
+    {
+      best = std::move(result);
+      points.swap(trial);
+    }
+    return isBetter;
+  };
+  if (!wasValid)
   {
     ProgressRange near(monitor, 0.1, 0.3);
-    Points untangled = alternative;
+    Points trial = points;
     if (untangleNear(this->mesh_, this->orientation_, this->partition_.free, inverted,
-          isRepair ? 2 : 5, aim, this->options_.minimizer, untangled, outcome.effort, near,
-          this->communicator_))
+          isRepair ? RingsOfRepair : RingsOfMorph, { guide, target, this->hopeless_ }, trial,
+          outcome.effort, near, this->communicator_))
     {
-      best = quality.measure(untangled, monitor);
-      bestPoints = std::move(untangled);
+      keepBetter(trial);
     }
   }
-  const bool isValid = best.inverted == 0;
-  outcome.untangled = isValid;
-  if (isRepair && isValid && raisesFirst && anyInverted)
+  const Points start = points;
+  for (const TargetConstruction aim : { target, TargetConstruction::IdealSkew })
   {
-    ProgressRange raise(monitor, 0.3, 0.95);
-    this->raiseNear(inverted, goal, bestPoints, raise);
-    points = std::move(bestPoints);
-    return outcome;
-  }
-  if (this->options_.nearOnly)
-  {
-    points = alternative;
-    return outcome;
-  }
-  // Raising the minimum of a valid mesh costs far less than minimising the energy.
-  if (isValid && raisesFirst)
-  {
-    ProgressRange raise(monitor, 0.3, 0.7);
-    const AscentEffort raised = raiseMinimumQuality(quality, goal, bestPoints, raise);
-    if (raised.rounds > 0)
+    // Of a valid undeformed mesh the shapes are worth aiming for.
+    const bool isWorthwhile = aim == target || !(this->options_.minimumAtRest > 0);
+    if (best.inverted > 0 && isWorthwhile && !this->options_.nearOnly)
     {
-      best = quality.measure(bestPoints, monitor);
-    }
-    // Tetrahedra aim for their undeformed shape, which costs much and rarely raises the minimum.
-    const bool isAtGoal = hasReached(best.minimum, goal);
-    if (isAtGoal || best.minimum >= enough * this->options_.minimumAtRest ||
-        mostlyTetrahedra(this->mesh_, this->communicator_))
-    {
-      if (isAtGoal && best.minimum < enough * this->options_.minimumAtRest)
+      ProgressRange whole(monitor, 0.3, 0.6);
+      Points trial = start;
+      std::vector<Index> onFolds =
+        this->untangleWhole({ guide, aim, this->hopeless_ }, trial, outcome.effort, whole);
+      if (keepBetter(trial))
       {
-        ProgressRange next(monitor, 0.7, 0.95);
-        raiseNextWorst(quality, raised, bestPoints, next);
+        outcome.onFolds = std::move(onFolds);
       }
-      points = std::move(bestPoints);
-      return outcome;
-    }
-    if (this->options_.startsFromBest)
-    {
-      points = bestPoints;
     }
   }
-  outcome.untangled = this->minimizeEnergy(
-                        quality, goal, isValid ? best.minimum : 0, aim, points, outcome, monitor) ||
-                      isValid;
-  if (quality.measure(points, monitor) < best)
+  outcome.untangled = best.inverted == 0;
+  if (this->options_.steps == 0 || (isRepair && (wasValid || !outcome.untangled)))
   {
-    points = bestPoints;
-    if (isValid)
-    {
-      outcome.onFolds.clear();
-    }
+    return outcome;
   }
-  outcome.kept = outcome.effort.steps > 0 &&
-                 this->communicator_.all((points.array() == alternative.array()).all());
-  if (outcome.kept && this->options_.target == TargetConstruction::IdealSkew &&
-      this->raisesMinimum())
-  {
-    outcome.kept = raiseMinimumQuality(quality, goal, points, monitor).rounds == 0;
-  }
+  const std::vector<Index> free =
+    isRepair ? kRingOfCells(this->mesh_, nodeToCells(this->mesh_), this->partition_.free, inverted,
+                 RaisedRings, this->communicator_)
+                 .nodes
+             : this->partition_.free;
+  // What stays inverted does not keep the others down.
+  std::vector<Index> hopeless = notPositive(best.scaledJacobian);
+  hopeless.insert(hopeless.end(), this->hopeless_.begin(), this->hopeless_.end());
+  const MovableQuality others(this->mesh_, this->orientation_, free, this->communicator_, hopeless);
+  ProgressRange raise(monitor, 0.6, 0.95);
+  add(raiseQuality(others, this->goal(quality, points), this->options_.steps, points, raise),
+    outcome.effort);
   return outcome;
 }
 
@@ -258,7 +199,7 @@ EvaluateReport reportImprovement(
     { "EnergyEvaluations", outcome.effort.evaluations },
     { "BoundaryDeterminedCells", static_cast<Index>(determined.size()) },
     { "FoldedBoundaryCells", static_cast<Index>(onFolds.size()) },
-    { "KeptLinear", outcome.kept ? 1 : 0 }, { "Untangled", outcome.untangled ? 1 : 0 } };
+    { "Untangled", outcome.untangled ? 1 : 0 } };
   return report;
 }
 }

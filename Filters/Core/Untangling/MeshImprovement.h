@@ -14,17 +14,16 @@
 
 namespace morph
 {
+/// The most steps that raise the minimum scaled Jacobian, see raiseQuality().
+struct RaisingSteps
+{
+  static constexpr int None = 0, Quick = 24, Default = 40, Thorough = 200;
+};
+
 struct ImprovementOptions
 {
-  /// of cells other than tetrahedra, as the user asks for it
-  TargetConstruction target = TargetConstruction::Stretched;
-  FoldoverContinuation::Minimizer minimizer = FoldoverContinuation::Minimizer::Newton;
-  bool raising = true; ///< whether to raise the minimum; never for Initial
-  /// whether the energy starts from the best mesh so far, and not from the first guess
-  bool startsFromBest = true;
+  int steps = RaisingSteps::Default;
   bool nearOnly = false; ///< whether to leave a mesh that cannot be untangled near inverted cells
-  int refreshes = 2;     ///< how often stretched targets are recomputed from the current mesh
-  bool validAtRest = true;
   double minimumAtRest = 0; ///< scaled Jacobian of the undeformed mesh
   /// for Newton's linear systems of the whole mesh, by unknownOrdering(); null: none
   const NodePreconditioner* preconditioner = nullptr;
@@ -38,57 +37,44 @@ class MeshImprovement
 public:
   /// `mesh`: the reference shapes, with edges about 1 long, see unitEdgeScale(). `orientation`:
   /// #cells, see cellSigns() in Topology.h. `boundary`, `geometry`: of the mesh's outer faces, see
-  /// boundaryFaces() and classify(); not read with `nearOnly`.
+  /// boundaryFaces() and classify(); not read with `nearOnly`. `hopeless`: cells, ascending, that
+  /// the boundary inverts (boundaryDeterminedInversions()): the others are improved without them.
   MeshImprovement(const Mesh& mesh, const std::vector<std::int8_t>& orientation,
     const NodePartition& partition, const BoundaryFaces& boundary, const Classification& geometry,
-    const ImprovementOptions& options, const Communicator& communicator = Communicator::alone());
+    const std::vector<Index>& hopeless, const ImprovementOptions& options,
+    const Communicator& communicator = Communicator::alone());
 
   struct Outcome
   {
-    bool untangled = false;
-    bool kept = false;          ///< the result is the alternative
+    bool untangled = false;     ///< no cell is inverted but hopeless ones
     std::vector<Index> onFolds; ///< inverted cells on folded faces of the boundary
     MinimizerEffort effort;
   };
-  /// Improves `points`, #nodes x 3. `alternative`: a mesh that the result must not be worse than;
-  /// `enough`: the part of the undeformed mesh's minimum with which a valid mesh is the result,
-  /// without the energy of the whole mesh; 0 for a repair.
-  Outcome run(Points& points, const Aim& aim, const Points& alternative, double enough,
+  /// Improves `points`, #nodes x 3. The result has no more inverted cells or, with as many, no lower
+  /// minimum. `guide`: #nodes x 3, gives the targets' edge lengths. `target`: with which it is
+  /// untangled; where that fails and the undeformed mesh is tangled, IdealSkew is next. `isRepair`: raises the minimum within ten rings
+  /// of cells that were inverted alone.
+  Outcome run(const Points& guide, TargetConstruction target, bool isRepair, Points& points,
     Monitor& monitor) const;
 
   MovableQuality quality() const;
 
 private:
-  /// The targets of all cells. `isTangled`: of the mesh that is minimised. All cells then count
-  /// alike, so that those of a boundary layer are untangled, too; never for Initial.
-  TargetMatrices targets(const Aim& aim, bool isTangled, Monitor& monitor) const;
   /// Returns the minimum scaled Jacobian beyond which raising it is of no use, as the boundary
   /// holds that of the whole mesh there; infinite where it does not.
   double goal(const MovableQuality& quality, const Points& points) const;
-  bool raisesMinimum() const
-  {
-    return this->options_.raising && this->options_.target != TargetConstruction::Initial;
-  }
-  /// Raises the minimum over the cells near `repaired` ones; nodes elsewhere stay. `goal`: as of
-  /// raiseMinimumQuality(). Cost: a pass over the mesh, then that of the cells within ten rings.
-  void raiseNear(
-    const std::vector<Index>& repaired, double goal, Points& points, Monitor& monitor) const;
-  /// Untangles and improves `points` by the energy. Returns whether the mesh is valid. `best`: the
-  /// minimum of the best mesh so far, 0 without a valid one.
-  bool minimizeEnergy(const MovableQuality& quality, double goal, double best, const Aim& aim,
-    Points& points, Outcome& outcome, Monitor& monitor) const;
-
+  /// Untangles by the energy of the whole mesh. Returns the inverted cells on folds.
+  std::vector<Index> untangleWhole(
+    const Aim& aim, Points& points, MinimizerEffort& effort, Monitor& monitor) const;
   const Mesh& mesh_;
   const std::vector<std::int8_t>& orientation_;
   const NodePartition& partition_;
   const BoundaryFaces& boundary_;
   const Classification& geometry_;
+  const std::vector<Index>& hopeless_;
   const ImprovementOptions options_;
   const Communicator& communicator_;
 };
-
-/// The part of the undeformed mesh's minimum that is enough for a morph.
-constexpr double EnoughOfMinimum = 0.75;
 
 /// Returns the power of two that makes a mesh's edges about 1 long. So no number depends on the
 /// unit of length.

@@ -17,10 +17,22 @@ constexpr int Stages = 15;
 constexpr double MostTangled = 0.1; // of all cells: the rings around them then span the mesh
 }
 
+TargetMatrices untanglingTargets(const Mesh& mesh, const std::vector<std::int8_t>& orientation,
+  const Aim& aim, Monitor& monitor, const Communicator& communicator)
+{
+  TargetMatrices targets = targetMatrices(
+    mesh, orientation, aim.guide, aim.target, CellWeights::Equal, monitor, communicator);
+  for (const Index c : aim.hopeless)
+  {
+    targets.included[c] = 0;
+  }
+  return targets;
+}
+
 bool untangleNear(const Mesh& mesh, const std::vector<std::int8_t>& orientation,
   const std::vector<Index>& free, const std::vector<Index>& inverted, int firstRings,
-  const Aim& aim, FoldoverContinuation::Minimizer minimizer, Points& points,
-  MinimizerEffort& effort, Monitor& monitor, const Communicator& communicator)
+  const Aim& aim, Points& points, MinimizerEffort& effort, Monitor& monitor,
+  const Communicator& communicator)
 {
   const auto count = communicator.sum(static_cast<double>(inverted.size()));
   if (count == 0 ||
@@ -40,19 +52,13 @@ bool untangleNear(const Mesh& mesh, const std::vector<std::int8_t>& orientation,
     const KRing ring = kRingOfCells(mesh, around, free, seeds, rings, communicator);
     const SubMesh part(mesh, ring.cells);
     const std::unique_ptr<Communicator> processes = communicator.part(part.nodes);
-    std::vector<std::int8_t> signs;
-    for (const Index c : part.cells)
-    {
-      signs.push_back(orientation[c]);
-    }
-    // All cells count alike, so that those of a boundary layer are untangled, too.
-    const CellWeights weights =
-      aim.target == TargetConstruction::Initial ? CellWeights::Volume : CellWeights::Equal;
-    const TargetMatrices targets = targetMatrices(part.mesh, signs,
-      aim.guide(part.nodes, allColumns), aim.target, weights, monitor, *processes);
+    const std::vector<Index> hopeless = part.cellNumbersOf(aim.hopeless);
+    const Points guide = aim.guide(part.nodes, allColumns);
+    const TargetMatrices targets = untanglingTargets(
+      part.mesh, part.take(orientation), { guide, aim.target, hopeless }, monitor, *processes);
     MeshEnergy energy(part.mesh, part.numbersOf(ring.nodes), *processes);
     energy.setTargets(targets);
-    FoldoverContinuation stages(energy, minimizer);
+    FoldoverContinuation stages(energy);
     Points local = trial(part.nodes, allColumns);
     const bool done = stages.untangle(local, monitor, Stages);
     stages.include(effort);

@@ -14,7 +14,13 @@ struct Aim
 {
   const Points& guide; ///< #nodes x 3
   TargetConstruction target;
+  const std::vector<Index>& hopeless; ///< ids of cells that nothing can mend: they do not count
 };
+
+/// The targets of all cells, for untangling. All cells count alike, so that those of a boundary
+/// layer are untangled, too.
+TargetMatrices untanglingTargets(const Mesh& mesh, const std::vector<std::int8_t>& orientation,
+  const Aim& aim, Monitor& monitor, const Communicator& communicator);
 
 /// Untangles `points`, #nodes x 3, by moving only the nodes within 2 rings of inverted cells, then
 /// within 5 and 15 rings of those that are left; `firstRings`: the first of these numbers. `mesh`:
@@ -25,7 +31,6 @@ struct Aim
 /// the nodes. `effort`: added to.
 bool untangleNear(const Mesh& mesh, const std::vector<std::int8_t>& orientation,
   const std::vector<Index>& free, const std::vector<Index>& inverted, int firstRings,
-  const Aim& aim, FoldoverContinuation::Minimizer minimizer, Points& points,
-  MinimizerEffort& effort, Monitor& monitor,
+  const Aim& aim, Points& points, MinimizerEffort& effort, Monitor& monitor,
   const Communicator& communicator = Communicator::alone());
 }

@@ -85,7 +85,7 @@ bool Untangling::untanglePatch(const std::vector<Index>& cells, int rings,
       .nodes,
     this->communicator_);
   energy.setTargets(targets);
-  FoldoverContinuation near(energy, stages.minimizer());
+  FoldoverContinuation near(energy);
   const bool done = near.untangle(points, monitor, most);
   stages.include(near.effort());
   return done;

@@ -13,7 +13,7 @@ void Adapt(morph::Morpher& method)
 {
   if (auto* inversionFree = dynamic_cast<morph::InversionFree*>(&method))
   {
-    inversionFree->setRaising(false);
+    inversionFree->setSteps(morph::RaisingSteps::None);
   }
 }
 
@@ -34,25 +34,20 @@ bool Run(const morph::Mesh& mesh, const morph::Points& reference,
   Adapt(repair);
   repair.setReference(pieces.extend(reference));
   repair.prepare(pieces.mesh(), pieces.extend(partition), preparing);
-  morph::Points points = moved;
   for (int round = 0; round < Rounds && left > 0; ++round)
   {
     morph::ProgressRange part(
       monitor, 0.3 + 0.7 * round / Rounds, 0.3 + 0.7 * (round + 1) / Rounds);
-    morph::Points all = pieces.extend(points);
+    morph::Points all = pieces.extend(moved);
     repair.repair(all, part);
     morph::Points repaired = all.topRows(moved.rows());
-    if (repaired == points)
+    const std::size_t now = bad(repaired);
+    if (now >= left)
     {
-      break;
+      break; // what is left cannot be mended
     }
-    points = std::move(repaired);
-    const std::size_t now = bad(points);
-    if (now < left)
-    {
-      left = now;
-      moved = points;
-    }
+    left = now;
+    moved = std::move(repaired);
   }
   return left == 0;
 }

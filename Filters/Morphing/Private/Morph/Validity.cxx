@@ -331,8 +331,7 @@ Validity::Outcome Validity::Ensure(morph::Points& moved, morph::Monitor& monitor
       outcome.Warning =
         this->Found(quality, moved) + "The output Bad cells holds them all. " +
         (this->IsInversionFree
-            ? "Move the boundary less, or in relative steps; another InitialGuess or TargetShape "
-              "may do."
+            ? "Move the boundary less, or in relative steps."
             : "Morph Inversion Free, or Validity set to Repair, keeps cells valid.");
       break;
     default:
