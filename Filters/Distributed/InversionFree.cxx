@@ -151,8 +151,8 @@ EvaluateReport InversionFree::displace(
     {
       Points improved = own.take(points) * this->scale_;
       const Points guide = improved;
-      outcome = this->improvement(hopeless)
-                  .run(guide, TargetConstruction::Stretched, false, improved, second);
+      outcome = this->improvement(hopeless).run(
+        guide, TargetConstruction::Stretched, false, improved, second);
       points(own.nodes(), allColumns) = improved / this->scale_;
     });
   free = points(this->ownFree(), allColumns) - rest(this->ownFree(), allColumns);

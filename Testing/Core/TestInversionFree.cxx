@@ -7,6 +7,7 @@
 #include "Morpher/IncrementalMorph.h"
 #include "Motions.h"
 #include "Quality/BoundaryDetermined.h"
+#include "Quality/MovableQuality.h"
 #include "Quality/ScaledJacobian.h"
 #include "Untangling/InversionFree.h"
 
@@ -229,6 +230,32 @@ TEST(InversionFree, CellsThatTheBoundaryInvertsAreNamedAndTheOthersMorphed)
   for (const std::string& warning : other.warnings)
   {
     EXPECT_NE(warning.find("The reference mesh has"), std::string::npos) << warning;
+  }
+}
+
+TEST(InversionFree, WhereTheBoundaryInvertsCellsTheOthersAreMended)
+{
+  for (const Mesh& mesh : { meshes::hexes(8, 4, 4), meshes::tets(8, 4, 4) })
+  {
+    // Steep waves invert cells inside, and two corners of the boundary their own ones.
+    const Points boundary = target(mesh,
+      [](const motions::Row& x)
+      {
+        const bool isPushed = x.norm() == 0 || (x - motions::Row(8, 0, 0)).norm() == 0;
+        return motions::Row(
+          waves(x) + (isPushed ? motions::Row(0, 1.5, 1.5) : motions::Row(0, 0, 0)));
+      });
+    InversionFree method;
+    const Morphed result = run(method, mesh, boundary);
+    const auto orientation = morph::cellSigns(mesh, morph::connectedComponents(mesh));
+    const std::vector<Index> hopeless =
+      morph::boundaryDeterminedInversions(mesh, method.partition(), orientation, result.moved);
+    ASSERT_FALSE(hopeless.empty());
+    meshes::ThreadedMonitor monitor;
+    EXPECT_EQ(morph::invertedCells(mesh, result.moved, orientation, monitor), hopeless);
+    const morph::MovableQuality others(
+      mesh, orientation, method.partition().free, morph::Communicator::alone(), hopeless);
+    EXPECT_GT(others.measure(result.moved, monitor).minimum, 0.05);
   }
 }
 

@@ -270,8 +270,7 @@ private:
     const MovableQuality::Result had = this->quality_;
     bool isWhole = false;
     double outside = 0;
-    Part part =
-      this->partAround(this->cellsBelow(*nth), this->rings() / 2, isWhole, outside);
+    Part part = this->partAround(this->cellsBelow(*nth), this->rings() / 2, isWhole, outside);
     this->way_ = NearWay;
     this->climb(part, 1, StepsOfRound / 2, true);
     this->take(part);
@@ -361,7 +360,7 @@ private:
   Monitor& monitor_;
   bool isOfTetrahedra_;
   MovableQuality::Result quality_;
-  Adjacency around_;            ///< cells round nodes
+  Adjacency around_; ///< cells round nodes
   double way_ = 1. / 2;
   MinimizerEffort effort_;
 };
