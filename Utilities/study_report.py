@@ -129,7 +129,8 @@ def _linear_table(records, steps):
         return []
     return (["## The inversion-free morph beside the linear methods", "",
              "Of the linear methods first that with the fewest inverted cells of its own at S_F, "
-             "and among those the highest minimum scaled Jacobian; then that with the largest t*.", ""]
+             "and among those the highest minimum scaled Jacobian; then that with the largest t*.",
+             ""]
             + _table(["series, surfaces", "inversion-free at S_F", "t*",
                       "best linear method at S_F", "longest-lived linear method, t*"],
                      sorted(rows)))

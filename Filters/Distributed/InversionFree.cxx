@@ -78,7 +78,6 @@ void InversionFree::doPrepare(Monitor& monitor)
 void InversionFree::findStart(const Points& target, const std::vector<Index>& hopeless,
   Points& points, EvaluateReport& report, Monitor& monitor) const
 {
-  const Points atRest = points;
   Points simplex;
   report.iterations += this->femWarp_.evaluate(target, points, monitor).iterations;
   if (this->simplexLinear_)
@@ -91,23 +90,9 @@ void InversionFree::findStart(const Points& target, const std::vector<Index>& ho
       const MovableQuality quality = this->improvement(hopeless).quality();
       const auto at = [&](const Points& start)
       { return quality.measure(this->own_->take(start) * this->scale_, monitor); };
-      MovableQuality::Result best = at(points);
-      const auto keepBetter = [&](const Points& start)
+      if (this->simplexLinear_ && at(points) < at(simplex))
       {
-        MovableQuality::Result result = at(start);
-        if (best < result)
-        {
-          best = std::move(result);
-          points = start;
-        }
-      };
-      if (this->simplexLinear_)
-      {
-        keepBetter(simplex);
-      }
-      if (best.inverted > 0)
-      {
-        keepBetter(atRest);
+        points = simplex;
       }
     });
 }
@@ -144,6 +129,7 @@ EvaluateReport InversionFree::displace(
       hopeless =
         boundaryDeterminedInversions(own.mesh(), own.partition(), own.orientation(), moved);
     });
+  const Points atRest = points;
   this->findStart(target, hopeless, points, guesses, first);
   MeshImprovement::Outcome outcome;
   own.communicator().run(
@@ -151,8 +137,14 @@ EvaluateReport InversionFree::displace(
     {
       Points improved = own.take(points) * this->scale_;
       const Points guide = improved;
-      outcome = this->improvement(hopeless)
-                  .run(guide, TargetConstruction::Stretched, false, improved, second);
+      const MeshImprovement improvement = this->improvement(hopeless);
+      outcome = improvement.run(guide, TargetConstruction::Stretched, false, improved, second);
+      const Points moved = own.take(atRest) * this->scale_;
+      const MovableQuality quality = improvement.quality();
+      if (!outcome.untangled && quality.measure(improved, second) < quality.measure(moved, second))
+      {
+        improved = moved;
+      }
       points(own.nodes(), allColumns) = improved / this->scale_;
     });
   free = points(this->ownFree(), allColumns) - rest(this->ownFree(), allColumns);

@@ -39,7 +39,7 @@ protected:
 
 private:
   MeshImprovement improvement(const std::vector<Index>& hopeless) const;
-  /// Replaces `points`, the undeformed mesh with its boundary moved, by the best of the starts.
+  /// Replaces `points` by the better of FEMWARP's mesh and the simplex-linear one.
   void findStart(const Points& target, const std::vector<Index>& hopeless, Points& points,
     EvaluateReport& report, Monitor& monitor) const;
 

@@ -7,6 +7,7 @@
 #include "Morpher/IncrementalMorph.h"
 #include "Motions.h"
 #include "Quality/BoundaryDetermined.h"
+#include "Quality/MovableQuality.h"
 #include "Quality/ScaledJacobian.h"
 #include "Untangling/InversionFree.h"
 
@@ -232,6 +233,32 @@ TEST(InversionFree, CellsThatTheBoundaryInvertsAreNamedAndTheOthersMorphed)
   }
 }
 
+TEST(InversionFree, WhereTheBoundaryInvertsCellsTheOthersAreMended)
+{
+  for (const Mesh& mesh : { meshes::hexes(8, 4, 4), meshes::tets(8, 4, 4) })
+  {
+    // Steep waves invert cells inside, and two corners of the boundary their own ones.
+    const Points boundary = target(mesh,
+      [](const motions::Row& x)
+      {
+        const bool isPushed = x.norm() == 0 || (x - motions::Row(8, 0, 0)).norm() == 0;
+        return motions::Row(
+          waves(x) + (isPushed ? motions::Row(0, 1.5, 1.5) : motions::Row(0, 0, 0)));
+      });
+    InversionFree method;
+    const Morphed result = run(method, mesh, boundary);
+    const auto orientation = morph::cellSigns(mesh, morph::connectedComponents(mesh));
+    const std::vector<Index> hopeless =
+      morph::boundaryDeterminedInversions(mesh, method.partition(), orientation, result.moved);
+    ASSERT_FALSE(hopeless.empty());
+    meshes::ThreadedMonitor monitor;
+    EXPECT_EQ(morph::invertedCells(mesh, result.moved, orientation, monitor), hopeless);
+    const morph::MovableQuality others(
+      mesh, orientation, method.partition().free, morph::Communicator::alone(), hopeless);
+    EXPECT_GT(others.measure(result.moved, monitor).minimum, 0.05);
+  }
+}
+
 TEST(InversionFree, CellsBehindAFoldOfTheBoundaryDoNotHoldUpTheOthers)
 {
   for (const Mesh& mesh :
@@ -357,7 +384,8 @@ TEST(InversionFree, ThreadsRenumberingRigidMotionAndScaleDoNotShow)
   {
     difference = std::max(difference, (moved.row(order[i]) - expected.row(i)).norm());
   }
-  EXPECT_LT(difference, 1e-3);
+  // Where the minimum is raised, steps end by tests that the order of sums can turn.
+  EXPECT_LT(difference, 2e-2);
 
   const double angle = 0.6, scale = 300;
   const motions::Map turn = [&](const motions::Row& x) -> motions::Row
@@ -369,7 +397,6 @@ TEST(InversionFree, ThreadsRenumberingRigidMotionAndScaleDoNotShow)
   turned.points = motions::mapped(mesh.points, turn);
   InversionFree rigid;
   const Morphed result = run(rigid, turned, motions::mapped(boundary, turn));
-  // Where the minimum is raised, steps end by tests that rounding can turn.
   EXPECT_LT(motions::difference(result.moved, motions::mapped(expected, turn)), 2e-2 * scale);
   EXPECT_NEAR(result.minimum, run(one, mesh, boundary).minimum, 2e-3);
 }

@@ -105,7 +105,8 @@ MORPH_SIMD_INLINE void distortion(const StiffenedDistortion::Bounds& bounds, dou
   const SimdDouble4 signedBound = widened(bounds.bound), zero = {};
   const SimdDouble4 bound = select(signedBound < 0., -signedBound, signedBound);
   const SimdDouble4 part = select(bound < floor, bound / (zero + floor), zero + 1.);
-  const SimdDouble4 ofValid = select(signedBound * det > 0., ideal * part * part * byD, zero + Infinity);
+  const SimdDouble4 ofValid =
+    select(signedBound * det > 0., ideal * part * part * byD, zero + Infinity);
   f = select(bound == 0., zero, ofValid);
 }
 

@@ -16,22 +16,23 @@ namespace morph
 ///   f = u^2 / D(c),  D = 1 + 2 c1 c2 c3 - c1^2 - c2^2 - c3^2,  u^2 = 1, 3/4 (wedge), 1/2 (tet)
 ///   energy = sum h(f),  h = ((1 - t f)^-2 - 1) / (2 t)
 ///
-/// A pyramid has the corners of the tetrahedra at its base corners, and u^2 = 1/4. h is a barrier: f stays below 1 / t, and raising t raises the minimum of s. D is the Gram
-/// determinant of unit edges, so log D is concave and h is convex in the cosines. Thus the
-/// Gauss-Newton matrix sum (dc/dx)^T (d2h/dc2) (dc/dx) is positive semi-definite. Source of the
-/// stiffening: Garanzha et al., ACM Trans. Graph. 43(1) (2024), arXiv 2201.12112, with the exponent
-/// 1 and another distortion.
+/// A pyramid has the corners of the tetrahedra at its base corners, and u^2 = 1/4. h is a barrier:
+/// f stays below 1 / t, and raising t raises the minimum of s. D is the Gram determinant of unit
+/// edges, so log D is concave and h is convex in the cosines. Thus the Gauss-Newton matrix sum
+/// (dc/dx)^T (d2h/dc2) (dc/dx) is positive semi-definite. Source of the stiffening: Garanzha et
+/// al., ACM Trans. Graph. 43(1) (2024), arXiv 2201.12112, with the exponent 1 and another
+/// distortion.
 ///
 /// Lengths have no part in f. Edges of cells that are not tetrahedra have limits: each corner edge
-/// of length l adds 2 ((c / l)^8 + (l / C)^8), where c is 1/5 and C five times the undeformed length
-/// in the scale of the cell's start. Where the start is beyond a limit, the limit gives way to 0.8
-/// of that length, or l / 0.8. Samples without a free node are left out. Not thread-safe.
+/// of length l adds 2 ((c / l)^8 + (l / C)^8), where c is 1/5 and C five times the undeformed
+/// length in the scale of the cell's start. Where the start is beyond a limit, the limit gives way
+/// to 0.8 of that length, or l / 0.8. Samples without a free node are left out. Not thread-safe.
 class StiffenedDistortion : public SecondOrderObjective
 {
 public:
-  /// `mesh`: the undeformed shapes; `orientation`: #cells; `cells`: ids of volume cells; `free`: ids
-  /// of the nodes that move, ascending; `start`: #nodes x 3, a mesh that the lengths' limits refer
-  /// to. Cost: a pass over the cells; 0.4 kB a hexahedron, 16 bytes a tetrahedron.
+  /// `mesh`: the undeformed shapes; `orientation`: #cells; `cells`: ids of volume cells; `free`:
+  /// ids of the nodes that move, ascending; `start`: #nodes x 3, a mesh that the lengths' limits
+  /// refer to. Cost: a pass over the cells; 0.4 kB a hexahedron, 16 bytes a tetrahedron.
   StiffenedDistortion(const Mesh& mesh, const std::vector<std::int8_t>& orientation,
     const std::vector<Index>& cells, const std::vector<Index>& free, const Points& start,
     const Communicator& communicator = Communicator::alone());

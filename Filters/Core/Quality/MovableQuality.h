@@ -21,8 +21,8 @@ class MovableQuality
 public:
   /// `orientation`: #cells, see cellSigns() in Topology.h; `free`: ids of the nodes that move,
   /// ascending. Holds all by reference, but `hopeless`: ids of cells that do not count, as no free
-  /// node can mend them. Cost: one pass over the cells. On several processes `mesh` has the cells of
-  /// this one, and all numbers but those of cells are those of the whole mesh.
+  /// node can mend them. Cost: one pass over the cells. On several processes `mesh` has the cells
+  /// of this one, and all numbers but those of cells are those of the whole mesh.
   MovableQuality(const Mesh& mesh, const std::vector<std::int8_t>& orientation,
     const std::vector<Index>& free, const Communicator& communicator = Communicator::alone(),
     const std::vector<Index>& hopeless = {});

@@ -7,7 +7,8 @@
 namespace morph
 {
 /// Minimises a mesh's foldover-free energy by continuation in its regularisation. Source: Garanzha
-/// et al., ACM Trans. Graph. 40(4) (2021), arXiv 2102.03069. `points`: #nodes x 3, start and result.
+/// et al., ACM Trans. Graph. 40(4) (2021), arXiv 2102.03069. `points`: #nodes x 3, start and
+/// result.
 class FoldoverContinuation
 {
 public:
@@ -20,10 +21,10 @@ public:
   }
 
   /// Lowers the regularisation in at most `stages` stages, until no tetrahedron is inverted. Gives
-  /// up after ten successive stages without progress, or three that have not lowered their energy by
-  /// 1 % either, which soon ends it if the boundary admits no valid mesh. Progress means fewer
-  /// inverted tetrahedra, or a minimum determinant raised by 5 %. Returns whether all tetrahedra are
-  /// positive.
+  /// up after ten successive stages without progress, or three that have not lowered their energy
+  /// by 1 % either, which soon ends it if the boundary admits no valid mesh. Progress means fewer
+  /// inverted tetrahedra, or a minimum determinant raised by 5 %. Returns whether all tetrahedra
+  /// are positive.
   bool untangle(Points& points, Monitor& monitor, int stages = 60);
 
   const MinimizerEffort& effort() const { return this->effort_; }

@@ -126,14 +126,11 @@ TargetConstruction InversionFree::findStart(const Points& boundary, const Movabl
   {
     keepBetter(this->moved(this->simplexLinear_, boundary, report, second));
   }
-  if (best.inverted > 0)
-  {
-    keepBetter(atRest);
-  }
   if (this->validAtRest_)
   {
     return TargetConstruction::Stretched;
   }
+  keepBetter(atRest);
   // Where it is the better start, the undeformed shapes are worth nothing.
   return keepBetter(graphLaplaceMesh(this->referenceMesh_, this->partition(), atRest, monitor))
            ? TargetConstruction::IdealSkew
@@ -171,11 +168,17 @@ EvaluateReport InversionFree::displace(
     boundaryDeterminedInversions(this->referenceMesh_, partition, this->orientation_, points);
 
   EvaluateReport guesses;
+  const Points atRest = points;
   const MeshImprovement improvement = this->improvement(hopeless);
   const TargetConstruction target =
     this->findStart(boundary, improvement.quality(), points, guesses, monitor);
   const Points guide = points;
   const MeshImprovement::Outcome outcome = improvement.run(guide, target, false, points, monitor);
+  if (!outcome.untangled && improvement.quality().measure(points, monitor) <
+                              improvement.quality().measure(atRest, monitor))
+  {
+    points = atRest;
+  }
   for (Index i = 0; i < free.rows(); ++i)
   {
     const Index node = partition.free[i];

@@ -50,10 +50,10 @@ public:
     std::vector<Index> onFolds; ///< inverted cells on folded faces of the boundary
     MinimizerEffort effort;
   };
-  /// Improves `points`, #nodes x 3. The result has no more inverted cells or, with as many, no lower
-  /// minimum. `guide`: #nodes x 3, gives the targets' edge lengths. `target`: with which it is
-  /// untangled; where that fails and the undeformed mesh is tangled, IdealSkew is next. `isRepair`: raises the minimum within ten rings
-  /// of cells that were inverted alone.
+  /// Improves `points`, #nodes x 3. The result has no more inverted cells or, with as many, no
+  /// lower minimum. `guide`: #nodes x 3, gives the targets' edge lengths. `target`: with which it
+  /// is untangled; where that fails and the undeformed mesh is tangled, IdealSkew is next.
+  /// `isRepair`: raises the minimum within ten rings of cells that were inverted alone.
   Outcome run(const Points& guide, TargetConstruction target, bool isRepair, Points& points,
     Monitor& monitor) const;
 

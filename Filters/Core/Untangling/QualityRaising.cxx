@@ -17,9 +17,10 @@ namespace morph
 namespace
 {
 constexpr double NearBound = 2.5e-3; // a mesh within this part of the bound is left as it is
-// The barrier is at this part of the way to the worst sample. Where a step gains less than
-// WorthWhile, the rest of the way shrinks by Closing.
-constexpr double FirstLevel = 0.85, LastLevel = 0.99, Closing = 0.7;
+// The barrier leaves the worst sample a way, relative to its distortion. A step goes half of it. A
+// way above NearWay shrinks by Closing where a step has gained less, other ways where it gains less
+// than WorthWhile.
+constexpr double NearWay = 0.15, LastWay = 0.01, Closing = 0.7;
 constexpr int StepsOfRound = 12; // on a part of the mesh
 // A search ends where this many steps, or a round, gain less than this.
 constexpr int Patience = 4;
@@ -202,7 +203,7 @@ private:
     double outside = 0;
     Part part = this->partAround({}, 0, isWhole, outside);
     part.objective.setLevel(
-      FirstLevel / part.objective.evaluate(part.points, this->monitor_).largest);
+      (1 - NearWay) / part.objective.evaluate(part.points, this->monitor_).largest);
     MinimizerLimits limits;
     limits.steps = StepsOfRound / 2;
     BlockCsr3f matrix;
@@ -269,9 +270,8 @@ private:
     const MovableQuality::Result had = this->quality_;
     bool isWhole = false;
     double outside = 0;
-    Part part =
-      this->partAround(this->cellsBelow(*nth), this->rings() / 2, isWhole, outside);
-    this->way_ = 1 - FirstLevel;
+    Part part = this->partAround(this->cellsBelow(*nth), this->rings() / 2, isWhole, outside);
+    this->way_ = NearWay;
     this->climb(part, 1, StepsOfRound / 2, true);
     this->take(part);
     this->steps_ = static_cast<int>(this->effort_.steps) + StepsOfRound;
@@ -340,7 +340,9 @@ private:
         best = least;
         part.points = x;
       }
-      way = gain < WorthWhile ? std::max(1 - LastLevel, Closing * way) : way;
+      // The minimum's part of half of the way: f = 1 / s^2.
+      const double expected = way > NearWay ? way / 4 : WorthWhile;
+      way = gain < expected ? std::max(LastWay, Closing * way) : way;
       if (aboveBounds && gain < WorthWhile)
       {
         break;
@@ -358,8 +360,8 @@ private:
   Monitor& monitor_;
   bool isOfTetrahedra_;
   MovableQuality::Result quality_;
-  Adjacency around_;            ///< cells round nodes
-  double way_ = 1 - FirstLevel; ///< from the barrier to the worst sample
+  Adjacency around_; ///< cells round nodes
+  double way_ = 1. / 2;
   MinimizerEffort effort_;
 };
 }
