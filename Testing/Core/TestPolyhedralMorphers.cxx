@@ -138,7 +138,7 @@ TEST(PolyhedralMorphers, WhatIsMeasuredIsWhatIsMinimized)
   const auto make = []
   {
     auto method = std::make_unique<InversionFree>();
-    method->setRaising(false);
+    method->setSteps(0);
     return method;
   };
   EXPECT_EQ(inverted(morphed(make, mesh, partition, target)), 0);
