@@ -251,8 +251,8 @@ TEST_P(PolyhedronRanges, AreThoseOfBisection)
         EXPECT_FALSE(problem.isValid(sign * (found + 1e-7))) << found;
       }
       ++ends;
-      measured += problem.isMeasuredValid(sign * .8 * found) &&
-                  !problem.isMeasuredValid(sign * 1.2 * found);
+      measured +=
+        problem.isMeasuredValid(sign * .8 * found) && !problem.isMeasuredValid(sign * 1.2 * found);
     }
     EXPECT_EQ(range.lowestCell >= 0, std::isfinite(range.lowest));
     EXPECT_EQ(range.highestCell >= 0, std::isfinite(range.highest));
