@@ -2,6 +2,7 @@
 #include "BoundaryMorphing/BoundaryProjection.h"
 
 #include "Boundary/FaceQuality.h"
+#include "Support/Parallel.h"
 
 #include <algorithm>
 #include <iterator>
@@ -39,17 +40,14 @@ ProjectionReport moveTo(
 {
   const Points before = motion.moved();
   std::vector<std::uint8_t> found(ids.size(), 0);
-  monitor.parallelFor(static_cast<Index>(ids.size()), 256,
-    [&](Index first, Index last)
+  parallel(static_cast<Index>(ids.size()), 256, monitor,
+    [&](Index i)
     {
-      for (Index i = first; i < last; ++i)
+      Eigen::RowVector3d to;
+      if (search(ids[i], Eigen::RowVector3d(before.row(ids[i])), to) && to.allFinite())
       {
-        Eigen::RowVector3d to;
-        if (search(ids[i], Eigen::RowVector3d(before.row(ids[i])), to) && to.allFinite())
-        {
-          motion.displacement.row(ids[i]) = to - motion.rest.row(ids[i]);
-          found[i] = 1;
-        }
+        motion.displacement.row(ids[i]) = to - motion.rest.row(ids[i]);
+        found[i] = 1;
       }
     });
   monitor.check();
@@ -210,21 +208,18 @@ private:
   void place(const std::vector<Index>& nodes, const Wanted& wanted)
   {
     std::vector<std::uint8_t> found(nodes.size(), 0);
-    this->monitor_.parallelFor(static_cast<Index>(nodes.size()), 64,
-      [&](Index first, Index last)
+    parallel(static_cast<Index>(nodes.size()), 64, this->monitor_,
+      [&](Index i)
       {
-        for (Index i = first; i < last; ++i)
+        const Index node = nodes[i];
+        Eigen::RowVector3d to;
+        if (this->target_.closestOnSurface(
+              this->geometry_.entity[node], wanted(node), this->normals_.row(node), to) &&
+            to.allFinite())
         {
-          const Index node = nodes[i];
-          Eigen::RowVector3d to;
-          if (this->target_.closestOnSurface(
-                this->geometry_.entity[node], wanted(node), this->normals_.row(node), to) &&
-              to.allFinite())
-          {
-            this->motion_.displacement.row(node) = to - this->motion_.rest.row(node);
-            this->wasMoved_[node] = 1;
-            found[i] = 1;
-          }
+          this->motion_.displacement.row(node) = to - this->motion_.rest.row(node);
+          this->wasMoved_[node] = 1;
+          found[i] = 1;
         }
       });
     for (std::size_t i = 0; i < nodes.size(); ++i)

@@ -4,6 +4,7 @@
 #include "Geometry/NearestNodes.h"
 #include "Interpolation/InverseDistanceWeights.h"
 #include "Support/Error.h"
+#include "Support/Parallel.h"
 
 #include <cmath>
 #include <numeric>
@@ -27,14 +28,8 @@ std::vector<double> distances(const Points& nodes, const Points& places, Monitor
 {
   std::vector<double> result(places.rows());
   const NearestNodes nearest(nodes);
-  monitor.parallelFor(places.rows(), Grain,
-    [&](Index first, Index last)
-    {
-      for (Index i = first; i < last; ++i)
-      {
-        result[i] = nearest.distance(places.row(i));
-      }
-    });
+  parallel(
+    places.rows(), Grain, monitor, [&](Index i) { result[i] = nearest.distance(places.row(i)); });
   return result;
 }
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "BoundaryMorphing/LatticeMotion.h"
 
+#include "Support/Parallel.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -129,14 +131,7 @@ Points LatticeMotion::displacements(const Points& places, Monitor& monitor) cons
     }
     result.row(node) = sum;
   };
-  monitor.parallelFor(places.rows(), Grain,
-    [&](Index first, Index last)
-    {
-      for (Index node = first; node < last; ++node)
-      {
-        move(node);
-      }
-    });
+  parallel(places.rows(), Grain, monitor, [&](Index node) { move(node); });
   return result;
 }
 }

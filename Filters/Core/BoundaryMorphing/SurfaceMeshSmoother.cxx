@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "BoundaryMorphing/SurfaceMeshSmoother.h"
 
+#include "Support/Parallel.h"
+
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
@@ -216,23 +218,20 @@ void SurfaceMeshSmoother::setPlanes(FaceEnergy& energy, const Points& points)
 bool SurfaceMeshSmoother::project(Points& points)
 {
   std::atomic<bool> all{ true };
-  this->monitor_.parallelFor(static_cast<Index>(this->free_.size()), 64,
-    [&](Index first, Index last)
+  parallel(static_cast<Index>(this->free_.size()), 64, this->monitor_,
+    [&](Index i)
     {
-      for (Index i = first; i < last; ++i)
+      const Row x = points.row(this->free_[i]);
+      Row y = x;
+      if (!this->target_)
       {
-        const Row x = points.row(this->free_[i]);
-        Row y = x;
-        if (!this->target_)
-        {
-          y = this->shape_->closest(x, this->triangle_[i]);
-        }
-        else if (!this->target_->closestOnSurface(this->surface_, x, Row(this->normals_.row(i)), y))
-        {
-          all = false;
-        }
-        points.row(this->free_[i]) = y;
+        y = this->shape_->closest(x, this->triangle_[i]);
       }
+      else if (!this->target_->closestOnSurface(this->surface_, x, Row(this->normals_.row(i)), y))
+      {
+        all = false;
+      }
+      points.row(this->free_[i]) = y;
     });
   return all && points.allFinite();
 }

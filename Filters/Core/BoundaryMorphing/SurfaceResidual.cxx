@@ -4,6 +4,7 @@
 #include "Boundary/SurfaceEdges.h"
 #include "Interpolation/InverseDistanceWeights.h"
 #include "Support/Error.h"
+#include "Support/Parallel.h"
 
 #include <Eigen/Dense>
 
@@ -230,14 +231,8 @@ Points SurfaceResidual::spread(const Map& map, Points residual, Monitor& monitor
   }
   Points displacement;
   this->weights_.multiply(residual, displacement, monitor);
-  monitor.parallelFor(displacement.rows(), Grain,
-    [&](Index first, Index last)
-    {
-      for (Index i = first; i < last; ++i)
-      {
-        displacement.row(i) += map.displacement(this->points_.row(i));
-      }
-    });
+  parallel(displacement.rows(), Grain, monitor,
+    [&](Index i) { displacement.row(i) += map.displacement(this->points_.row(i)); });
   return displacement;
 }
 

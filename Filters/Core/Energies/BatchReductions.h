@@ -4,6 +4,7 @@
 #include "Energies/CellBatches.h"
 #include "Mesh/GatherMap.h"
 #include "Support/Monitor.h"
+#include "Support/Parallel.h"
 #include "Support/Simd.h"
 
 #include <algorithm>
@@ -23,14 +24,8 @@ Sum sumOfBlocks(const CellBatches& batches, Monitor& monitor, const Body& body)
   const Index count = batches.size();
   const Index blocks = (count + BatchGrain - 1) / BatchGrain;
   std::vector<Sum> part(blocks);
-  monitor.parallelFor(blocks, BlockGrain,
-    [&](Index first, Index last)
-    {
-      for (Index b = first; b < last; ++b)
-      {
-        body(b * BatchGrain, std::min(count, (b + 1) * BatchGrain), part[b]);
-      }
-    });
+  parallel(blocks, BlockGrain, monitor,
+    [&](Index b) { body(b * BatchGrain, std::min(count, (b + 1) * BatchGrain), part[b]); });
   Sum sum{};
   for (const Sum& p : part)
   {

@@ -2,6 +2,7 @@
 #include "Energies/FaceEnergy.h"
 
 #include "Mesh/GatherMap.h"
+#include "Support/Parallel.h"
 #include "Support/ReproducibleSum.h"
 
 #include <Eigen/Geometry>
@@ -85,20 +86,17 @@ void FaceEnergy::gradient(const Points& points, Points& result, Monitor& monitor
 {
   const Index corners = static_cast<Index>(this->corners_.size());
   this->parts_.resize(3 * corners, 3);
-  monitor.parallelFor(corners, Grain,
-    [&](Index first, Index last)
+  parallel(corners, Grain, monitor,
+    [&](Index c)
     {
-      for (Index c = first; c < last; ++c)
-      {
-        Eigen::Matrix2d slope;
-        this->density_.gradient(this->jacobian(c, points), slope);
-        const FaceCorner& own = this->corners_[c];
-        const Eigen::Matrix<double, 3, 2> force =
-          own.weight * this->planes_[c] * slope * own.inverse.transpose();
-        this->parts_.row(3 * c) = -force.rowwise().sum().transpose();
-        this->parts_.row(3 * c + 1) = force.col(0).transpose();
-        this->parts_.row(3 * c + 2) = force.col(1).transpose();
-      }
+      Eigen::Matrix2d slope;
+      this->density_.gradient(this->jacobian(c, points), slope);
+      const FaceCorner& own = this->corners_[c];
+      const Eigen::Matrix<double, 3, 2> force =
+        own.weight * this->planes_[c] * slope * own.inverse.transpose();
+      this->parts_.row(3 * c) = -force.rowwise().sum().transpose();
+      this->parts_.row(3 * c + 1) = force.col(0).transpose();
+      this->parts_.row(3 * c + 2) = force.col(1).transpose();
     });
   gatherSum(this->uses_, this->parts_, result, monitor);
   for (Index i = 0; i < result.rows(); ++i)
@@ -157,29 +155,25 @@ void FaceEnergy::hessian(const Points& points, BlockCsr3f& result, Monitor& moni
   const Index corners = static_cast<Index>(this->corners_.size());
   // By the corner's two edges in its plane: the first edge's two entries, then the second's.
   std::vector<FaceDensity::Hessian> ofEdges(corners);
-  monitor.parallelFor(corners, Grain,
-    [&](Index first, Index last)
+  parallel(corners, Grain, monitor,
+    [&](Index c)
     {
-      for (Index c = first; c < last; ++c)
+      const FaceCorner& own = this->corners_[c];
+      const FaceDensity::Hessian H = own.weight * this->density_.hessian(this->jacobian(c, points));
+      FaceDensity::Hessian& edges = ofEdges[c];
+      for (int a = 0; a < 2; ++a)
       {
-        const FaceCorner& own = this->corners_[c];
-        const FaceDensity::Hessian H =
-          own.weight * this->density_.hessian(this->jacobian(c, points));
-        FaceDensity::Hessian& edges = ofEdges[c];
-        for (int a = 0; a < 2; ++a)
+        for (int b = 0; b < 2; ++b)
         {
-          for (int b = 0; b < 2; ++b)
+          Eigen::Matrix2d sum = Eigen::Matrix2d::Zero();
+          for (int k = 0; k < 2; ++k)
           {
-            Eigen::Matrix2d sum = Eigen::Matrix2d::Zero();
-            for (int k = 0; k < 2; ++k)
+            for (int l = 0; l < 2; ++l)
             {
-              for (int l = 0; l < 2; ++l)
-              {
-                sum += own.inverse(a, k) * own.inverse(b, l) * H.block<2, 2>(2 * k, 2 * l);
-              }
+              sum += own.inverse(a, k) * own.inverse(b, l) * H.block<2, 2>(2 * k, 2 * l);
             }
-            edges.block<2, 2>(2 * a, 2 * b) = sum;
           }
+          edges.block<2, 2>(2 * a, 2 * b) = sum;
         }
       }
     });
@@ -188,38 +182,35 @@ void FaceEnergy::hessian(const Points& points, BlockCsr3f& result, Monitor& moni
     const Eigen::RowVector3d normal = this->normals_.row(row);
     return Plane(plane - normal.transpose() * (normal * plane));
   };
-  monitor.parallelFor(result.rows(), Grain,
-    [&](Index firstRow, Index lastRow)
+  parallel(result.rows(), Grain, monitor,
+    [&](Index row)
     {
-      for (Index row = firstRow; row < lastRow; ++row)
+      const std::uint16_t* place = result.places(row);
+      for (const Index* use = this->uses_.begin(row); use != this->uses_.end(row); ++use)
       {
-        const std::uint16_t* place = result.places(row);
-        for (const Index* use = this->uses_.begin(row); use != this->uses_.end(row); ++use)
+        const Index c = *use / 3, own = *use % 3;
+        const Plane left = tangential(row, this->planes_[c]);
+        for (Index other = 0; other < 3; ++other, ++place)
         {
-          const Index c = *use / 3, own = *use % 3;
-          const Plane left = tangential(row, this->planes_[c]);
-          for (Index other = 0; other < 3; ++other, ++place)
+          if (*place == NoPlace)
           {
-            if (*place == NoPlace)
-            {
-              continue;
-            }
-            Eigen::Matrix2d sum = Eigen::Matrix2d::Zero();
-            for (int a = 0; a < 2; ++a)
-            {
-              for (int b = 0; b < 2; ++b)
-              {
-                sum +=
-                  EdgeOfNode[own][a] * EdgeOfNode[other][b] * ofEdges[c].block<2, 2>(2 * a, 2 * b);
-              }
-            }
-            const Plane right = tangential(this->rowAt(3 * c + other), this->planes_[c]);
-            Eigen::Map<Eigen::Matrix3f> block(result.blocks(row) + 9 * static_cast<Index>(*place));
-            block += (left * sum * right.transpose()).cast<float>();
+            continue;
           }
+          Eigen::Matrix2d sum = Eigen::Matrix2d::Zero();
+          for (int a = 0; a < 2; ++a)
+          {
+            for (int b = 0; b < 2; ++b)
+            {
+              sum +=
+                EdgeOfNode[own][a] * EdgeOfNode[other][b] * ofEdges[c].block<2, 2>(2 * a, 2 * b);
+            }
+          }
+          const Plane right = tangential(this->rowAt(3 * c + other), this->planes_[c]);
+          Eigen::Map<Eigen::Matrix3f> block(result.blocks(row) + 9 * static_cast<Index>(*place));
+          block += (left * sum * right.transpose()).cast<float>();
         }
-        this->addAlongNormal(row, result);
       }
+      this->addAlongNormal(row, result);
     });
 }
 }

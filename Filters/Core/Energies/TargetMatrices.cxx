@@ -3,6 +3,7 @@
 
 #include "Mesh/SimplicialDecomposition.h"
 #include "Quality/ScaledJacobian.h"
+#include "Support/Parallel.h"
 #include "Support/ReproducibleSum.h"
 
 #include <Eigen/Geometry>
@@ -292,44 +293,41 @@ TargetMatrices targetMatrices(const Mesh& rest, const std::vector<std::int8_t>& 
   }();
   const Adjacency around = allValid ? Adjacency() : nodeToCells(rest);
 
-  monitor.parallelFor(cells, Grain,
-    [&](Index first, Index last)
+  parallel(cells, Grain, monitor,
+    [&](Index c)
     {
-      for (Index c = first; c < last; ++c)
+      if (!isVolume(rest, c))
       {
-        if (!isVolume(rest, c))
+        return;
+      }
+      const Shape shape = cellShape(rest, c)->shape;
+      const double sign = orientation[c];
+      CellCorners x;
+      const CellCorners at = cornersOf(rest, c, guide);
+      // Ideal targets take nothing from the undeformed cell.
+      if (valid[c] ||
+          (target == TargetConstruction::IdealSkew && (lengths(shape, at).array() > 0).all()))
+      {
+        x = targetOf(shape, cornersOf(rest, c, rest.points), at, sign, target);
+      }
+      else
+      {
+        x = idealShape(shape, lengthsAround(rest, around, valid, c));
+        x.row(0) *= sign;
+      }
+      const SimplicialDecomposition parts = simplicialDecomposition(shape);
+      const double mean = meanVolume(parts, x), least = LeastVolume * mean;
+      const double unit = weights == CellWeights::Volume ? 1 : mean;
+      result.factor[c] = sign / (6 * unit);
+      const Index corner = result.start[c];
+      std::copy(x.data(), x.data() + 3 * (result.start[c + 1] - corner),
+        result.corners.data() + 3 * corner);
+      for (int t = 0; t < parts.count; ++t)
+      {
+        const double volume = sign * edges(parts.tets[t], x).determinant() / 6;
+        if (volume > (t < cornerTetrahedra(shape) ? 0 : least))
         {
-          continue;
-        }
-        const Shape shape = cellShape(rest, c)->shape;
-        const double sign = orientation[c];
-        CellCorners x;
-        const CellCorners at = cornersOf(rest, c, guide);
-        // Ideal targets take nothing from the undeformed cell.
-        if (valid[c] ||
-            (target == TargetConstruction::IdealSkew && (lengths(shape, at).array() > 0).all()))
-        {
-          x = targetOf(shape, cornersOf(rest, c, rest.points), at, sign, target);
-        }
-        else
-        {
-          x = idealShape(shape, lengthsAround(rest, around, valid, c));
-          x.row(0) *= sign;
-        }
-        const SimplicialDecomposition parts = simplicialDecomposition(shape);
-        const double mean = meanVolume(parts, x), least = LeastVolume * mean;
-        const double unit = weights == CellWeights::Volume ? 1 : mean;
-        result.factor[c] = sign / (6 * unit);
-        const Index corner = result.start[c];
-        std::copy(x.data(), x.data() + 3 * (result.start[c + 1] - corner),
-          result.corners.data() + 3 * corner);
-        for (int t = 0; t < parts.count; ++t)
-        {
-          const double volume = sign * edges(parts.tets[t], x).determinant() / 6;
-          if (volume > (t < cornerTetrahedra(shape) ? 0 : least))
-          {
-            result.included[c] |= 1u << t;
-          }
+          result.included[c] |= 1u << t;
         }
       }
     });

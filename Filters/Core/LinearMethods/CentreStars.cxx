@@ -3,6 +3,7 @@
 
 #include "Mesh/CellShape.h"
 #include "Mesh/GatherMap.h"
+#include "Support/Parallel.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -172,19 +173,16 @@ void setCentres(const std::vector<int>& centres, const std::vector<Index>& offse
   Columns& free, Monitor& monitor)
 {
   const Columns& known = free;
-  monitor.parallelFor(static_cast<Index>(centres.size()), Grain,
-    [&](Index first, Index last)
+  parallel(static_cast<Index>(centres.size()), Grain, monitor,
+    [&](Index s)
     {
-      for (Index s = first; s < last; ++s)
+      auto mean = Eigen::Matrix<double, 1, Columns::ColsAtCompileTime>::Zero().eval();
+      for (Index k = offsets[s]; k < offsets[s + 1]; ++k)
       {
-        auto mean = Eigen::Matrix<double, 1, Columns::ColsAtCompileTime>::Zero().eval();
-        for (Index k = offsets[s]; k < offsets[s + 1]; ++k)
-        {
-          const int at = places[k];
-          mean += weights[k] * (at >= 0 ? known.row(at) : prescribed.row(-1 - at));
-        }
-        free.row(centres[s]) = mean;
+        const int at = places[k];
+        mean += weights[k] * (at >= 0 ? known.row(at) : prescribed.row(-1 - at));
       }
+      free.row(centres[s]) = mean;
     });
 }
 }

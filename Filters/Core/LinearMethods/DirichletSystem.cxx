@@ -3,6 +3,7 @@
 
 #include "Mesh/UnknownOrdering.h"
 #include "Support/Error.h"
+#include "Support/Parallel.h"
 
 #include <algorithm>
 #include <cmath>
@@ -113,21 +114,18 @@ void AffineGuess::takeOff(const Points& points, const NodePartition& partition,
   rhs.resize(x.size());
   fitted.assign(x.size(), MultiVectorRow::Zero());
   fitted.swap(x);
-  monitor.parallelFor(coupling.rows(), Grain,
-    [&](Index first, Index last)
+  parallel(coupling.rows(), Grain, monitor,
+    [&](Index i)
     {
-      for (Index i = first; i < last; ++i)
+      const int component = this->component(i);
+      MultiVectorRow sum = MultiVectorRow::Zero();
+      for (CsrMatrix::InnerIterator entry(coupling, static_cast<int>(i)); entry; ++entry)
       {
-        const int component = this->component(i);
-        MultiVectorRow sum = MultiVectorRow::Zero();
-        for (CsrMatrix::InnerIterator entry(coupling, static_cast<int>(i)); entry; ++entry)
-        {
-          const Index node = partition.prescribed[entry.col()];
-          sum -= entry.value() *
-                 (prescribed[entry.col()] - fits.displacement(component, points.row(node)));
-        }
-        rhs[i] = sum;
+        const Index node = partition.prescribed[entry.col()];
+        sum -= entry.value() *
+               (prescribed[entry.col()] - fits.displacement(component, points.row(node)));
       }
+      rhs[i] = sum;
     });
 }
 
@@ -175,14 +173,8 @@ void firstGuess(const Points& points, const std::vector<Index>& rows, const Affi
   const AffineGuess::Fits& fits, MultiVector& x, Monitor& monitor)
 {
   x.resize(rows.size());
-  monitor.parallelFor(static_cast<Index>(rows.size()), Grain,
-    [&](Index first, Index last)
-    {
-      for (Index i = first; i < last; ++i)
-      {
-        x[i] = fits.displacement(guess.component(i), points.row(rows[i]));
-      }
-    });
+  parallel(static_cast<Index>(rows.size()), Grain, monitor,
+    [&](Index i) { x[i] = fits.displacement(guess.component(i), points.row(rows[i])); });
 }
 
 double AffineResidual::of(const DirichletEquations& equations, Monitor& monitor) const
@@ -231,37 +223,34 @@ double affineResidual(const Points& points, const std::vector<Index>& rows,
 {
   const auto count = static_cast<Index>(rows.size());
   std::vector<double> part(static_cast<std::size_t>((count + Grain - 1) / Grain), 0);
-  monitor.parallelFor(static_cast<Index>(part.size()), 1,
-    [&](Index firstPart, Index lastPart)
+  parallel(static_cast<Index>(part.size()), 1, monitor,
+    [&](Index p)
     {
-      for (Index p = firstPart; p < lastPart; ++p)
+      for (Index i = p * Grain; i < std::min(count, (p + 1) * Grain); ++i)
       {
-        for (Index i = p * Grain; i < std::min(count, (p + 1) * Grain); ++i)
+        // The motions 1 and x: constants, and coordinates about the row's own node.
+        const Eigen::RowVector3d centre = points.row(rows[i]);
+        Eigen::Array4d sum = Eigen::Array4d::Zero(), size = sum;
+        const auto add = [&](double value, Index node)
         {
-          // The motions 1 and x: constants, and coordinates about the row's own node.
-          const Eigen::RowVector3d centre = points.row(rows[i]);
-          Eigen::Array4d sum = Eigen::Array4d::Zero(), size = sum;
-          const auto add = [&](double value, Index node)
-          {
-            Eigen::Array4d term;
-            term << value, value * (points.row(node) - centre).transpose().array();
-            sum += term;
-            size += term.abs();
-          };
-          for (CsrMatrix::InnerIterator entry(interior, i); entry; ++entry)
-          {
-            add(entry.value(), rows[entry.col()]);
-          }
-          for (CsrMatrix::InnerIterator entry(coupling, static_cast<int>(i)); entry; ++entry)
-          {
-            add(entry.value(), partition.prescribed[entry.col()]);
-          }
-          const double scale = size.tail<3>().maxCoeff();
-          const double missed = std::max(
-            std::abs(sum[0]) / size[0], scale > 0 ? sum.tail<3>().abs().maxCoeff() / scale : 0.);
-          part[p] = std::isfinite(missed) ? std::max(part[p], missed)
-                                          : std::numeric_limits<double>::infinity();
+          Eigen::Array4d term;
+          term << value, value * (points.row(node) - centre).transpose().array();
+          sum += term;
+          size += term.abs();
+        };
+        for (CsrMatrix::InnerIterator entry(interior, i); entry; ++entry)
+        {
+          add(entry.value(), rows[entry.col()]);
         }
+        for (CsrMatrix::InnerIterator entry(coupling, static_cast<int>(i)); entry; ++entry)
+        {
+          add(entry.value(), partition.prescribed[entry.col()]);
+        }
+        const double scale = size.tail<3>().maxCoeff();
+        const double missed = std::max(
+          std::abs(sum[0]) / size[0], scale > 0 ? sum.tail<3>().abs().maxCoeff() / scale : 0.);
+        part[p] = std::isfinite(missed) ? std::max(part[p], missed)
+                                        : std::numeric_limits<double>::infinity();
       }
     });
   return part.empty() ? 0 : *std::max_element(part.begin(), part.end());
@@ -283,14 +272,11 @@ template <typename Columns>
 void copyBack(const MultiVector& x, const std::vector<Index>& rows, const NodePartition& partition,
   Columns& free, Monitor& monitor)
 {
-  monitor.parallelFor(static_cast<Index>(x.size()), Grain,
-    [&](Index first, Index last)
+  parallel(static_cast<Index>(x.size()), Grain, monitor,
+    [&](Index i)
     {
-      for (Index i = first; i < last; ++i)
-      {
-        free.row(indexInFree(rows, partition.free, i)) =
-          x[i].template head<Columns::ColsAtCompileTime>().transpose();
-      }
+      free.row(indexInFree(rows, partition.free, i)) =
+        x[i].template head<Columns::ColsAtCompileTime>().transpose();
     });
 }
 }

@@ -5,6 +5,7 @@
 #include "Interpolation/AffineWeights.h"
 #include "Interpolation/PointLocation.h"
 #include "Support/Error.h"
+#include "Support/Parallel.h"
 #include "Support/ReproducibleSum.h"
 
 #include <algorithm>
@@ -97,17 +98,14 @@ void fillWeights(const Delaunay& delaunay, const PointLocation& enclosing,
     std::partial_sum(offsets.begin(), offsets.end(), offsets.begin());
     weights.open(delaunay.sites().rows(), std::move(offsets));
   }
-  monitor.parallelFor(rows, Grain,
-    [&](Index first, Index last)
+  parallel(rows, Grain, monitor,
+    [&](Index row)
     {
-      for (Index row = first; row < last; ++row)
+      const auto& sites = delaunay.tetrahedra()[enclosing.tetrahedron[row]].sites;
+      if (enclosing.barycentric.row(row).cwiseAbs().maxCoeff() <= MostWeight)
       {
-        const auto& sites = delaunay.tetrahedra()[enclosing.tetrahedron[row]].sites;
-        if (enclosing.barycentric.row(row).cwiseAbs().maxCoeff() <= MostWeight)
-        {
-          std::copy(sites.begin(), sites.end(), weights.column(row));
-          std::copy_n(enclosing.barycentric.row(row).data(), 4, weights.weight(row));
-        }
+        std::copy(sites.begin(), sites.end(), weights.column(row));
+        std::copy_n(enclosing.barycentric.row(row).data(), 4, weights.weight(row));
       }
     });
   for (std::size_t i = 0; i < far.size(); ++i)

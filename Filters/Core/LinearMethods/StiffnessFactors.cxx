@@ -5,6 +5,7 @@
 #include "Mesh/CellShape.h"
 #include "Mesh/SimplicialDecomposition.h"
 #include "Support/Error.h"
+#include "Support/Parallel.h"
 
 #include <algorithm>
 #include <cmath>
@@ -31,15 +32,12 @@ template <typename Value>
 std::vector<double> ofCells(const Mesh& mesh, Monitor& monitor, const Value& value)
 {
   std::vector<double> result(mesh.numberOfCells(), 0);
-  monitor.parallelFor(mesh.numberOfCells(), Grain,
-    [&](Index first, Index last)
+  parallel(mesh.numberOfCells(), Grain, monitor,
+    [&](Index c)
     {
-      for (Index c = first; c < last; ++c)
+      if (isVolumeCell(mesh, c))
       {
-        if (isVolumeCell(mesh, c))
-        {
-          result[c] = value(c);
-        }
+        result[c] = value(c);
       }
     });
   return result;

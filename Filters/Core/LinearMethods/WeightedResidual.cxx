@@ -3,6 +3,7 @@
 
 #include "Interpolation/InverseDistanceWeights.h"
 #include "Support/Error.h"
+#include "Support/Parallel.h"
 
 #include <Eigen/LU>
 
@@ -67,14 +68,8 @@ EvaluateReport WeightedResidual::displace(
   }
   monitor.check();
   this->weights_.multiply(residual, free, monitor);
-  monitor.parallelFor(free.rows(), Grain,
-    [&](Index first, Index last)
-    {
-      for (Index i = first; i < last; ++i)
-      {
-        free.row(i) += fit.displacement(this->freePlaces_.row(i));
-      }
-    });
+  parallel(free.rows(), Grain, monitor,
+    [&](Index i) { free.row(i) += fit.displacement(this->freePlaces_.row(i)); });
   return this->report();
 }
 

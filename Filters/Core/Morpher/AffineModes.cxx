@@ -2,6 +2,7 @@
 #include "Morpher/AffineModes.h"
 
 #include "Support/Error.h"
+#include "Support/Parallel.h"
 
 #include <cmath>
 
@@ -9,7 +10,6 @@ namespace morph
 {
 namespace
 {
-constexpr Index Grain = 4096;
 }
 
 void AffineModes::prepare(const LinearMorpher& method, const AffineFields& fields, Monitor& monitor)
@@ -46,17 +46,14 @@ EvaluateReport AffineModes::evaluate(const LinearMorpher& method, const AffineMo
     throw Error("The affine modes are of another mesh or boundary: prepare them for this one.");
   }
   moved.resize(rest.rows(), 3);
-  monitor.parallelFor(rest.rows(), Grain,
-    [&](Index first, Index last)
+  parallel(rest.rows(), monitor,
+    [&](Index n)
     {
-      for (Index n = first; n < last; ++n)
+      const Eigen::RowVector3d displacement = affineDisplacement(motion, this->modes_.row(n));
+      for (int j = 0; j < 3; ++j)
       {
-        const Eigen::RowVector3d displacement = affineDisplacement(motion, this->modes_.row(n));
-        for (int j = 0; j < 3; ++j)
-        {
-          // Bit for bit where nothing moves: -0.0 + 0.0 would be 0.0.
-          moved(n, j) = displacement[j] != 0 ? rest(n, j) + displacement[j] : rest(n, j);
-        }
+        // Bit for bit where nothing moves: -0.0 + 0.0 would be 0.0.
+        moved(n, j) = displacement[j] != 0 ? rest(n, j) + displacement[j] : rest(n, j);
       }
     });
   moved(ids, allColumns) = prescribed;

@@ -3,6 +3,7 @@
 
 #include "Mesh/IndexLimits.h"
 #include "Support/Error.h"
+#include "Support/Parallel.h"
 #include "Support/ProgressRange.h"
 #include "Support/ReproducibleSum.h"
 
@@ -13,8 +14,6 @@ namespace morph
 {
 namespace
 {
-constexpr Index Grain = 4096;
-
 void requireRows(const char* what, Index rows, Index expected)
 {
   if (rows != expected)
@@ -210,14 +209,8 @@ EvaluateReport Morpher::evaluate(
   result.resize(this->restPoints().rows(), 3);
   if (this->higherOrderNodes_.empty())
   {
-    monitor.parallelFor(freeDisplacement.rows(), Grain,
-      [&](Index first, Index last)
-      {
-        for (Index i = first; i < last; ++i)
-        {
-          this->place(this->partition().free[i], freeDisplacement.row(i), result);
-        }
-      });
+    parallel(freeDisplacement.rows(), monitor,
+      [&](Index i) { this->place(this->partition().free[i], freeDisplacement.row(i), result); });
     for (Index n : this->outside_)
     {
       result.row(n) = this->restPoints().row(n);

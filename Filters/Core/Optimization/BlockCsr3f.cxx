@@ -3,6 +3,7 @@
 
 #include "Solvers/ConjugateGradients.h"
 #include "Support/Error.h"
+#include "Support/Parallel.h"
 #include "Support/Simd.h"
 
 #include <Eigen/Cholesky>
@@ -191,15 +192,12 @@ void BlockCsr3f::multiply(const Points& x, Points& y, Monitor& monitor) const
       std::vector<double> work(8 * this->mostRows_);
       dispatchedFor<ChunkProduct>(first, last, *this, x, y, copies, work);
     });
-  monitor.parallelFor(static_cast<Index>(this->copiedRow_.size()), Grain,
-    [&](Index first, Index last)
+  parallel(static_cast<Index>(this->copiedRow_.size()), Grain, monitor,
+    [&](Index i)
     {
-      for (Index i = first; i < last; ++i)
+      for (Index use = this->useOffsets_[i]; use < this->useOffsets_[i + 1]; ++use)
       {
-        for (Index use = this->useOffsets_[i]; use < this->useOffsets_[i + 1]; ++use)
-        {
-          y.row(this->copiedRow_[i]) += copies.row(this->uses_[use]);
-        }
+        y.row(this->copiedRow_[i]) += copies.row(this->uses_[use]);
       }
     });
 }
@@ -209,16 +207,13 @@ std::vector<BlockCsr3f::InverseBlock> BlockCsr3f::inverseDiagonal(
 {
   const Index n = this->rows();
   Points columns[3] = { Points(n, 3), Points(n, 3), Points(n, 3) };
-  monitor.parallelFor(n, Grain,
-    [&](Index first, Index last)
+  parallel(n, Grain, monitor,
+    [&](Index row)
     {
-      for (Index row = first; row < last; ++row)
+      const Eigen::Map<const Eigen::Matrix3f> D(this->blocks(row));
+      for (int j = 0; j < 3; ++j)
       {
-        const Eigen::Map<const Eigen::Matrix3f> D(this->blocks(row));
-        for (int j = 0; j < 3; ++j)
-        {
-          columns[j].row(row) = D.col(j).transpose().cast<double>();
-        }
+        columns[j].row(row) = D.col(j).transpose().cast<double>();
       }
     });
   for (Points& column : columns)
@@ -226,19 +221,16 @@ std::vector<BlockCsr3f::InverseBlock> BlockCsr3f::inverseDiagonal(
     copies.add(column);
   }
   std::vector<InverseBlock> inverse(n, InverseBlock(Eigen::Matrix3d::Zero()));
-  monitor.parallelFor(n, Grain,
-    [&](Index first, Index last)
+  parallel(n, Grain, monitor,
+    [&](Index row)
     {
-      for (Index row = first; row < last; ++row)
+      Eigen::Matrix3d D;
+      D << columns[0].row(row).transpose(), columns[1].row(row).transpose(),
+        columns[2].row(row).transpose();
+      D.diagonal().array() += Shift * D.trace();
+      if (D.trace() > 0)
       {
-        Eigen::Matrix3d D;
-        D << columns[0].row(row).transpose(), columns[1].row(row).transpose(),
-          columns[2].row(row).transpose();
-        D.diagonal().array() += Shift * D.trace();
-        if (D.trace() > 0)
-        {
-          inverse[row] = InverseBlock(D.ldlt().solve(Eigen::Matrix3d::Identity()));
-        }
+        inverse[row] = InverseBlock(D.ldlt().solve(Eigen::Matrix3d::Identity()));
       }
     });
   return inverse;
@@ -299,14 +291,7 @@ private:
   template <typename Body>
   void forRows(const Body& body) const
   {
-    this->monitor_.parallelFor(this->matrix_.rows(), Grain,
-      [&](Index first, Index last)
-      {
-        for (Index row = first; row < last; ++row)
-        {
-          body(row);
-        }
-      });
+    parallel(this->matrix_.rows(), Grain, this->monitor_, [&](Index row) { body(row); });
   }
 
   const BlockCsr3f& matrix_;

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Optimization/Descent.h"
 
+#include "Support/Parallel.h"
+
 #include <cmath>
 
 namespace morph
 {
 namespace
 {
-constexpr Index Grain = 4096;
 constexpr int MostHalvings = 40;
 constexpr double SufficientDecrease = 1e-4;
 }
@@ -26,14 +27,8 @@ bool LineSearch::run(const Points& direction, double slope, Points& points, Obje
   }
   const auto goTo = [&](const Points& from, double length, Points& to)
   {
-    monitor.parallelFor(direction.rows(), Grain,
-      [&](Index first, Index last)
-      {
-        for (Index i = first; i < last; ++i)
-        {
-          to.row(free[i]) = from.row(free[i]) + length * direction.row(i);
-        }
-      });
+    parallel(direction.rows(), monitor,
+      [&](Index i) { to.row(free[i]) = from.row(free[i]) + length * direction.row(i); });
   };
   this->length_ = 1;
   for (int halving = 0; halving < MostHalvings; ++halving, this->length_ /= 2)

@@ -2,6 +2,7 @@
 #include "Solvers/AssembleRows.h"
 
 #include "Support/Error.h"
+#include "Support/Parallel.h"
 
 #include <limits>
 #include <string>
@@ -87,22 +88,19 @@ SplitMatrix assembleRows(Index rows, Index inside, Index columns, Monitor& monit
       to.innerIndexPtr() + at, [&](int column) { return column - static_cast<int>(firstColumn); });
     std::copy_n(block.value.begin() + from, size, to.valuePtr() + at);
   };
-  monitor.parallelFor(count, 1,
-    [&](Index first, Index last)
+  parallel(count, 1, monitor,
+    [&](Index b)
     {
-      for (Index b = first; b < last; ++b)
+      Block block;
+      std::swap(block, blocks[b]); // freed here
+      std::size_t from = 0;
+      for (std::size_t i = 0; i < block.inside.size(); ++i)
       {
-        Block block;
-        std::swap(block, blocks[b]); // freed here
-        std::size_t from = 0;
-        for (std::size_t i = 0; i < block.inside.size(); ++i)
-        {
-          const Index row = b * Rows + static_cast<Index>(i);
-          copy(result.inside, row, block, from, block.inside[i], 0);
-          from += block.inside[i];
-          copy(result.outside, row, block, from, block.outside[i], inside);
-          from += block.outside[i];
-        }
+        const Index row = b * Rows + static_cast<Index>(i);
+        copy(result.inside, row, block, from, block.inside[i], 0);
+        from += block.inside[i];
+        copy(result.outside, row, block, from, block.outside[i], inside);
+        from += block.outside[i];
       }
     });
   return result;

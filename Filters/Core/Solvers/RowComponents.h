@@ -62,15 +62,12 @@ struct RowComponents
   Sums sums(Index rows, Monitor& monitor, const Body& body) const
   {
     std::vector<std::vector<std::pair<int, MultiVectorRow>>> parts((rows + Block - 1) / Block);
-    monitor.parallelFor(static_cast<Index>(parts.size()), 1,
-      [&](Index firstBlock, Index lastBlock)
+    parallel(static_cast<Index>(parts.size()), 1, monitor,
+      [&](Index b)
       {
-        for (Index b = firstBlock; b < lastBlock; ++b)
-        {
-          this->forRanges(b * Block, std::min(rows, (b + 1) * Block),
-            [&](Index first, Index last, int component)
-            { parts[b].emplace_back(component, body(first, last, component)); });
-        }
+        this->forRanges(b * Block, std::min(rows, (b + 1) * Block),
+          [&](Index first, Index last, int component)
+          { parts[b].emplace_back(component, body(first, last, component)); });
       });
     Sums total = Sums::Zero(this->count, 4);
     for (const auto& part : parts)
