@@ -8,8 +8,7 @@
  * minimum scaled Jacobian, up to what the boundary allows. There are never more inverted cells than
  * in FEMWARP's and simplex-linear's meshes and, with as many, no lower minimum. Tetrahedra,
  * hexahedra, wedges, pyramids, mixed meshes, and their quadratic forms, whose corners move as the
- * linear cell. Polyhedra by their pieces, whose minimum is not raised. Not linear in the boundary's
- * motion: there is no adjoint.
+ * linear cell. Polyhedra by their pieces. Not linear in the boundary's motion: there is no adjoint.
  *
  * The default of Validity is VALIDITY_SUB_STEP here. A boundary that inverts cells by itself is
  * refused, with the ids of the cells. Where no valid mesh is found for the whole motion, there is
