@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Distributed/Quality.h"
 
-#include "Quality/WorstMean.h"
+#include "Quality/ScaledJacobian.h"
 
 #include <algorithm>
 #include <cmath>

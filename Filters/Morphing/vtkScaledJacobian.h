@@ -22,10 +22,10 @@
  * Jacobian here (polygons, Lagrange cells, ...) get NaN and are counted in UnmeasuredCells; one
  * warning names their types.
  *
- * A polyhedron has the minimum over its corners with three edges, and over the edges of its faces:
- * of the edge and the lines from its middle and from the cell's centre to the face's centre, scaled
- * to length 1. A positive value means that OpenFOAM's face pyramids are positive, which Certify
- * tests on its own.
+ * A polyhedron has the minimum over the edges of its faces: of the edge and the lines from its
+ * middle and from the cell's centre to the face's centre, scaled to length 1. A positive value
+ * means that the tetrahedra of edge and centres are positive, and so OpenFOAM's face pyramids.
+ * Certify tests the same tetrahedra.
  *
  * Volume cells of one shape in one connected body share a sign, that of their summed volume. So a
  * body that is mirrored as a whole, or wedges in VTK's older node order, are measured as valid (and

@@ -4,10 +4,13 @@
 #include "Mesh/CellShape.h"
 #include "Mesh/Topology.h"
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <random>
 #include <set>
 
@@ -182,6 +185,101 @@ Mesh refinedLayer(int n)
   }
   mesh.points = nodes.points();
   mesh.faceOffsets.resize(mesh.types.size() + 1, static_cast<Index>(mesh.faces.size()));
+  return mesh;
+}
+
+Mesh voronoi(int n)
+{
+  using Vector = Eigen::Vector3d;
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  std::vector<Vector> sites;
+  for (int i = 0; i < n * n * n; ++i)
+  {
+    const Vector shift = Vector::NullaryExpr([&] { return uniform(random); });
+    sites.push_back(Vector(i % n, i / n % n, i / (n * n)) + shift);
+  }
+  Mesh mesh;
+  mesh.offsets = { 0 };
+  Nodes points;
+  const Mesh box = hexes(1, 1, 1);
+  const CellShape& cube = *cellShape(Hexahedron);
+  for (const Vector& site : sites)
+  {
+    std::vector<std::vector<Vector>> faces;
+    for (int f = 0; f < cube.numberOfFaces; ++f)
+    {
+      faces.emplace_back();
+      for (const int corner : cube.faces[f].corner)
+      {
+        faces.back().push_back(n * box.points.row(box.cell(0)[corner]).transpose());
+      }
+    }
+    for (const Vector& other : sites)
+    {
+      if (&other == &site || (other - site).norm() > 4)
+      {
+        continue;
+      }
+      const Vector normal = (other - site).normalized();
+      const auto beyond = [&](const Vector& x) { return normal.dot(x - (site + other) / 2); };
+      std::vector<std::vector<Vector>> kept;
+      std::vector<Vector> cut; // the corners of the new face
+      for (const std::vector<Vector>& face : faces)
+      {
+        std::vector<Vector> part;
+        for (std::size_t k = 0; k < face.size(); ++k)
+        {
+          const Vector &a = face[k], &b = face[(k + 1) % face.size()];
+          const double da = beyond(a), db = beyond(b);
+          if (da <= 0)
+          {
+            part.push_back(a);
+          }
+          if ((da <= 0) != (db <= 0))
+          {
+            cut.push_back(a + da / (da - db) * (b - a));
+            part.push_back(cut.back());
+          }
+        }
+        if (part.size() > 2)
+        {
+          kept.push_back(part);
+        }
+      }
+      if (cut.size() > 2)
+      {
+        const Vector center =
+          std::accumulate(cut.begin(), cut.end(), Vector(0, 0, 0)) / double(cut.size());
+        const Vector u = cut[0] - center, v = normal.cross(u);
+        const auto angle = [&](const Vector& x)
+        { return std::atan2(v.dot(x - center), u.dot(x - center)); };
+        std::sort(cut.begin(), cut.end(),
+          [&](const Vector& a, const Vector& b) { return angle(a) < angle(b); });
+        kept.push_back(cut);
+      }
+      faces = kept;
+    }
+    std::vector<std::vector<Index>> ids;
+    for (const std::vector<Vector>& face : faces)
+    {
+      std::vector<Index> nodes;
+      for (const Vector& x : face)
+      {
+        const Index node = points.at(x[0], x[1], x[2]); // each edge was cut twice
+        if (std::find(nodes.begin(), nodes.end(), node) == nodes.end())
+        {
+          nodes.push_back(node);
+        }
+      }
+      if (nodes.size() > 2)
+      {
+        ids.push_back(nodes);
+      }
+    }
+    addPolyhedron(mesh, ids);
+  }
+  mesh.points = points.points();
   return mesh;
 }
 

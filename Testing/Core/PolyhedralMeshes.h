@@ -20,6 +20,8 @@ Mesh honeycomb(int n);
 /// n x n boxes of size 2, on top of them 2n x 2n x 2 hexahedra of size 1: the boxes' upper faces
 /// are split into four, and their sides have five nodes. Polyhedra below, hexahedra above.
 Mesh refinedLayer(int n);
-/// All of these, jittered inside, with a name for the message.
+/// The Voronoi cells of n x n x n random points in a box, each in a unit cube of its own.
+Mesh voronoi(int n);
+/// All of the others, jittered inside, with a name for the message.
 std::vector<std::pair<std::string, Mesh>> polyhedral();
 }

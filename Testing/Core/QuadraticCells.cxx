@@ -223,7 +223,7 @@ Cell random(std::uint8_t type, double amount, std::mt19937& generator)
     {
       std::copy(cell[i].data(), cell[i].data() + 3, x[i]);
     }
-    bool isPositive = scaledJacobian(type, x) > 0;
+    bool isPositive = scaledJacobian(*cellShape(type), x) > 0;
     for (int i = 0; i < corners && isPositive; ++i)
     {
       isPositive = determinant(type, cell, places[i].cast<Real>()) > 0;

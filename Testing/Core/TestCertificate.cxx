@@ -2,7 +2,6 @@
 #include "Geometry/OrientationPredicate.h"
 #include "Mesh/CellShape.h"
 #include "Meshes.h"
-#include "Quality/BernsteinHex.h"
 #include "Quality/Certificate.h"
 #include "Quality/ScaledJacobian.h"
 #include "Support/Error.h"
@@ -51,7 +50,7 @@ Certificate certified(std::uint8_t type, const Cell& cell)
 
 double scaledJacobianOf(std::uint8_t type, const Cell& cell)
 {
-  return scaledJacobian(type, reinterpret_cast<const double(*)[3]>(cell.data()));
+  return scaledJacobian(*cellShape(type), reinterpret_cast<const double(*)[3]>(cell.data()));
 }
 
 Cell jittered(Cell cell, double amount, std::mt19937& random)

@@ -394,7 +394,7 @@ TEST(FemWarp, CellsInvertedAtACornerAloneAreNamedToo)
     std::copy(p.data(), p.data() + 3, corners[a]);
   }
   ASSERT_EQ(elementStiffness(Shape::Hex, corners, K), 1);
-  ASSERT_LT(scaledJacobian(Hexahedron, corners), 0);
+  ASSERT_LT(scaledJacobian(*cellShape(Hexahedron), corners), 0);
 
   meshes::ThreadedMonitor monitor;
   FemWarp method;

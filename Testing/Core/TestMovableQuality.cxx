@@ -2,7 +2,7 @@
 #include "Meshes.h"
 #include "Motions.h"
 #include "Quality/MovableQuality.h"
-#include "Quality/WorstMean.h"
+#include "Quality/ScaledJacobian.h"
 
 #include <gtest/gtest.h>
 

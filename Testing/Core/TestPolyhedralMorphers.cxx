@@ -119,6 +119,31 @@ TEST(PolyhedralMorphers, ResultsDoNotDependOnThreadsOrNumbers)
   }
 }
 
+TEST(PolyhedralMorphers, WhatIsMeasuredIsWhatIsMinimized)
+{
+  // Its cells have short edges, whose corners no method sees.
+  const Mesh mesh = voronoi(5);
+  validate(mesh);
+  const NodePartition partition = outerPartition(mesh);
+  const Points target = targets(
+    mesh, partition, [](const motions::Row& x) { return motions::twist(x, 2.5, 2.5, 0.628); });
+  const auto inverted = [&](const Points& points)
+  {
+    Monitor monitor;
+    return invertedCells(mesh, points, {}, monitor).size();
+  };
+  ASSERT_EQ(inverted(mesh.points), 0);
+  ASSERT_EQ(
+    inverted(morphed([] { return std::make_unique<FemWarp>(); }, mesh, partition, target)), 0);
+  const auto make = []
+  {
+    auto method = std::make_unique<InversionFree>();
+    method->setSteps(0);
+    return method;
+  };
+  EXPECT_EQ(inverted(morphed(make, mesh, partition, target)), 0);
+}
+
 TEST(PolyhedralMorphers, TheAdjointIsTheTranspose)
 {
   Monitor monitor;

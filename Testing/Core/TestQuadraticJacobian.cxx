@@ -3,8 +3,8 @@
 #include "Mesh/Topology.h"
 #include "Meshes.h"
 #include "QuadraticCells.h"
-#include "Quality/QuadraticJacobian.h"
-#include "Quality/QuadraticMap.h"
+#include "Quality/CellMap.h"
+#include "Quality/Certificate.h"
 #include "Quality/ScaledJacobian.h"
 #include "Untangling/InversionFree.h"
 #include "Untangling/Smoothing.h"
@@ -23,9 +23,9 @@ using quadratic::Cell;
 using quadratic::Point;
 using quadratic::Vector;
 
-QuadraticProof proof(std::uint8_t type, const Cell& cell)
+JacobianProof proof(std::uint8_t type, const Cell& cell)
 {
-  return proveQuadratic(type, cell.data());
+  return proveJacobian(type, cell.data());
 }
 
 Certificate certificate(std::uint8_t type, const Cell& cell)
@@ -52,7 +52,7 @@ Mesh meshOf(std::uint8_t type, const std::vector<Cell>& cells)
   return mesh;
 }
 
-Point pointOf(const QuadraticProof& proof)
+Point pointOf(const JacobianProof& proof)
 {
   return Eigen::Map<const Vector>(proof.at).cast<long double>();
 }
@@ -80,7 +80,7 @@ TEST(QuadraticJacobian, TheMapIsThatOfTheShapeFunctions)
   std::uniform_real_distribution<double> uniform(0, 1);
   for (const quadratic::Type& type : quadratic::Types)
   {
-    const QuadraticMap& map = *QuadraticMap::find(type.type);
+    const CellMap& map = *CellMap::find(type.type);
     const Cell nodes = quadratic::parametric(type.type);
     for (std::size_t i = 0; i < nodes.size(); ++i)
     {
@@ -102,11 +102,11 @@ TEST(QuadraticJacobian, TheMapIsThatOfTheShapeFunctions)
       EXPECT_LT((found - expected).cwiseAbs().maxCoeff(), 1e-13) << nameOf(type.type);
     }
   }
-  for (const std::uint8_t type : { Tetra, Hexahedron, QuadraticTriangle, BiquadraticTriangle })
+  for (const std::uint8_t type : { Tetra, Pyramid, QuadraticTriangle, BiquadraticTriangle })
   {
-    EXPECT_EQ(QuadraticMap::find(type), nullptr);
+    EXPECT_EQ(CellMap::find(type), nullptr);
   }
-  EXPECT_EQ(QuadraticMap::find(255), nullptr);
+  EXPECT_EQ(CellMap::find(255), nullptr);
 }
 
 TEST(QuadraticJacobian, CertificatesHoldAgainstDenseSampling)
@@ -122,7 +122,7 @@ TEST(QuadraticJacobian, CertificatesHoldAgainstDenseSampling)
     const std::vector<Cell> cells = randomCells(type, count);
     for (int i = 0; i < count; ++i)
     {
-      const QuadraticProof found = proof(type.type, cells[i]);
+      const JacobianProof found = proof(type.type, cells[i]);
       inverted += found.certificate == Certificate::Inverted;
       undecided += found.certificate == Certificate::Undecided;
       Point least;
@@ -171,7 +171,7 @@ TEST(QuadraticJacobian, CoefficientsAreWithinTheirBound)
     Eigen::AngleAxisd(.7, Vector(1, 2, 3).normalized()).toRotationMatrix();
   for (const quadratic::Type& type : quadratic::Types)
   {
-    const QuadraticMap& map = *QuadraticMap::find(type.type);
+    const CellMap& map = *CellMap::find(type.type);
     int i = 0;
     for (Cell cell : randomCells(type, 60))
     {
@@ -189,7 +189,7 @@ TEST(QuadraticJacobian, CoefficientsAreWithinTheirBound)
         x *= scale;
       }
       BernsteinHalving::Part part = map.halving().whole();
-      const QuadraticMap::Derivatives derivatives = map.derivatives(scaled.data());
+      const CellMap::Derivatives derivatives = map.derivatives(scaled.data());
       const double error = map.determinant(derivatives, 0, part.c);
       double at[3];
       const double found = map.halving().minimumCorner(part, at);
@@ -225,12 +225,12 @@ TEST(QuadraticJacobian, ScalePlaceAndMirrorImageDoNotShow)
         // Without rounding, so that it is the same cell: the random coordinates have few bits.
         x = (x * 0x1p20).array().round() * 0x1p-20;
       }
-      const QuadraticProof near = proof(type.type, distant);
+      const JacobianProof near = proof(type.type, distant);
       for (Vector& x : distant)
       {
         x += Vector(0x1p30, -0x1p30, 0x1p29);
       }
-      const QuadraticProof far = proof(type.type, distant);
+      const JacobianProof far = proof(type.type, distant);
       EXPECT_EQ(far.certificate, near.certificate) << nameOf(type.type);
       EXPECT_EQ(pointOf(far), pointOf(near)) << nameOf(type.type);
 
@@ -331,7 +331,7 @@ TEST(QuadraticJacobian, StretchedCellsAreDecidedLikeTheCellsTheyComeFrom)
       {
         x = x.cwiseProduct(factor);
       }
-      const QuadraticProof found = proof(type.type, cell);
+      const JacobianProof found = proof(type.type, cell);
       undecided += found.certificate == Certificate::Undecided;
       if (found.certificate != Certificate::Undecided && expected != Certificate::Undecided)
       {
@@ -405,7 +405,7 @@ TEST(QuadraticJacobian, DegenerateCellsAreNotCertified)
       << nameOf(type.type);
     Cell collapsed = ideal, flat = ideal;
     collapsed[1] = collapsed[0];
-    const QuadraticProof found = proof(type.type, collapsed);
+    const JacobianProof found = proof(type.type, collapsed);
     EXPECT_EQ(found.certificate, Certificate::Inverted) << nameOf(type.type);
     EXPECT_LE(quadratic::determinant(type.type, collapsed, pointOf(found)), 0);
     const Mesh mesh = meshOf(type.type, { collapsed });
@@ -435,7 +435,7 @@ TEST(QuadraticJacobian, APointInvertedInsideIsFoundThoughTheDeterminantVanishesA
     const double corners[4][3] = { { cell[0][0], cell[0][1], cell[0][2] },
       { cell[1][0], cell[1][1], cell[1][2] }, { cell[2][0], cell[2][1], cell[2][2] },
       { cell[3][0], cell[3][1], cell[3][2] } };
-    const double ofCorners = scaledJacobian(Tetra, corners);
+    const double ofCorners = scaledJacobian(*cellShape(Tetra), corners);
     EXPECT_GT(ofCorners, 0);
     EXPECT_LT(quadraticScaledJacobian(QuadraticTetra, cell.data(), ofCorners), 0);
   }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Mesh/CellShape.h"
 #include "Meshes.h"
-#include "Quality/PartialQuality.h"
 #include "Quality/ScaledJacobian.h"
 #include "Support/Error.h"
 
@@ -50,7 +49,7 @@ double sj(std::uint8_t type, const Corners& corners)
   {
     std::copy(corners[k].begin(), corners[k].end(), x[k]);
   }
-  return scaledJacobian(type, x);
+  return scaledJacobian(*cellShape(type), x);
 }
 
 Corners permuted(const Corners& corners, const std::vector<int>& order)
@@ -328,46 +327,6 @@ TEST(ScaledJacobian, NeverAboveOne)
   }
 }
 
-TEST(ScaledJacobian, CornersThatAreSurelyPositiveAre)
-{
-  std::mt19937 random(meshes::seed());
-  int sure = 0, inverted = 0;
-  for (int trial = 0; trial < 5000; ++trial)
-  {
-    for (const Ideal& ideal : { Ideals[3], Ideals[4] })
-    {
-      const Shape shape = cellShape(ideal.type)->shape;
-      Corners x = jittered(*ideal.corners, .6, random);
-      const double value = sj(ideal.type, x);
-      for (const double size : { 1., 1e-70, 1e70 })
-      {
-        double corners[8][3];
-        for (std::size_t k = 0; k < x.size(); ++k)
-        {
-          std::transform(
-            x[k].begin(), x[k].end(), corners[k], [size](double c) { return size * c; });
-        }
-        const bool isSure = areCornersSurelyPositive(shape, corners);
-        EXPECT_TRUE(!isSure || value > 0) << value;
-        EXPECT_TRUE(isSure || value < 1e-9) << value << ' ' << size;
-        sure += isSure;
-        corners[trial % x.size()][trial % 3] = std::numeric_limits<double>::quiet_NaN();
-        EXPECT_FALSE(areCornersSurelyPositive(shape, corners));
-      }
-      inverted += value < 0;
-    }
-  }
-  EXPECT_GT(sure, 1000);
-  EXPECT_GT(inverted, 1000);
-  double cube[8][3];
-  for (int k = 0; k < 8; ++k)
-  {
-    std::copy(Cube[k].begin(), Cube[k].end(), cube[k]);
-  }
-  EXPECT_TRUE(areCornersSurelyPositive(Shape::Hex, cube));
-  EXPECT_FALSE(areCornersSurelyPositive(Shape::Tet, cube));
-}
-
 TEST(ScaledJacobian, OtherTypesAndCoordinatesThatAreNotFiniteGiveNaN)
 {
   EXPECT_TRUE(std::isnan(sj(Line, { { 0, 0, 0 }, { 1, 0, 0 } })));
@@ -521,51 +480,6 @@ TEST(MeasureQuality, TheCutIntoThreadsDoesNotShow)
   EXPECT_EQ(one.minimum, many.minimum);
   EXPECT_EQ(one.worstCell, many.worstCell);
   EXPECT_EQ(one.inverted, many.inverted);
-}
-
-TEST(MeasureQualityOf, MeasuresTheChosenCellsAlone)
-{
-  std::mt19937 random(meshes::seed());
-  std::vector<std::pair<std::uint8_t, Corners>> cells;
-  for (int trial = 0; trial < 6000; ++trial)
-  {
-    // The surface cells in between are of a lower dimension.
-    const Ideal& ideal = Ideals[trial % 6];
-    cells.emplace_back(ideal.type, jittered(*ideal.corners, .4, random));
-  }
-  const Mesh mesh = separateCells(cells);
-  std::vector<Index> chosen;
-  std::vector<std::uint8_t> ghosts(cells.size(), 0), others(cells.size(), 1);
-  for (Index c = 0; c < mesh.numberOfCells(); ++c)
-  {
-    ghosts[c] = c % 11 == 0;
-    if (random() % 3 == 0)
-    {
-      chosen.push_back(c);
-      others[c] = ghosts[c];
-    }
-  }
-  Monitor monitor;
-  UnevenThreads threads;
-  const Quality expected = measureQuality(mesh, mesh.points, {}, others, monitor);
-  EXPECT_GT(expected.inverted, 0);
-  for (Monitor* each : { &monitor, static_cast<Monitor*>(&threads) })
-  {
-    const Quality found = measureQualityOf(mesh, mesh.points, {}, chosen, ghosts, *each);
-    ASSERT_EQ(found.scaledJacobian.size(), cells.size());
-    for (std::size_t c = 0; c < cells.size(); ++c)
-    {
-      const double a = found.scaledJacobian[c], b = expected.scaledJacobian[c];
-      EXPECT_TRUE(a == b || (std::isnan(a) && std::isnan(b))) << c;
-    }
-    EXPECT_EQ(found.measured, expected.measured);
-    EXPECT_EQ(found.minimum, expected.minimum);
-    EXPECT_EQ(found.mean, expected.mean);
-    EXPECT_EQ(found.inverted, expected.inverted);
-    EXPECT_EQ(found.degenerate, expected.degenerate);
-    EXPECT_EQ(found.worstCell, expected.worstCell);
-  }
-  EXPECT_EQ(measureQualityOf(mesh, mesh.points, {}, {}, {}, monitor).measured, 0);
 }
 
 TEST(MeasureQuality, CancelThrows)

@@ -2,7 +2,7 @@
 #include "Distributed/Quality.h"
 #include "Meshes.h"
 #include "Pieces.h"
-#include "Quality/WorstMean.h"
+#include "Quality/ScaledJacobian.h"
 
 #include <gtest/gtest.h>
 

@@ -4,8 +4,8 @@
 #include "MorphFilters.h"
 #include "TestGrids.h"
 
-#include "Quality/QuadraticJacobian.h"
-#include "Quality/QuadraticMap.h"
+#include "Quality/CellMap.h"
+#include "Quality/Certificate.h"
 #include "Quality/ScaledJacobian.h"
 #include "vtkFEMWarpMorph.h"
 #include "vtkInversionFreeMorph.h"
@@ -43,7 +43,7 @@ Gradients vtkGradients(std::uint8_t type, vtkGenericCell* cell, const Point& at)
   Gradients result(nodes, 3);
   if (type != QuadraticPyramid)
   {
-    double slopes[3 * QuadraticMap::MostNodes];
+    double slopes[3 * CellMap::MostNodes];
     cell->InterpolateDerivs(xi, slopes);
     for (int i = 0; i < nodes; ++i)
     {
@@ -56,7 +56,7 @@ Gradients vtkGradients(std::uint8_t type, vtkGenericCell* cell, const Point& at)
     double low[3] = { x[0], x[1], x[2] }, high[3] = { x[0], x[1], x[2] };
     low[j] -= .5;
     high[j] += .5;
-    double below[QuadraticMap::MostNodes], above[QuadraticMap::MostNodes];
+    double below[CellMap::MostNodes], above[CellMap::MostNodes];
     cell->InterpolateFunctions(low, below);
     cell->InterpolateFunctions(high, above);
     Eigen::Matrix<long double, Eigen::Dynamic, 1> slope(nodes);
@@ -144,14 +144,14 @@ TEST(QuadraticCells, TheMapsAreVTKs)
     {
       EXPECT_EQ(nodes[i], Eigen::Vector3d(generic->GetParametricCoords() + 3 * i)) << i;
     }
-    const QuadraticMap& map = *QuadraticMap::find(type.type);
+    const CellMap& map = *CellMap::find(type.type);
     for (int trial = 0; trial < 200; ++trial)
     {
       const double r = uniform(random), s = uniform(random) * (1 - r);
       const double t = uniform(random) * (type.type == QuadraticTetra ? 1 - r - s : 1);
       const double at[3] = { r, s, trial % 10 == 0 && type.type != QuadraticTetra ? 1 : t };
       const Point point(at[0], at[1], at[2]);
-      double weights[QuadraticMap::MostNodes];
+      double weights[CellMap::MostNodes];
       generic->InterpolateFunctions(at, weights);
       const auto expected = quadratic::functions(type.type, point);
       for (Eigen::Index i = 0; i < expected.size(); ++i)
@@ -183,7 +183,7 @@ TEST(QuadraticCells, TenThousandOfEachTypeAgainstVTKsFunctions)
     for (int i = 0; i < count; ++i)
     {
       const Cell cell = quadratic::random(type.type, type.amount, random);
-      const QuadraticProof found = proveQuadratic(type.type, cell.data());
+      const JacobianProof found = proveJacobian(type.type, cell.data());
       if (found.certificate == Certificate::Inverted)
       {
         ++inverted;

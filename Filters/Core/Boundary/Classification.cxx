@@ -569,7 +569,7 @@ Classification classify(const Mesh& mesh, const BoundaryFaces& faces,
     mesh.numberOfNodes(), monitor, [&](Index node) { placeInside(node, parts.ofNode[node]); });
   const auto hasNodesBetween = [&mesh](Index c)
   {
-    const CellShape* shape = cellShape(mesh.types[c]);
+    const CellShape* shape = cellShape(mesh, c);
     return !shape || shape->numberOfCorners != mesh.cellSize(c);
   };
   const Index cells = mesh.numberOfCells();

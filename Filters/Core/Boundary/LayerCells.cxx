@@ -48,7 +48,7 @@ LayerCells::LayerCells(
 
 bool LayerCells::makeFront(Index cell, const Index* nodes, Index size, LayerFront& front) const
 {
-  const CellShape& shape = *cellShape(this->mesh_.types[cell]);
+  const CellShape& shape = *cellShape(this->mesh_, cell);
   const bool isHex = shape.shape == Shape::Hex && size == 4;
   const bool isWedge = shape.shape == Shape::Wedge && size == 3;
   if ((!isHex && !isWedge) || (!this->isLayer_.empty() && !this->isLayer_[cell]))

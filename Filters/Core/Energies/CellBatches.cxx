@@ -23,7 +23,7 @@ std::vector<Index> allCells(const Mesh& mesh)
 /// Returns the minimum row of a volume cell's corners; negative if none is free.
 Index minimumRow(const Mesh& mesh, Index cell, const std::vector<std::int32_t>& row)
 {
-  const CellShape& shape = *cellShape(mesh.types[cell]);
+  const CellShape& shape = *cellShape(mesh, cell);
   Index least = -1;
   for (int a = 0; a < numberOfCorners(shape.shape); ++a)
   {
@@ -83,7 +83,7 @@ void CellBatches::addPlaces(const Mesh& mesh, const std::vector<std::int32_t>& r
     for (int lane = 0; lane < SimdWidth; ++lane)
     {
       const Index c = batch.cell[lane];
-      const Index node = mesh.cell(c)[cellShape(mesh.types[c])->cornerNode[a]];
+      const Index node = mesh.cell(c)[cellShape(mesh, c)->cornerNode[a]];
       this->node_.push_back(static_cast<std::int32_t>(node));
       this->row_.push_back(lane < batch.cells ? row[node] : -1);
     }

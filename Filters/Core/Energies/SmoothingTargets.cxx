@@ -22,7 +22,7 @@ std::vector<double> volumes(const Mesh& rest, const Communicator& communicator)
   Index count = 0;
   for (Index c = 0; c < rest.numberOfCells(); ++c)
   {
-    const CellShape& shape = *cellShape(rest.types[c]);
+    const CellShape& shape = *cellShape(rest, c);
     double x[8][3];
     copyCorners(rest, c, shape, rest.points, x[0]);
     if (numberOfCorners(shape.shape) > 0)
@@ -37,7 +37,7 @@ std::vector<double> volumes(const Mesh& rest, const Communicator& communicator)
   const double mean = count > 0 ? sum / static_cast<double>(count) : 0;
   for (Index c = 0; c < rest.numberOfCells(); ++c)
   {
-    const bool isVolume = numberOfCorners(cellShape(rest.types[c])->shape) > 0;
+    const bool isVolume = numberOfCorners(cellShape(rest, c)->shape) > 0;
     if (isVolume && !(result[c] > LeastVolume * mean))
     {
       result[c] = mean > 0 ? mean : 1;
@@ -54,7 +54,7 @@ TargetMatrices idealTargets(
   result.open(rest);
   for (Index c = 0; c < rest.numberOfCells(); ++c)
   {
-    const Shape shape = cellShape(rest.types[c])->shape;
+    const Shape shape = cellShape(rest, c)->shape;
     const int corners = cornerTetrahedra(shape);
     if (corners == 0)
     {

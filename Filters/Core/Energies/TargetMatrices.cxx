@@ -106,7 +106,7 @@ Eigen::Matrix3d frame(Shape shape, const CellCorners& x)
 
 CellCorners cornersOf(const Mesh& mesh, Index cell, const Points& points)
 {
-  const CellShape& shape = *cellShape(mesh.types[cell]);
+  const CellShape& shape = *cellShape(mesh, cell);
   CellCorners x;
   copyCorners(mesh, cell, shape, points, x.data());
   return x;
@@ -124,18 +124,18 @@ Eigen::Matrix3d edges(const WeightedTet& tet, const CellCorners& x)
 
 SimplicialDecomposition partsOf(const Mesh& mesh, Index cell)
 {
-  return simplicialDecomposition(cellShape(mesh.types[cell])->shape);
+  return simplicialDecomposition(cellShape(mesh, cell)->shape);
 }
 
 std::array<Index, 4> nodesOf(const Mesh& mesh, Index cell, int tetrahedron)
 {
-  const CellShape& shape = *cellShape(mesh.types[cell]);
+  const CellShape& shape = *cellShape(mesh, cell);
   return nodesAt(mesh, cell, shape, simplicialDecomposition(shape.shape).tets[tetrahedron].corner);
 }
 
 bool isVolume(const Mesh& mesh, Index cell)
 {
-  return numberOfCorners(cellShape(mesh.types[cell])->shape) > 0;
+  return numberOfCorners(cellShape(mesh, cell)->shape) > 0;
 }
 
 /// Returns which undeformed cells may serve as targets.
@@ -165,7 +165,7 @@ double meanVolume(const SimplicialDecomposition& parts, const CellCorners& x)
 Lengths lengthsAround(
   const Mesh& rest, const Adjacency& around, const std::vector<char>& valid, Index cell)
 {
-  const CellShape& shape = *cellShape(rest.types[cell]);
+  const CellShape& shape = *cellShape(rest, cell);
   double sum = 0;
   Index count = 0;
   for (int a = 0; a < shape.numberOfCorners; ++a)
@@ -257,7 +257,7 @@ void TargetMatrices::open(const Mesh& mesh)
   this->start.reserve(mesh.numberOfCells() + 1);
   for (Index c = 0; c < mesh.numberOfCells(); ++c)
   {
-    this->start.push_back(this->start.back() + numberOfCorners(cellShape(mesh.types[c])->shape));
+    this->start.push_back(this->start.back() + numberOfCorners(cellShape(mesh, c)->shape));
   }
   this->corners.assign(3 * this->start.back(), 0);
   this->factor.assign(mesh.numberOfCells(), 0);
@@ -301,7 +301,7 @@ TargetMatrices targetMatrices(const Mesh& rest, const std::vector<std::int8_t>& 
         {
           continue;
         }
-        const Shape shape = cellShape(rest.types[c])->shape;
+        const Shape shape = cellShape(rest, c)->shape;
         const double sign = orientation[c];
         CellCorners x;
         const CellCorners at = cornersOf(rest, c, guide);

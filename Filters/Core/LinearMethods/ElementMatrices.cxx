@@ -73,7 +73,7 @@ CellMatrix::CellMatrix(
 
 void CellMatrix::compute(Index c, double* K)
 {
-  const CellShape& shape = *cellShape(this->mesh_.types[c]);
+  const CellShape& shape = *cellShape(this->mesh_, c);
   double corners[8][3];
   copyCorners(this->mesh_, c, shape, this->mesh_.points, corners[0]);
   const int sign = elementStiffness(shape.shape, corners, K);
@@ -84,8 +84,7 @@ void CellMatrix::compute(Index c, double* K)
   }
   // The sign of a tetrahedron or pyramid is that of its corners.
   const bool isElsewhere = shape.shape == Shape::Hex || shape.shape == Shape::Wedge;
-  this->isBad_[c] = sign != 1 || (isElsewhere && !areCornersSurelyPositive(shape.shape, corners) &&
-                                   !(scaledJacobian(this->mesh_.types[c], corners) > 0));
+  this->isBad_[c] = sign != 1 || (isElsewhere && !(scaledJacobian(shape, corners) > 0));
 }
 
 bool CellMatrix::isAnyBad() const
@@ -123,7 +122,7 @@ Matrices cellMatrices(
   const auto entriesOf = [&](Index c)
   {
     const bool isInStar = !starOf.empty() && starOf[c] >= 0;
-    return isInStar ? 0 : triangleSize(numberOfCorners(cellShape(mesh.types[c])->shape));
+    return isInStar ? 0 : triangleSize(numberOfCorners(cellShape(mesh, c)->shape));
   };
   Matrices result;
   result.start.resize(mesh.numberOfCells());

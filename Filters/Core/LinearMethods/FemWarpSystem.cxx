@@ -22,7 +22,7 @@ namespace
 /// Whether two corners of a cell coincide, as in a hexahedron that is used as a wedge.
 bool isCollapsed(const Mesh& mesh, Index cell)
 {
-  const CellShape& shape = *cellShape(mesh.types[cell]);
+  const CellShape& shape = *cellShape(mesh, cell);
   for (int a = 0; a < shape.numberOfCorners; ++a)
   {
     for (int b = 0; b < a; ++b)
@@ -161,7 +161,7 @@ BadCells badCells(const Mesh& mesh, const std::vector<std::int8_t>& expected,
   BadCells bad;
   for (Index c = 0; c < mesh.numberOfCells(); ++c)
   {
-    if (numberOfCorners(cellShape(mesh.types[c])->shape) == 0)
+    if (numberOfCorners(cellShape(mesh, c)->shape) == 0)
     {
       continue;
     }

@@ -23,7 +23,7 @@ constexpr double LeastVolume = 1e-12;  // of the mean one: a flat cell has a fin
 
 bool isVolumeCell(const Mesh& mesh, Index cell)
 {
-  return numberOfCorners(cellShape(mesh.types[cell])->shape) > 0;
+  return numberOfCorners(cellShape(mesh, cell)->shape) > 0;
 }
 
 /// Returns for each volume cell value(cell), and 0 for the others.
@@ -50,7 +50,7 @@ std::vector<double> volumes(const Mesh& mesh, Monitor& monitor)
   return ofCells(mesh, monitor,
     [&](Index c)
     {
-      const CellShape& shape = *cellShape(mesh.types[c]);
+      const CellShape& shape = *cellShape(mesh, c);
       double corners[8][3];
       copyCorners(mesh, c, shape, mesh.points, corners[0]);
       return std::abs(signedVolume(shape.shape, corners));
@@ -63,7 +63,7 @@ std::vector<double> wallDistances(const Mesh& mesh, const Points& walls, Monitor
   return ofCells(mesh, monitor,
     [&](Index c)
     {
-      const CellShape& shape = *cellShape(mesh.types[c]);
+      const CellShape& shape = *cellShape(mesh, c);
       double corners[8][3] = {};
       copyCorners(mesh, c, shape, mesh.points, corners[0]);
       return nearest.distance(

@@ -13,7 +13,7 @@ void forCellEdges(const Mesh& mesh, const Body& body)
 {
   for (Index c = 0; c < mesh.numberOfCells(); ++c)
   {
-    const CellShape& shape = *cellShape(mesh.types[c]);
+    const CellShape& shape = *cellShape(mesh, c);
     for (int f = 0; f < shape.numberOfFaces; ++f)
     {
       const FaceShape& face = shape.faces[f];

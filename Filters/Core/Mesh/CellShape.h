@@ -86,6 +86,13 @@ struct CellShape
 /// Returns null for a type that this library does not know (Lagrange, ...).
 const CellShape* cellShape(std::uint8_t type);
 
+/// What a cell is, by its type and its nodes; null as above. Whoever works on the cells of a mesh
+/// asks here, so that they are recognized in one place.
+inline const CellShape* cellShape(const Mesh& mesh, Index cell)
+{
+  return cellShape(mesh.types[cell]);
+}
+
 /// Copies the positions of a cell's corners, in the order of its shape. `points`: #nodes x 3;
 /// `corners`: numberOfCorners x 3.
 template <typename Positions>

@@ -21,7 +21,7 @@ void forEachFaceOfAny(const Mesh& mesh, Index cell, Visit&& visit)
     forEachFace(mesh, cell, visit);
     return;
   }
-  const CellShape* shape = cellShape(mesh.types[cell]);
+  const CellShape* shape = cellShape(mesh, cell);
   for (int f = 0; shape && shape->dimension == 3 && f < shape->numberOfFaces; ++f)
   {
     Index nodes[4];

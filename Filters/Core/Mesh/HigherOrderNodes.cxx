@@ -83,7 +83,7 @@ void HigherOrderNodes::prepare(const Mesh& rest, const NodePartition& partition)
   std::vector<int> cells(this->ids_.size(), 0);
   for (Index c = 0; c < rest.numberOfCells(); ++c)
   {
-    const CellShape* shape = cellShape(rest.types[c]);
+    const CellShape* shape = cellShape(rest, c);
     if (!shape || shape->dimension != 3 || shape->numberOfNodes == shape->numberOfCorners)
     {
       continue;

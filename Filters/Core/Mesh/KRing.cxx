@@ -31,7 +31,7 @@ KRing kRingOfCells(const Mesh& mesh, const Adjacency& around, const std::vector<
     for (const std::size_t until = patch.cells.size(); from < until; ++from)
     {
       const Index c = patch.cells[from];
-      for (int a = 0; a < cellShape(mesh.types[c])->numberOfCorners; ++a)
+      for (int a = 0; a < cellShape(mesh, c)->numberOfCorners; ++a)
       {
         const Index node = mesh.cell(c)[a];
         if (isNode[node] == 0)

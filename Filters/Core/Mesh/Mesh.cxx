@@ -30,7 +30,7 @@ void validate(const Mesh& mesh)
   for (Index c = 0; c < cells; ++c)
   {
     const Index size = mesh.cellSize(c);
-    const CellShape* shape = cellShape(mesh.types[c]);
+    const CellShape* shape = cellShape(mesh, c);
     if (!shape)
     {
       unknown.push_back(c);

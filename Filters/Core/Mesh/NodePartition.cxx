@@ -46,7 +46,7 @@ NodePartition partitionNodes(const Mesh& mesh, std::vector<Index> prescribed)
   std::vector<std::uint8_t> role(nodes, Unused);
   for (Index c = 0; c < mesh.numberOfCells(); ++c)
   {
-    const CellShape* shape = cellShape(mesh.types[c]);
+    const CellShape* shape = cellShape(mesh, c);
     if (!shape || shape->dimension != 3)
     {
       continue;

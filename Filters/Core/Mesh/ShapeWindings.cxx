@@ -159,7 +159,7 @@ private:
     for (Index c = 0; c < this->mesh_.numberOfCells(); ++c)
     {
       // Scaled Jacobian meets types that the core does not know.
-      const CellShape* shape = cellShape(this->mesh_.types[c]);
+      const CellShape* shape = cellShape(this->mesh_, c);
       if (shape && isMeasured(*shape))
       {
         body(c, *shape);

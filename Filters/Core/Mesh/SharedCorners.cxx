@@ -21,7 +21,7 @@ namespace
 /// The different corners of a volume cell, ascending; none of another cell.
 std::vector<Index> cornersOf(const Mesh& mesh, Index cell)
 {
-  const CellShape* shape = cellShape(mesh.types[cell]);
+  const CellShape* shape = cellShape(mesh, cell);
   if (!shape || shape->dimension < 3)
   {
     return {};
@@ -131,7 +131,7 @@ std::vector<Index> repeatedCells(const Mesh& mesh, Monitor& monitor)
     {
       for (Index c = first; c < last; ++c)
       {
-        const CellShape* shape = cellShape(mesh.types[c]);
+        const CellShape* shape = cellShape(mesh, c);
         if (shape && shape->dimension == 3)
         {
           const Index* nodes = mesh.cell(c);
@@ -149,8 +149,7 @@ std::vector<Index> repeatedCells(const Mesh& mesh, Monitor& monitor)
       const auto sum = [&mesh](Index c)
       {
         const Index* nodes = mesh.cell(c);
-        return std::accumulate(
-          nodes, nodes + cornerCount(mesh, c, *cellShape(mesh.types[c])), Index(0));
+        return std::accumulate(nodes, nodes + cornerCount(mesh, c, *cellShape(mesh, c)), Index(0));
       };
       for (Index n = first; n < last; ++n)
       {

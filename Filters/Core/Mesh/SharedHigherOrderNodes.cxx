@@ -20,7 +20,7 @@ void SharedHigherOrderNodes::prepare(
   Points cells = Points::Zero(static_cast<Index>(this->ids_.size()), 3); // in the first column
   for (Index c = 0; c < rest.numberOfCells(); ++c)
   {
-    const CellShape* shape = cellShape(rest.types[c]);
+    const CellShape* shape = cellShape(rest, c);
     for (int k = shape ? shape->numberOfCorners : 0; shape && k < shape->numberOfNodes; ++k)
     {
       const Index node = rest.cell(c)[k];

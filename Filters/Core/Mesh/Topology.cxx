@@ -24,7 +24,7 @@ namespace
 {
 const CellShape* volumeShape(const Mesh& mesh, Index cell)
 {
-  const CellShape* shape = cellShape(mesh.types[cell]);
+  const CellShape* shape = cellShape(mesh, cell);
   return shape && shape->dimension == 3 ? shape : nullptr;
 }
 

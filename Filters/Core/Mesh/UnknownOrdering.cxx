@@ -23,7 +23,7 @@ std::vector<Index> unknownOrdering(const Mesh& mesh, const std::vector<Index>& f
   Index count = 0;
   for (Index c = 0; c < cells; ++c)
   {
-    const int n = numberOfCorners(cellShape(mesh.types[c])->shape);
+    const int n = numberOfCorners(cellShape(mesh, c)->shape);
     if (n > 0)
     {
       const auto range = std::minmax_element(mesh.cell(c), mesh.cell(c) + n);

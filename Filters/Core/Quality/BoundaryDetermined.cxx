@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Quality/BoundaryDetermined.h"
 
+#include "Geometry/CommonPoint.h"
 #include "Mesh/CellShape.h"
 #include "Mesh/SimplicialDecomposition.h"
 #include "Mesh/Topology.h"
 #include "Quality/InvertedBefore.h"
-#include "Quality/PlaceOfNode.h"
 
 #include <Eigen/Geometry>
 
 #include <algorithm>
 #include <iterator>
+#include <utility>
 
 namespace morph
 {
@@ -28,11 +29,43 @@ std::vector<char> isPrescribed(const Mesh& mesh, const NodePartition& partition)
   return result;
 }
 
+/// Adds to `result` the half-spaces where `node` makes its corners of cell `c` positive. It takes
+/// the corners whose nodes are all prescribed except `node`. `isPrescribed`: #nodes. `points`:
+/// #nodes x 3, read only at prescribed nodes.
+void addHalfSpaces(const Mesh& mesh, const std::vector<std::int8_t>& orientation, Index c,
+  Index node, const std::vector<char>& isPrescribed, const Points& points,
+  std::vector<HalfSpace>& result)
+{
+  const CellShape& shape = *cellShape(mesh, c);
+  const WeightedTet* tets = simplicialDecomposition(shape.shape).tets;
+  for (int t = 0; t < cornerTetrahedra(shape.shape); ++t)
+  {
+    std::array<Index, 4> id = nodesAt(mesh, c, shape, tets[t].corner);
+    int own = -1, prescribed = 0;
+    for (int k = 0; k < 4; ++k)
+    {
+      own = id[k] == node ? k : own;
+      prescribed += isPrescribed[id[k]] ? 1 : 0;
+    }
+    if (own < 0 || prescribed != 3)
+    {
+      continue;
+    }
+    // Moves the node to the front, which inverts the tetrahedron unless it is there already.
+    std::swap(id[0], id[own]);
+    if ((own == 0) != (orientation[c] > 0))
+    {
+      std::swap(id[1], id[2]);
+    }
+    result.push_back({ points.row(id[1]), points.row(id[2]), points.row(id[3]) });
+  }
+}
+
 /// Whether enough nodes are prescribed for a corner tetrahedron to have at most one free node.
 bool isHeld(const Mesh& mesh, Index c, const std::vector<char>& prescribed)
 {
   const Index* nodes = mesh.cell(c);
-  const int corners = cellShape(mesh.types[c])->numberOfCorners;
+  const int corners = cellShape(mesh, c)->numberOfCorners;
   return std::count_if(nodes, nodes + corners, [&](Index n) { return prescribed[n] != 0; }) >= 3;
 }
 
@@ -40,7 +73,7 @@ bool isHeld(const Mesh& mesh, Index c, const std::vector<char>& prescribed)
 bool leavesNoPlace(const Mesh& mesh, const std::vector<std::int8_t>& orientation, Index c,
   const std::vector<char>& prescribed, const Points& points)
 {
-  const CellShape& shape = *cellShape(mesh.types[c]);
+  const CellShape& shape = *cellShape(mesh, c);
   std::vector<HalfSpace> halfSpaces;
   for (int k = 0; k < numberOfCorners(shape.shape); ++k)
   {
@@ -70,7 +103,7 @@ std::vector<Index> boundaryDeterminedInversions(const Mesh& mesh, const NodePart
     {
       continue;
     }
-    const CellShape& shape = *cellShape(mesh.types[c]);
+    const CellShape& shape = *cellShape(mesh, c);
     const auto inverted = [&](const WeightedTet& tet)
     {
       const std::array<Index, 4> id = nodesAt(mesh, c, shape, tet.corner);

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Mesh/CellShape.h"
 #include "Mesh/Mesh.h"
 #include "Support/Monitor.h"
+
+#include <Eigen/Core>
 
 #include <cstdint>
 #include <vector>
@@ -26,22 +29,14 @@ enum class Certificate : std::int8_t
 ///   the rational map of the pyramid. With Q_r x Q_s = u x v + r u x w + s w x v the terms in r^2
 ///   and s^2 vanish and g is bilinear: its minimum is at a corner of the base. The exact signs
 ///   of the four base-corner tetrahedra decide.
-/// - Wedge: linear over the triangle and quadratic along the third coordinate, so the minimum
-///   is on one of the three edges between the triangles. On such an edge, with the Bernstein
-///   coefficients b0, b1, b2, it is positive throughout if and only if b0 > 0, b2 > 0 and b1 >
-///   -sqrt(b0 b2). b0 and b2 are corner determinants.
-/// - Hexahedron: of degree two in each coordinate. It lies between the minimum and the maximum of
-///   its 27 Bernstein coefficients, which close in on it as the cell is halved (de Casteljau; A.
-///   Johnen, J.-C. Weill, J.-F. Remacle, "Robust and efficient validation of the linear hexahedral
-///   element", Procedia Engng 203 (2017) 271-283). The eight corner signs are exact.
-/// - Quadratic cells (types 24 to 27, 29, 31 to 33): the determinant of VTK's own map through all
-///   nodes, by its Bernstein coefficients and subdivision (QuadraticMap.h; A. Johnen, J.-F.
+/// - Hexahedron, wedge and quadratic cells (types 24 to 27, 29, 31 to 33): the determinant of VTK's
+///   own map through all nodes lies between the minimum and the maximum of its Bernstein
+///   coefficients. These close in on it as the cell is halved (CellMap.h). Source: A. Johnen, J.-F.
 ///   Remacle, C. Geuzaine, "Geometrical validity of curvilinear finite elements", J. Comput. Phys.
-///   233 (2013) 359-372). Its corner signs are bounded, not exact. With nodes exactly in the middle
-///   of their corners the cell is proved as the linear one that it is.
-///
-/// - Polyhedron (certify() alone): OpenFOAM's test of face pyramids, see PolyhedronQuality.h. It is
-///   a test of volumes, not of a map.
+///   233 (2013) 359-372. Of hexahedra and wedges the corner signs are exact; of others they are
+///   bounded. With nodes exactly in the middle of their corners a cell is proved as the linear one
+///   that it is.
+/// - Polyhedron (certify() alone): the tetrahedra by which it is measured (PolyhedronQuality.h).
 ///
 /// Undecided are hexahedra and wedges with a determinant within about 1e-13 of zero, but no corner
 /// at or below zero. This is relative to the product of the longest edges in the three directions.
@@ -50,7 +45,7 @@ enum class Certificate : std::int8_t
 ///
 /// `nodes`: n x 3, all n nodes of the cell, those of a voxel in a hexahedron's order. Cost: 0.1
 /// microseconds for a tetrahedron, 1.5 for a hexahedron, 5 for a curved quadratic cell. An
-/// undecided cell takes up to about a millisecond if linear, 5 if quadratic.
+/// undecided cell takes up to about 5 milliseconds.
 Certificate certifyCell(std::uint8_t type, const double (*nodes)[3]);
 
 struct CertificateReport
@@ -68,4 +63,44 @@ struct CertificateReport
 CertificateReport certify(const Mesh& mesh, const ConstPoints& points,
   const std::vector<std::int8_t>& orientation, const std::vector<std::uint8_t>& skip,
   Monitor& monitor);
+
+/// The maximum number of nodes of a volume cell that this library knows.
+constexpr int MostNodesOfVolume = 27;
+
+/// Whether the shape is a volume cell with more nodes than its corners.
+inline bool isQuadraticVolume(const CellShape& shape)
+{
+  return shape.extraNodes && shape.numberOfNodes > shape.numberOfCorners;
+}
+
+/// The result of a proof about the Jacobian determinant of a cell.
+struct JacobianProof
+{
+  Certificate certificate = Certificate::Undecided;
+  /// If Inverted: parametric coordinates of a point where the determinant is 0 or negative. For a
+  /// pyramid, the determinant is taken without its factor (1 - t)^2.
+  double at[3] = { 0, 0, 0 };
+};
+
+/// Proves the determinant positive, or finds a point where it is not. It subdivides the Bernstein
+/// form (CellMap.h) and bounds the rounding of all coefficients and subdivisions. Where that
+/// decides nothing, it looks at the nodes and at a lattice of points, with the rounding bound of
+/// each point. The result is Undecided if a coordinate is not finite, or if the minimum is too
+/// close to 0 for the bound. `type`: one of CellMap.h; `x`: all nodes of the cell in VTK's
+/// order. Cost: about 5 microseconds for a well-shaped cell, up to about 5 milliseconds if
+/// undecided.
+JacobianProof proveJacobian(std::uint8_t type, const Eigen::Vector3d* x);
+
+/// Returns the scaled Jacobian of a quadratic cell whose corner cell has the value `ofCorners`:
+/// - Inverted inside: the minimum, never positive, of `ofCorners` and the determinants with
+///   normalised columns at the nodes and at the proof's point.
+/// - Positive everywhere: `ofCorners` if positive, otherwise the minimum of the determinants at the
+///   nodes.
+/// - Undecided: `ofCorners`.
+/// The normalised determinants have the factor of the shape's corners (ScaledJacobian.h).
+double quadraticScaledJacobian(std::uint8_t type, const Eigen::Vector3d* x, double ofCorners);
+
+/// Whether all nodes between corners are exactly at the corners' mean, so that the map is the
+/// linear cell's.
+bool isStraightSided(std::uint8_t type, const Eigen::Vector3d* x);
 }

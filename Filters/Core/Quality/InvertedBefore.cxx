@@ -2,7 +2,7 @@
 #include "Quality/InvertedBefore.h"
 
 #include "Quality/MeasuredPlaces.h"
-#include "Quality/PolyhedronPlaces.h"
+#include "Quality/PolyhedronQuality.h"
 
 #include <Eigen/Geometry>
 
@@ -36,7 +36,7 @@ std::vector<bool> InvertedBefore::placesOf(
   const auto add = [&](const Vector& a, const Vector& b, const Vector& c)
   { positive.push_back(sign * a.dot(b.cross(c)) > least * a.norm() * b.norm() * c.norm()); };
   const Index* nodes = this->mesh_->cell(cell);
-  const CellShape& shape = *cellShape(this->mesh_->types[cell]);
+  const CellShape& shape = *cellShape(*this->mesh_, cell);
   if (shape.shape == Shape::Polyhedron)
   {
     std::vector<Vector> x;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Quality/LargestFactor.h"
 
+#include "Quality/CellMap.h"
+#include "Quality/Certificate.h"
 #include "Quality/MeasuredPlaces.h"
-#include "Quality/PolyhedronPlaces.h"
+#include "Quality/PolyhedronQuality.h"
 #include "Quality/PolynomialRoot.h"
-#include "Quality/QuadraticJacobian.h"
-#include "Quality/QuadraticMap.h"
 #include "Support/Parallel.h"
 
 #include <Eigen/Cholesky>
@@ -63,14 +63,14 @@ public:
   /// Returns whether the cell is to be followed.
   bool take(Index cell, double sign)
   {
-    this->shape_ = cellShape(this->mesh_.types[cell]);
+    this->shape_ = cellShape(this->mesh_, cell);
     if (!this->shape_ || this->shape_->dimension != 3)
     {
       return false;
     }
     this->positive_ = this->before_.positivePlaces(cell);
     const bool isQuadratic = isQuadraticVolume(*this->shape_) && !this->positive_;
-    this->map_ = isQuadratic ? QuadraticMap::find(this->mesh_.types[cell]) : nullptr;
+    this->map_ = isQuadratic ? CellMap::find(this->mesh_.types[cell]) : nullptr;
     this->sign_ = sign;
     const auto nodes = this->mesh_.cell(cell);
     this->nodes_ = static_cast<int>(this->mesh_.cellSize(cell));
@@ -239,7 +239,7 @@ private:
       return speed;
     };
     Speeds result;
-    std::vector<QuadraticMap::Derivatives> parts;
+    std::vector<CellMap::Derivatives> parts;
     for (std::size_t field = 0; field < seen.size(); ++field)
     {
       this->setEdges(this->edges_[field], seen[field].data());
@@ -290,7 +290,7 @@ private:
   /// so that the largest of these bound how it changes.
   double quadraticStep() const
   {
-    const QuadraticMap::Derivatives derivatives = this->map_->derivatives(this->now_.data());
+    const CellMap::Derivatives derivatives = this->map_->derivatives(this->now_.data());
     BernsteinHalving::Coefficients c;
     c.fill(0);
     this->map_->determinant(derivatives, 0, c);
@@ -321,7 +321,7 @@ private:
   PolyhedronPlaces polyhedron_;
   Speeds speeds_;
   const CellShape* shape_ = nullptr;
-  const QuadraticMap* map_ = nullptr; ///< of a quadratic cell
+  const CellMap* map_ = nullptr; ///< of a quadratic cell
   double sign_ = 1;
   int nodes_ = 0;
   bool isPolyhedron_ = false;

@@ -41,7 +41,7 @@ struct LargestFactor
 ///
 /// Valid is what measureQuality() calls so, for polyhedra with the centres of PolyhedronPlaces,
 /// which keep their weights at f = 0. A quadratic cell also needs positive Bernstein
-/// coefficients (QuadraticMap.h), which is sufficient and not necessary. Each determinant is
+/// coefficients (CellMap.h), which is sufficient and not necessary. Each determinant is
 /// followed from 0 by steps in which it cannot reach 0: the edges change no faster than |straight|
 /// + sum of |angle| sqrt(|first|^2 + |second|^2), and a determinant by no more than the product of
 /// the edges' lengths grows. The turn of the whole cell is taken off first where that lowers the

@@ -2,10 +2,24 @@
 #pragma once
 
 #include "Mesh/CellShape.h"
-#include "Quality/CornerNodes.h"
 
 namespace morph
 {
+/// The places in a cell where its Jacobian determinant is measured: a corner and its three
+/// neighbors along edges, in the order that makes the determinant of a valid cell positive.
+inline constexpr int TetCornerNodes[1][4] = { { 0, 1, 2, 3 } };
+inline constexpr int HexCornerNodes[8][4] = { { 0, 1, 3, 4 }, { 1, 2, 0, 5 }, { 2, 3, 1, 6 },
+  { 3, 0, 2, 7 }, { 4, 7, 5, 0 }, { 5, 4, 6, 1 }, { 6, 5, 7, 2 }, { 7, 6, 4, 3 } };
+/// The edges at each corner, in that order. The entry is e + 1 for edge e of the twelve in
+/// HexAxisEdges (Mesh/CellShape.h), or -(e + 1) if it ends at the corner.
+inline constexpr int HexCornerEdges[8][3] = { { 1, 5, 9 }, { 6, -1, 10 }, { -2, -6, 12 },
+  { -5, 2, 11 }, { 7, 3, -9 }, { -3, 8, -10 }, { -8, -4, -12 }, { 4, -7, -11 } };
+inline constexpr int WedgeCornerNodes[6][4] = { { 0, 1, 2, 3 }, { 1, 2, 0, 4 }, { 2, 0, 1, 5 },
+  { 3, 5, 4, 0 }, { 4, 3, 5, 1 }, { 5, 4, 3, 2 } };
+/// At the base alone.
+inline constexpr int PyramidCornerNodes[4][4] = { { 0, 1, 3, 4 }, { 1, 2, 0, 4 }, { 2, 3, 1, 4 },
+  { 3, 0, 2, 4 } };
+
 /// Calls take(a, b, c) with three edges at each place where measureQuality() takes a determinant:
 /// the corners in their order, then a hexahedron's centre, with sums of four edges. `x`: the
 /// corners in the order of the shape; positions, or matrices of three rows that are linear in them.

@@ -36,7 +36,7 @@ MovableQuality::MovableQuality(const Mesh& mesh, const std::vector<std::int8_t>&
   }
   for (Index c = 0; c < mesh.numberOfCells(); ++c)
   {
-    const CellShape& shape = *cellShape(mesh.types[c]);
+    const CellShape& shape = *cellShape(mesh, c);
     if (this->skip_[c] != 0 || shape.dimension != 3 || shape.numberOfCorners == 0)
     {
       this->skip_[c] = 1;
@@ -60,7 +60,7 @@ MovableQuality::MovableQuality(const Mesh& mesh, const std::vector<std::int8_t>&
 
 void MovableQuality::cornersOf(Index cell, const Points& points, double (*x)[3]) const
 {
-  const CellShape& shape = *cellShape(this->mesh_.types[cell]);
+  const CellShape& shape = *cellShape(this->mesh_, cell);
   copyCorners(this->mesh_, cell, shape, points, x[0]);
   for (int k = 0; k < shape.numberOfCorners; ++k)
   {
@@ -80,7 +80,7 @@ MovableQuality::Result MovableQuality::measure(const Points& points, Monitor& mo
       double x[8][3];
       this->cornersOf(cell.id, points, x);
       result.scaledJacobian[cell.id] =
-        morph::scaledJacobian(this->mesh_.types[cell.id], x, cell.movable);
+        morph::scaledJacobian(*cellShape(this->mesh_, cell.id), x, cell.movable);
     }
   }
   this->summarise(result);
@@ -110,9 +110,9 @@ void MovableQuality::measureAgain(
         double x[8][3];
         this->cornersOf(c, points, x);
         const bool isHeld = held != this->held_.end() && held->id == c;
-        result.scaledJacobian[c] = isHeld
-                                     ? morph::scaledJacobian(this->mesh_.types[c], x, held->movable)
-                                     : morph::scaledJacobian(this->mesh_.types[c], x);
+        const CellShape& shape = *cellShape(this->mesh_, c);
+        result.scaledJacobian[c] =
+          isHeld ? morph::scaledJacobian(shape, x, held->movable) : morph::scaledJacobian(shape, x);
       }
     });
   this->summarise(result);
@@ -138,8 +138,8 @@ MovableQuality::Bounds MovableQuality::bounds(const Points& points) const
   {
     double x[8][3];
     this->cornersOf(cell.id, points, x);
-    const std::uint8_t type = this->mesh_.types[cell.id];
-    result.movable = std::min(result.movable, scaledJacobianBound(type, x, cell.prescribed));
+    const Shape shape = cellShape(this->mesh_, cell.id)->shape;
+    result.movable = std::min(result.movable, scaledJacobianBound(shape, x, cell.prescribed));
   }
   result.movable = this->communicator_.minimum(result.movable);
   result.fixed = this->fixedMinimum(points);
@@ -155,7 +155,8 @@ double MovableQuality::fixedMinimum(const Points& points) const
     {
       double x[8][3];
       this->cornersOf(cell.id, points, x);
-      result = std::min(result, morph::scaledJacobian(this->mesh_.types[cell.id], x, cell.fixed));
+      result =
+        std::min(result, morph::scaledJacobian(*cellShape(this->mesh_, cell.id), x, cell.fixed));
     }
   }
   return this->communicator_.minimum(result);

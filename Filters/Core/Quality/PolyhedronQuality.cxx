@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace morph
 {
@@ -15,149 +16,138 @@ namespace
 {
 using Vector = Eigen::Vector3d;
 
-Vector at(const ConstPoints& points, Index node, double sign)
+/// The length, correct also if its square underflows.
+double lengthOf(const Vector& v)
 {
-  return nodeAt(points, node, sign);
+  const double length = v.norm();
+  return length > 1e-150 ? length : v.stableNorm();
 }
 }
 
-void PolyhedronCenters::compute(
-  const Mesh& mesh, Index cell, const ConstPoints& points, double sign)
+bool PolyhedronPlaces::take(const Mesh& mesh, Index cell, const ConstPoints& points, double sign)
 {
-  this->areas.clear();
-  this->centers.clear();
-  this->triangles.clear();
-  this->shares.clear();
+  const Index* nodes = mesh.cell(cell);
+  const Index size = mesh.cellSize(cell);
+  this->place_.resize(size);
+  std::iota(this->place_.begin(), this->place_.end(), 0);
+  std::sort(this->place_.begin(), this->place_.end(),
+    [nodes](int a, int b) { return nodes[a] < nodes[b]; });
+  this->sorted_.clear();
+  for (const int place : this->place_)
+  {
+    this->sorted_.push_back(nodes[place]);
+  }
   // Relative to a node: far from the origin, rounding would exceed the cell's size.
-  const Vector origin = at(points, mesh.cell(cell)[0], sign);
+  this->x_.clear();
+  for (Index k = 0; k < size; ++k)
+  {
+    this->x_.push_back((points.row(nodes[k]) - points.row(nodes[0])).transpose());
+    this->x_.back().z() *= sign;
+  }
+
+  this->nodes_.clear();
+  this->weights_.clear();
+  this->shares_.clear();
+  this->start_.assign(1, 0);
+  bool hasLengths = true;
+  std::vector<Vector> areas, centers;
+  std::vector<double> triangles;
   forEachFace(mesh, cell,
-    [&](const Index* nodes, Index size)
+    [&](const Index* face, Index count)
     {
+      const std::size_t first = this->nodes_.size();
+      const double share = 1 / static_cast<double>(count);
       Vector mean = Vector::Zero();
-      for (Index k = 0; k < size; ++k)
+      for (Index k = 0; k < count; ++k)
       {
-        mean += at(points, nodes[k], sign) - origin;
+        const auto at = std::lower_bound(this->sorted_.begin(), this->sorted_.end(), face[k]);
+        this->nodes_.push_back(this->place_[at - this->sorted_.begin()]);
+        mean += share * this->x_[this->nodes_.back()];
       }
-      mean /= static_cast<double>(size);
-      Vector sum = Vector::Zero(), weighted = Vector::Zero();
-      double weights = 0;
-      for (Index k = 0; k < size; ++k)
+      const auto x = [&](Index k) -> const Vector&
+      { return this->x_[this->nodes_[first + k % count]]; };
+      Vector sum = Vector::Zero();
+      triangles.clear();
+      for (Index k = 0; k < count; ++k)
       {
-        const Vector a = at(points, nodes[k], sign) - origin;
-        const Vector b = at(points, nodes[(k + 1) % size], sign) - origin;
-        const Vector area = (b - a).cross(mean - a);
-        const double weight = lengthOf(area);
+        const Vector area = (x(k + 1) - x(k)).cross(mean - x(k));
         sum += area;
-        this->triangles.push_back(weight);
-        weights += weight;
-        weighted += weight * (a + b + mean);
+        triangles.push_back(lengthOf(area));
+        hasLengths = hasLengths && x(k + 1) != x(k);
       }
-      this->areas.push_back(sum / 2);
-      this->centers.push_back(size > 3 && weights > 0 ? Vector(weighted / (3 * weights)) : mean);
+      const double all = std::accumulate(triangles.begin(), triangles.end(), 0.);
+      Vector center = Vector::Zero();
+      for (Index k = 0; k < count; ++k)
+      {
+        // Each triangle has two of the nodes, and a third of it is the mean of all.
+        const double own = triangles[k] + triangles[(k + count - 1) % count];
+        this->weights_.push_back(count > 3 && all > 0 ? own / (3 * all) + share / 3 : share);
+        center += this->weights_.back() * x(k);
+      }
+      areas.push_back(sum / 2);
+      centers.push_back(center);
+      this->start_.push_back(this->nodes_.size());
     });
-  Vector estimate = Vector::Zero();
-  for (const Vector& center : this->centers)
+  const double mean = 1 / static_cast<double>(centers.size());
+  const Vector estimate = mean * std::accumulate(centers.begin(), centers.end(), Vector(0, 0, 0));
+  double volume = 0, extent = 0;
+  for (std::size_t f = 0; f < centers.size(); ++f)
   {
-    estimate += center / static_cast<double>(this->centers.size());
+    this->shares_.push_back(areas[f].dot(centers[f] - estimate));
+    volume += this->shares_[f];
+    extent += std::abs(this->shares_[f]);
   }
-  Vector weighted = Vector::Zero();
-  double volume = 0, size = 0;
-  for (std::size_t f = 0; f < this->centers.size(); ++f)
+  for (double& share : this->shares_)
   {
-    const double pyramid = this->areas[f].dot(this->centers[f] - estimate);
-    weighted += pyramid * (0.75 * this->centers[f] + 0.25 * estimate);
-    volume += pyramid;
-    size += std::abs(pyramid);
-    this->shares.push_back(pyramid);
+    // The centre of a pyramid is at three quarters of the way from its apex.
+    share = std::abs(volume) > 1e-12 * extent ? 0.75 * share / volume + 0.25 * mean : mean;
   }
-  const bool hasVolume = std::abs(volume) > 1e-12 * size;
-  this->cell = origin + (hasVolume ? Vector(weighted / volume) : estimate);
-  const double mean = 1 / static_cast<double>(this->centers.size());
-  for (double& share : this->shares)
-  {
-    share = hasVolume ? 0.75 * share / volume + 0.25 * mean : mean;
-  }
-  for (Vector& center : this->centers)
-  {
-    center += origin;
-  }
+  return hasLengths && !this->shares_.empty();
 }
 
-double PolyhedronMeasure::leastCorner(
-  const Mesh& mesh, Index cell, const ConstPoints& points, double sign)
+template <typename Act>
+bool PolyhedronPlaces::forEachValue(
+  const Mesh& mesh, Index cell, const ConstPoints& points, double sign, const Act& act)
 {
-  double least = std::numeric_limits<double>::infinity();
-  for (const PolyhedronCorner& corner : this->corners_.find(mesh, cell, sign))
+  for (Index k = 0; k < mesh.cellSize(cell); ++k)
   {
-    const Vector x = at(points, corner.node, sign);
-    const double value = determinantOfDirections(at(points, corner.last, sign) - x,
-      at(points, corner.next, sign) - x, at(points, corner.other, sign) - x);
-    if (std::isnan(value))
+    if (!points.row(mesh.cell(cell)[k]).allFinite())
     {
-      return value;
+      return false;
     }
-    least = std::min(least, value);
   }
-  return least;
+  this->take(mesh, cell, points, sign);
+  this->forEach(this->x_.data(), [&act](const Vector& a, const Vector& b, const Vector& c)
+    { act((a / lengthOf(a)).dot((b / lengthOf(b)).cross(c / lengthOf(c)))); });
+  return !this->shares_.empty();
 }
 
-double PolyhedronMeasure::scaledJacobian(
+double PolyhedronPlaces::scaledJacobian(
   const Mesh& mesh, Index cell, const ConstPoints& points, double sign, bool& isCollapsed)
 {
+  double least = std::numeric_limits<double>::infinity();
   isCollapsed = false;
-  for (Index k = 0; k < mesh.cellSize(cell); ++k)
-  {
-    if (!points.row(mesh.cell(cell)[k]).allFinite())
+  const bool isMeasured = this->forEachValue(mesh, cell, points, sign,
+    [&](double value)
     {
-      return std::numeric_limits<double>::quiet_NaN();
-    }
-  }
-  this->centers_.compute(mesh, cell, points, sign);
-  double least = this->leastCorner(mesh, cell, points, sign);
-  std::size_t face = 0;
-  forEachFace(mesh, cell,
-    [&](const Index* nodes, Index size)
-    {
-      const Vector& center = this->centers_.centers[face++];
-      for (Index k = 0; k < size; ++k)
-      {
-        const Vector a = at(points, nodes[k], sign), b = at(points, nodes[(k + 1) % size], sign);
-        const double value =
-          determinantOfDirections(b - a, center - (a + b) / 2, center - this->centers_.cell);
-        least = value < least || std::isnan(value) ? value : least;
-      }
+      isCollapsed = isCollapsed || std::isnan(value);
+      least = std::min(least, value);
     });
-  if (face == 0)
-  {
-    return std::numeric_limits<double>::quiet_NaN();
-  }
-  isCollapsed = std::isnan(least);
-  return isCollapsed ? 0 : least;
+  return !isMeasured ? std::numeric_limits<double>::quiet_NaN() : isCollapsed ? 0 : least;
 }
 
-Certificate PolyhedronMeasure::certify(
+Certificate PolyhedronPlaces::certify(
   const Mesh& mesh, Index cell, const ConstPoints& points, double sign)
 {
-  for (Index k = 0; k < mesh.cellSize(cell); ++k)
-  {
-    if (!points.row(mesh.cell(cell)[k]).allFinite())
+  constexpr double Rounding = 1e-13;
+  Certificate result = Certificate::Certified;
+  const bool isExamined = this->forEachValue(mesh, cell, points, sign,
+    [&result](double value)
     {
-      return Certificate::Undecided;
-    }
-  }
-  this->centers_.compute(mesh, cell, points, sign);
-  Certificate result =
-    this->centers_.areas.empty() ? Certificate::Undecided : Certificate::Certified;
-  for (std::size_t f = 0; f < this->centers_.areas.size(); ++f)
-  {
-    const Vector line = this->centers_.centers[f] - this->centers_.cell;
-    const double pyramid = this->centers_.areas[f].dot(line);
-    const double error = 1e-13 * this->centers_.areas[f].norm() * line.norm();
-    const Certificate found = pyramid > error    ? Certificate::Certified
-                              : pyramid < -error ? Certificate::Inverted
-                                                 : Certificate::Undecided;
-    result = std::min(result, found);
-  }
-  return result;
+      result = std::min(result, value > Rounding    ? Certificate::Certified
+                                : value < -Rounding ? Certificate::Inverted
+                                                    : Certificate::Undecided);
+    });
+  return isExamined ? result : Certificate::Undecided;
 }
 }

@@ -2,254 +2,345 @@
 #include "Quality/ScaledJacobian.h"
 
 #include "Mesh/CellShape.h"
-#include "Quality/CellsByFours.h"
-#include "Quality/CornerNodes.h"
-#include "Quality/PartialQuality.h"
+#include "Quality/Certificate.h"
+#include "Quality/MeasuredPlaces.h"
 #include "Quality/PolyhedronQuality.h"
-#include "Quality/QuadraticJacobian.h"
-
-#include <Eigen/Geometry>
+#include "Support/Simd.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
+#include <iterator>
 #include <limits>
+#include <numeric>
 
 namespace morph
 {
 namespace
 {
-using Vector = Eigen::Vector3d;
-
 constexpr double NotMeasured = std::numeric_limits<double>::quiet_NaN();
-
-// Sums are written out, as the order of Eigen's depends on whether it uses vectors. FourCells.cxx
-// has the same order.
-
-double dot(const Vector& a, const Vector& b)
-{
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-/// Returns the length of an edge, correct also if its square underflows.
-double lengthOf(const Vector& edge)
-{
-  const double length = std::sqrt(dot(edge, edge));
-  return length > 1e-150 ? length : std::hypot(edge.x(), edge.y(), edge.z());
-}
-
-/// Returns the determinant of three edges scaled to length 1. If an edge has no length, sets
-/// `collapsed` and returns 0.
-double normalizedDeterminant(const Vector& a, const Vector& b, const Vector& c, bool& collapsed)
-{
-  const double la = lengthOf(a), lb = lengthOf(b), lc = lengthOf(c);
-  if (la == 0 || lb == 0 || lc == 0)
-  {
-    collapsed = true;
-    return 0;
-  }
-  return dot(a / la, (b / lb).cross(c / lc));
-}
-
+constexpr double Infinity = std::numeric_limits<double>::infinity();
 constexpr unsigned AllSamples = ~0u;
 constexpr unsigned HexCenter = 1u << 8; // of the samples of a hexahedron, after its corners
 
-bool isChosen(unsigned samples, int corner)
+// The formulas, for one cell where T is double, or for as many as SimdDouble4 has numbers.
+
+template <typename T>
+using Mask = decltype(T{} < T{});
+
+template <typename T>
+struct Vector3
 {
-  return (samples >> corner & 1u) != 0;
+  T x, y, z;
+};
+
+template <typename T>
+MORPH_SIMD_INLINE Vector3<T> operator-(const Vector3<T>& a, const Vector3<T>& b)
+{
+  return { a.x - b.x, a.y - b.y, a.z - b.z };
 }
 
-template <int N>
-double leastCorner(const Vector* x, const int (&corners)[N][4], unsigned samples, bool& collapsed)
+template <typename T>
+MORPH_SIMD_INLINE Vector3<T> operator+(const Vector3<T>& a, const Vector3<T>& b)
 {
-  double least = std::numeric_limits<double>::infinity();
+  return { a.x + b.x, a.y + b.y, a.z + b.z };
+}
+
+template <typename T>
+MORPH_SIMD_INLINE Vector3<T> operator*(const T& factor, const Vector3<T>& a)
+{
+  return { factor * a.x, factor * a.y, factor * a.z };
+}
+
+template <typename T>
+MORPH_SIMD_INLINE Vector3<T> operator/(const Vector3<T>& a, const T& divisor)
+{
+  return { a.x / divisor, a.y / divisor, a.z / divisor };
+}
+
+template <typename T>
+MORPH_SIMD_INLINE T dot(const Vector3<T>& a, const Vector3<T>& b)
+{
+  return a.x * b.x + (a.y * b.y + a.z * b.z);
+}
+
+template <typename T>
+MORPH_SIMD_INLINE Vector3<T> cross(const Vector3<T>& a, const Vector3<T>& b)
+{
+  return { a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x };
+}
+
+template <typename T>
+MORPH_SIMD_INLINE T least(const T& a, const T& b)
+{
+  return select(b < a, b, a);
+}
+
+template <typename T>
+MORPH_SIMD_INLINE T greatest(const T& a, const T& b)
+{
+  return select(a < b, b, a);
+}
+
+MORPH_SIMD_INLINE double lengthWithoutUnderflow(const Vector3<double>& v)
+{
+  return std::hypot(v.x, v.y, v.z);
+}
+
+MORPH_SIMD_INLINE SimdDouble4 lengthWithoutUnderflow(const Vector3<SimdDouble4>& v)
+{
+  const auto lane = [&v](int i) { return std::hypot(v.x[i], v.y[i], v.z[i]); };
+  return SimdDouble4{ lane(0), lane(1), lane(2), lane(3) };
+}
+
+/// Computes lengths, correct also where a square underflows. Returns the shortest.
+template <typename T, int N>
+MORPH_SIMD_INLINE T lengthsOf(const Vector3<T> (&v)[N], T (&length)[N])
+{
+  T shortest = T{} + Infinity;
+  for (int i = 0; i < N; ++i)
+  {
+    length[i] = squareRoot(dot(v[i], v[i]));
+    shortest = least(shortest, length[i]);
+  }
+  if (any(!(shortest > T{} + 1e-150)))
+  {
+    shortest = T{} + Infinity;
+    for (int i = 0; i < N; ++i)
+    {
+      length[i] = select(length[i] > T{} + 1e-150, length[i], lengthWithoutUnderflow(v[i]));
+      shortest = least(shortest, length[i]);
+    }
+  }
+  return shortest;
+}
+
+/// Returns the determinant of three edges scaled to length 1; NaN where one has no length.
+template <typename T>
+MORPH_SIMD_INLINE T normalizedDeterminant(
+  const Vector3<T>& a, const Vector3<T>& b, const Vector3<T>& c)
+{
+  const Vector3<T> edges[3] = { a, b, c };
+  T length[3];
+  lengthsOf(edges, length);
+  return dot(a / length[0], cross(b / length[1], c / length[2]));
+}
+
+/// The minimum over samples, and whether one of them has an edge without length.
+template <typename T>
+struct Minimum
+{
+  T value = T{} + Infinity;
+  Mask<T> isCollapsed = Mask<T>{};
+
+  /// Passes over NaN, which comes from lengths whose products are 0 or infinite.
+  MORPH_SIMD_INLINE void add(const T& sample, const T& shortest)
+  {
+    this->isCollapsed = this->isCollapsed | (shortest == T{});
+    this->value = least(this->value, sample);
+  }
+  /// `sample`: of normalizedDeterminant().
+  MORPH_SIMD_INLINE void add(const T& sample)
+  {
+    this->add(sample, select(sample == sample, T{} + 1., T{}));
+  }
+};
+
+MORPH_SIMD_INLINE bool isChosen(unsigned samples, int sample)
+{
+  return (samples >> sample & 1u) != 0;
+}
+
+template <typename T, int N>
+MORPH_SIMD_INLINE void addCorners(
+  const Vector3<T>* x, const int (&corners)[N][4], unsigned samples, Minimum<T>& minimum)
+{
   for (int k = 0; k < N; ++k)
   {
     const int(&c)[4] = corners[k];
     if (isChosen(samples, k))
     {
-      least = std::min(least,
-        normalizedDeterminant(x[c[1]] - x[c[0]], x[c[2]] - x[c[0]], x[c[3]] - x[c[0]], collapsed));
+      minimum.add(normalizedDeterminant(x[c[1]] - x[c[0]], x[c[2]] - x[c[0]], x[c[3]] - x[c[0]]));
     }
   }
-  return least;
 }
 
-double tet(const Vector& x0, const Vector& x1, const Vector& x2, const Vector& x3, bool& collapsed)
+template <typename T>
+MORPH_SIMD_INLINE void addTet(const Vector3<T>& x0, const Vector3<T>& x1, const Vector3<T>& x2,
+  const Vector3<T>& x3, Minimum<T>& minimum)
 {
-  const Vector e01 = x1 - x0, e02 = x2 - x0, e03 = x3 - x0;
-  const double l01 = lengthOf(e01), l02 = lengthOf(e02), l03 = lengthOf(e03);
-  const double l12 = lengthOf(x2 - x1), l13 = lengthOf(x3 - x1), l23 = lengthOf(x3 - x2);
-  if (l01 == 0 || l02 == 0 || l03 == 0 || l12 == 0 || l13 == 0 || l23 == 0)
-  {
-    collapsed = true;
-    return 0;
-  }
-  const double longest =
-    std::max({ l01 * l02 * l03, l01 * l12 * l13, l02 * l12 * l23, l03 * l13 * l23 });
-  return std::sqrt(2.0) * dot(e01, e02.cross(e03)) / longest;
+  const Vector3<T> edges[6] = { x1 - x0, x2 - x0, x3 - x0, x2 - x1, x3 - x1, x3 - x2 };
+  T l[6];
+  const T shortest = lengthsOf(edges, l);
+  const T longest = greatest(greatest(l[0] * l[1] * l[2], l[0] * l[3] * l[4]),
+    greatest(l[1] * l[3] * l[5], l[2] * l[4] * l[5]));
+  const T value = std::sqrt(2.) * T(dot(edges[0], cross(edges[1], edges[2]))) / longest;
+  minimum.add(value, shortest);
 }
 
-double hex(const Vector* x, unsigned samples, bool& collapsed)
+template <typename T>
+MORPH_SIMD_INLINE void addHex(const Vector3<T>* x, unsigned samples, Minimum<T>& minimum)
 {
-  double least = std::numeric_limits<double>::infinity();
   if ((samples & HexCenter) != 0)
   {
-    const Vector r = x[1] - x[0] + x[2] - x[3] + x[5] - x[4] + x[6] - x[7];
-    const Vector s = x[3] - x[0] + x[2] - x[1] + x[7] - x[4] + x[6] - x[5];
-    const Vector t = x[4] - x[0] + x[5] - x[1] + x[6] - x[2] + x[7] - x[3];
     // The mean edges may vanish while every edge has a length: such a cell is inverted, not
     // collapsed.
-    bool noMeanEdge = false;
-    least = normalizedDeterminant(r, s, t, noMeanEdge);
+    const T center = normalizedDeterminant(x[1] - x[0] + x[2] - x[3] + x[5] - x[4] + x[6] - x[7],
+      x[3] - x[0] + x[2] - x[1] + x[7] - x[4] + x[6] - x[5],
+      x[4] - x[0] + x[5] - x[1] + x[6] - x[2] + x[7] - x[3]);
+    minimum.add(select(center == center, center, T{}));
   }
-  // Each edge is at two corners. Roots and divisions, which take most of the time, are computed
-  // once, and for several edges at a time.
-  using Edges = Eigen::Array<double, 12, 1>;
-  Edges edge[3];
+  // Each edge is at two corners: roots and divisions, which take most of the time, are made once.
+  Vector3<T> edge[12];
+  T length[12];
   for (int e = 0; e < 12; ++e)
   {
-    const int* ends = HexAxisEdges[e / 4][e % 4];
-    for (int j = 0; j < 3; ++j)
-    {
-      edge[j][e] = x[ends[1]][j] - x[ends[0]][j];
-    }
+    const int(&ends)[2] = HexAxisEdges[e / 4][e % 4];
+    edge[e] = x[ends[1]] - x[ends[0]];
   }
-  Edges length = (edge[0].square() + (edge[1].square() + edge[2].square())).sqrt();
-  unsigned withoutLength = 0;
+  lengthsOf(edge, length);
   for (int e = 0; e < 12; ++e)
   {
-    if (!(length[e] > 1e-150))
-    {
-      length[e] = std::hypot(edge[0][e], edge[1][e], edge[2][e]); // the square may have vanished
-      withoutLength |= length[e] == 0 ? 1u << e : 0u;
-    }
+    edge[e] = edge[e] / length[e];
   }
-  for (Edges& component : edge)
-  {
-    component /= length;
-  }
-  using Corners = Eigen::Array<double, 8, 1>;
-  Corners at[3][3]; // of the three edges at each corner
   for (int k = 0; k < 8; ++k)
   {
-    for (int d = 0; d < 3; ++d)
+    if (isChosen(samples, k))
     {
-      const int which = HexCornerEdges[k][d];
-      const int e = std::abs(which) - 1;
-      for (int j = 0; j < 3; ++j)
+      Vector3<T> outgoing[3];
+      for (int d = 0; d < 3; ++d)
       {
-        at[d][j][k] = which > 0 ? edge[j][e] : -edge[j][e];
+        const int which = HexCornerEdges[k][d];
+        outgoing[d] = which > 0 ? edge[which - 1] : Vector3<T>{} - edge[-which - 1];
       }
-      collapsed =
-        collapsed || (isChosen(samples, k) && withoutLength != 0 && (withoutLength >> e & 1u) != 0);
+      minimum.add(dot(outgoing[0], cross(outgoing[1], outgoing[2])));
     }
   }
-  const Corners(&a)[3] = at[0], (&b)[3] = at[1], (&c)[3] = at[2];
-  const Corners determinant =
-    a[0] * (b[1] * c[2] - b[2] * c[1]) +
-    (a[1] * (b[2] * c[0] - b[0] * c[2]) + a[2] * (b[0] * c[1] - b[1] * c[0]));
-  for (int k = 0; k < 8; ++k)
-  {
-    if (isChosen(samples, k))
-    {
-      least = std::min(least, determinant[k]);
-    }
-  }
-  return least;
 }
 
-double pyramid(const Vector* x, unsigned samples, bool& collapsed)
+template <typename T>
+MORPH_SIMD_INLINE void addTriangle(const Vector3<T>* x, Minimum<T>& minimum)
 {
-  double least = std::numeric_limits<double>::infinity();
+  const Vector3<T> sides[3] = { x[1] - x[0], x[2] - x[1], x[2] - x[0] };
+  const Vector3<T> area[1] = { cross(sides[0], sides[2]) };
+  T l[3], twiceArea[1];
+  const T shortest = lengthsOf(sides, l);
+  lengthsOf(area, twiceArea);
+  const T value =
+    2 / std::sqrt(3.) * twiceArea[0] / greatest(greatest(l[0] * l[1], l[1] * l[2]), l[2] * l[0]);
+  minimum.add(value, shortest);
+}
+
+template <typename T>
+MORPH_SIMD_INLINE void addQuadrilateral(const Vector3<T>* x, Minimum<T>& minimum)
+{
+  const Vector3<T> normal[1] = { cross(x[1] + x[2] - x[0] - x[3], x[2] + x[3] - x[0] - x[1]) };
+  T size[1];
+  lengthsOf(normal, size);
+  const Vector3<T> direction = normal[0] / select(size[0] > T{}, size[0], T{} + 1.);
   for (int k = 0; k < 4; ++k)
   {
-    const int(&c)[4] = PyramidCornerNodes[k];
-    if (isChosen(samples, k))
-    {
-      least = std::min(least, tet(x[c[0]], x[c[1]], x[c[2]], x[c[3]], collapsed));
-    }
+    const Vector3<T> sides[2] = { x[(k + 1) % 4] - x[k], x[(k + 3) % 4] - x[k] };
+    T l[2];
+    const T shortest = lengthsOf(sides, l);
+    const T value = dot(direction, cross(sides[0], sides[1])) / (l[0] * l[1]);
+    minimum.add(value, shortest);
   }
-  // Pyramids higher than the ideal one exceed 1; the excess counts as a defect, as in Verdict.
-  const double value = std::sqrt(2.0) * least;
-  return value > 1 ? 2 - value : value;
 }
 
-double triangle(const Vector* x, bool& collapsed)
+/// `x`: eight, 0 beyond the cell's corners. `samples`: of a volume cell, see samplesOf().
+template <typename T>
+MORPH_SIMD_INLINE void measure(
+  Shape shape, const Vector3<T>* x, unsigned samples, T& scaledJacobian, Mask<T>& isCollapsed)
 {
-  const double a = lengthOf(x[1] - x[0]), b = lengthOf(x[2] - x[1]), c = lengthOf(x[0] - x[2]);
-  if (a == 0 || b == 0 || c == 0)
-  {
-    collapsed = true;
-    return 0;
-  }
-  const double twiceArea = lengthOf((x[1] - x[0]).cross(x[2] - x[0]));
-  return 2 / std::sqrt(3.0) * twiceArea / std::max({ a * b, b * c, c * a });
-}
-
-double quad(const Vector* x, bool& collapsed)
-{
-  const Vector normal = (x[1] + x[2] - x[0] - x[3]).cross(x[2] + x[3] - x[0] - x[1]).normalized();
-  double least = std::numeric_limits<double>::infinity();
-  for (int k = 0; k < 4; ++k)
-  {
-    const Vector next = x[(k + 1) % 4] - x[k], last = x[(k + 3) % 4] - x[k];
-    const double product = lengthOf(next) * lengthOf(last);
-    if (product == 0)
-    {
-      collapsed = true;
-      return 0;
-    }
-    least = std::min(least, normal.dot(next.cross(last)) / product);
-  }
-  return least;
-}
-
-/// `samples`: of a volume cell, see samplesOf().
-double measure(Shape shape, const Vector* x, int corners, unsigned samples, bool& collapsed)
-{
-  collapsed = false;
-  // A comparison with NaN is false, so the minimum over the corners would ignore it.
-  for (int k = 0; k < corners; ++k)
-  {
-    if (!x[k].allFinite())
-    {
-      return NotMeasured;
-    }
-  }
-  double value = NotMeasured;
+  Minimum<T> minimum;
+  double factor = 1;
   switch (shape)
   {
     case Shape::Tri:
-      value = triangle(x, collapsed);
+      addTriangle(x, minimum);
       break;
     case Shape::Quadrilateral:
-      value = quad(x, collapsed);
+      addQuadrilateral(x, minimum);
       break;
     case Shape::Tet:
-      value = tet(x[0], x[1], x[2], x[3], collapsed);
+      addTet(x[0], x[1], x[2], x[3], minimum);
       break;
     case Shape::Hex:
-      value = hex(x, samples, collapsed);
+      addHex(x, samples, minimum);
       break;
     case Shape::Wedge:
-      value = 2 / std::sqrt(3.0) * leastCorner(x, WedgeCornerNodes, samples, collapsed);
+      addCorners(x, WedgeCornerNodes, samples, minimum);
+      factor = 2 / std::sqrt(3.);
       break;
     case Shape::Pyramid:
-      value = pyramid(x, samples, collapsed);
+      for (int k = 0; k < 4; ++k)
+      {
+        const int(&c)[4] = PyramidCornerNodes[k];
+        if (isChosen(samples, k))
+        {
+          addTet(x[c[0]], x[c[1]], x[c[2]], x[c[3]], minimum);
+        }
+      }
+      factor = std::sqrt(2.);
       break;
-    case Shape::Polyhedron: // has no corners in a table: see PolyhedronMeasure
+    case Shape::Polyhedron: // has no corners in a table: see PolyhedronPlaces
     case Shape::Other:
       break;
   }
-  return collapsed ? 0 : value;
+  scaledJacobian = factor * minimum.value;
+  if (shape == Shape::Pyramid)
+  {
+    // Pyramids higher than the ideal one exceed 1; the excess counts as a defect, as in Verdict.
+    scaledJacobian = select(scaledJacobian > T{} + 1., 2. - scaledJacobian, scaledJacobian);
+  }
+  // A comparison with NaN is false, so the minimum over the corners would pass over it.
+  Vector3<T> zero = { T{}, T{}, T{} };
+  for (int k = 0; k < 8; ++k)
+  {
+    zero = zero + T{} * x[k];
+  }
+  const Mask<T> isFinite = zero.x + zero.y + zero.z == T{};
+  isCollapsed = minimum.isCollapsed & isFinite;
+  const Mask<T> isKnown = isFinite & (minimum.value < T{} + Infinity);
+  scaledJacobian = select(isCollapsed, T{}, select(isKnown, scaledJacobian, T{} + NotMeasured));
 }
 
-/// Returns the scaled Jacobian of a cell including its inside; its corners have `ofCorners`.
-double measureInside(std::uint8_t type, const CellShape& shape, const Mesh& mesh,
-  const ConstPoints& points, Index cell, double sign, double ofCorners)
+/// Cells of one shape that wait until they fill a vector.
+struct Waiting
 {
-  Vector x[MostNodesOfVolume];
+  double x[8][3][SimdWidth] = {}; ///< corner, coordinate, cell
+  Index id[SimdWidth];
+  int count = 0;
+};
+
+struct MeasureWaiting
+{
+  static MORPH_SIMD_INLINE void run(
+    Shape shape, const Waiting& cells, double* scaledJacobian, bool* isCollapsed)
+  {
+    Vector3<SimdDouble4> x[8];
+    for (int k = 0; k < 8; ++k)
+    {
+      x[k] = { load(cells.x[k][0]), load(cells.x[k][1]), load(cells.x[k][2]) };
+    }
+    SimdDouble4 values;
+    SimdMask4 collapsed;
+    measure(shape, x, AllSamples, values, collapsed);
+    store(values, scaledJacobian);
+    for (int lane = 0; lane < SimdWidth; ++lane)
+    {
+      isCollapsed[lane] = collapsed[lane] != 0;
+    }
+  }
+};
+
+/// Returns the scaled Jacobian of a cell including its inside; its corners have `ofCorners`.
+double measureInside(
+  const Mesh& mesh, const ConstPoints& points, Index cell, double sign, double ofCorners)
+{
+  const CellShape& shape = *cellShape(mesh, cell);
+  const std::uint8_t type = mesh.types[cell];
+  Eigen::Vector3d x[MostNodesOfVolume];
   for (int k = 0; k < shape.numberOfNodes; ++k)
   {
     x[k] = points.row(mesh.cell(cell)[k]).transpose();
@@ -278,78 +369,94 @@ int dimensionOf(const Mesh& mesh)
   return dimension;
 }
 
-/// `chosen`: the cells to measure, ascending; null for all.
 Quality measureCells(const Mesh& mesh, const ConstPoints& points,
   const std::vector<std::int8_t>& orientation, const std::vector<std::uint8_t>& skip,
-  const std::vector<Index>* chosen, bool cornersOnly, Monitor& monitor)
+  bool cornersOnly, Monitor& monitor)
 {
   monitor.check();
   const Index cells = mesh.numberOfCells();
-  const Index count = chosen ? static_cast<Index>(chosen->size()) : cells;
   const int dimension = dimensionOf(mesh);
 
   Quality quality;
-  quality.scaledJacobian.assign(cells, NotMeasured);
+  std::vector<double>& values = quality.scaledJacobian;
+  values.assign(cells, NotMeasured);
   std::vector<std::uint8_t> isCollapsed(cells, 0);
-  monitor.parallelFor(count, 4096,
+  const auto measureAll = [&](Shape shape, Waiting& waiting)
+  {
+    double value[SimdWidth];
+    bool collapsed[SimdWidth];
+    dispatched<MeasureWaiting>(shape, waiting, value, collapsed);
+    for (int lane = 0; lane < waiting.count; ++lane)
+    {
+      values[waiting.id[lane]] = value[lane];
+      isCollapsed[waiting.id[lane]] = collapsed[lane];
+    }
+    waiting.count = 0;
+  };
+  monitor.parallelFor(cells, 4096,
     [&](Index first, Index last)
     {
-      PolyhedronMeasure polyhedra;
-      const auto measureOne = [&](Index c, Shape shape, const Vector* x, int corners)
+      PolyhedronPlaces polyhedra;
+      Waiting waiting[static_cast<int>(Shape::Polyhedron)];
+      std::vector<Index> curved;
+      const auto signOf = [&](Index c) { return orientation.empty() ? 1. : orientation[c]; };
+      for (Index c = first; c < last; ++c)
       {
-        bool collapsed = false;
-        quality.scaledJacobian[c] = measure(shape, x, corners, AllSamples, collapsed);
-        isCollapsed[c] = collapsed;
-      };
-      std::vector<double>& values = quality.scaledJacobian;
-      CellsByFours hexes(Shape::Hex, 8, measureHexes, values, measureOne),
-        tets(Shape::Tet, 4, measureTets, values, measureOne);
-      for (Index i = first; i < last; ++i)
-      {
-        const Index c = chosen ? (*chosen)[i] : i;
-        const CellShape* shape = cellShape(mesh.types[c]);
+        const CellShape* shape = cellShape(mesh, c);
         if (!shape || shape->shape == Shape::Other || shape->dimension != dimension ||
             (!skip.empty() && skip[c]))
         {
           continue;
         }
         // Measures a cell in mirrored order as its mirror image.
-        const double sign = orientation.empty() ? 1 : orientation[c];
+        const double sign = signOf(c);
         if (shape->shape == Shape::Polyhedron)
         {
           bool isFlat = false;
-          quality.scaledJacobian[c] = polyhedra.scaledJacobian(mesh, c, points, sign, isFlat);
+          values[c] = polyhedra.scaledJacobian(mesh, c, points, sign, isFlat);
           isCollapsed[c] = isFlat;
           continue;
         }
-        Vector x[8];
-        copyCorners(mesh, c, *shape, points, x[0].data());
+        Waiting& group = waiting[static_cast<int>(shape->shape)];
+        const int lane = group.count++;
+        group.id[lane] = c;
         for (int k = 0; k < shape->numberOfCorners; ++k)
         {
-          x[k].z() *= sign;
+          const Index node = mesh.cell(c)[shape->cornerNode[k]];
+          group.x[k][0][lane] = points(node, 0);
+          group.x[k][1][lane] = points(node, 1);
+          group.x[k][2][lane] = sign * points(node, 2);
         }
-        const bool hasInside = !cornersOnly && isQuadraticVolume(*shape);
-        if (!hasInside && (shape->shape == Shape::Hex || shape->shape == Shape::Tet))
+        if (group.count == SimdWidth)
         {
-          (shape->shape == Shape::Hex ? hexes : tets).add(c, x);
-          continue;
+          measureAll(shape->shape, group);
         }
-        measureOne(c, shape->shape, x, shape->numberOfCorners);
-        if (hasInside && !isCollapsed[c])
+        if (!cornersOnly && isQuadraticVolume(*shape))
         {
-          values[c] = measureInside(mesh.types[c], *shape, mesh, points, c, sign, values[c]);
+          curved.push_back(c);
         }
       }
-      hexes.finish();
-      tets.finish();
+      for (int shape = 0; shape < static_cast<int>(Shape::Polyhedron); ++shape)
+      {
+        if (waiting[shape].count > 0)
+        {
+          measureAll(static_cast<Shape>(shape), waiting[shape]);
+        }
+      }
+      for (const Index c : curved)
+      {
+        if (!isCollapsed[c])
+        {
+          values[c] = measureInside(mesh, points, c, signOf(c), values[c]);
+        }
+      }
     });
   monitor.check();
 
   double sum = 0;
-  for (Index i = 0; i < count; ++i)
+  for (Index c = 0; c < cells; ++c)
   {
-    const Index c = chosen ? (*chosen)[i] : i;
-    const double value = quality.scaledJacobian[c];
+    const double value = values[c];
     if (std::isnan(value))
     {
       continue;
@@ -383,9 +490,21 @@ Quality measureCells(const Mesh& mesh, const ConstPoints& points,
 }
 }
 
-double scaledJacobian(std::uint8_t type, const double (*corners)[3])
+double scaledJacobian(const CellShape& shape, const double (*corners)[3], unsigned samples)
 {
-  return scaledJacobian(type, corners, AllSamples);
+  if (shape.shape == Shape::Other || shape.numberOfCorners == 0 || samples == 0)
+  {
+    return NotMeasured;
+  }
+  Vector3<double> x[8] = {};
+  for (int k = 0; k < shape.numberOfCorners; ++k)
+  {
+    x[k] = { corners[k][0], corners[k][1], corners[k][2] };
+  }
+  double value = NotMeasured;
+  bool isCollapsed = false;
+  measure(shape.shape, x, samples, value, isCollapsed);
+  return value;
 }
 
 unsigned samplesOf(Shape shape, unsigned nodes)
@@ -434,9 +553,12 @@ constexpr int TetCorners[4][4] = { { 0, 1, 2, 3 }, { 1, 2, 0, 3 }, { 2, 0, 1, 3 
 /// The minimum of the sine of the angle between two edges at a corner, all three nodes in `nodes`
 /// and the fourth not.
 template <int N>
-double leastSine(const Vector* x, const int (&corners)[N][4], unsigned nodes)
+double leastSine(const double (*x)[3], const int (&corners)[N][4], unsigned nodes)
 {
-  double least = std::numeric_limits<double>::infinity();
+  const auto edge = [x](int from, int to) -> Vector3<double> {
+    return { x[to][0] - x[from][0], x[to][1] - x[from][1], x[to][2] - x[from][2] };
+  };
+  double sine = Infinity;
   for (const int(&c)[4] : corners)
   {
     for (int d = 0; d < 3; ++d)
@@ -445,136 +567,48 @@ double leastSine(const Vector* x, const int (&corners)[N][4], unsigned nodes)
       const unsigned three = 1u << c[0] | 1u << a | 1u << b, four = three | 1u << other;
       if ((nodes & four) == three)
       {
-        const Vector u = x[a] - x[c[0]], v = x[b] - x[c[0]];
-        const double lengths = lengthOf(u) * lengthOf(v);
-        least = std::min(least, lengths > 0 ? u.cross(v).norm() / lengths : 0.);
+        const Vector3<double> edges[2] = { edge(c[0], a), edge(c[0], b) };
+        const Vector3<double> area[1] = { cross(edges[0], edges[1]) };
+        double length[2], size[1];
+        const bool hasLengths = lengthsOf(edges, length) > 0;
+        lengthsOf(area, size);
+        sine = std::min(sine, hasLengths ? size[0] / (length[0] * length[1]) : 0.);
       }
     }
   }
-  return least;
+  return sine;
 }
 }
 
-double scaledJacobianBound(std::uint8_t type, const double (*corners)[3], unsigned nodes)
+double scaledJacobianBound(Shape shape, const double (*corners)[3], unsigned nodes)
 {
-  Vector x[8];
-  const CellShape* shape = cellShape(type);
-  for (int k = 0; k < shape->numberOfCorners; ++k)
-  {
-    x[k] = Vector(corners[k][0], corners[k][1], corners[k][2]);
-  }
-  switch (shape->shape)
+  switch (shape)
   {
     case Shape::Tet:
-      return std::sqrt(2.) * leastSine(x, TetCorners, nodes);
+      return std::sqrt(2.) * leastSine(corners, TetCorners, nodes);
     case Shape::Hex:
-      return leastSine(x, HexCornerNodes, nodes);
+      return leastSine(corners, HexCornerNodes, nodes);
     case Shape::Wedge:
-      return 2 / std::sqrt(3.) * leastSine(x, WedgeCornerNodes, nodes);
+      return 2 / std::sqrt(3.) * leastSine(corners, WedgeCornerNodes, nodes);
     case Shape::Pyramid:
-      return 2 * leastSine(x, PyramidCornerNodes, nodes);
+      return 2 * leastSine(corners, PyramidCornerNodes, nodes);
     default:
-      return std::numeric_limits<double>::infinity();
+      return Infinity;
   }
-}
-
-double scaledJacobian(std::uint8_t type, const double (*corners)[3], unsigned samples)
-{
-  const CellShape* shape = cellShape(type);
-  if (!shape || shape->shape == Shape::Other || samples == 0)
-  {
-    return NotMeasured;
-  }
-  Vector x[8];
-  for (int k = 0; k < shape->numberOfCorners; ++k)
-  {
-    x[k] = Vector(corners[k][0], corners[k][1], corners[k][2]);
-  }
-  bool collapsed = false;
-  return measure(shape->shape, x, shape->numberOfCorners, samples, collapsed);
-}
-
-bool areCornersSurelyPositive(Shape shape, const double (*corners)[3])
-{
-  constexpr double Beyond = 1e-13; // of the longest edge's cube; rounding is about 1e-15
-  double longest2 = 0;
-  const auto edge = [&](int from, int to, double* e)
-  {
-    for (int j = 0; j < 3; ++j)
-    {
-      e[j] = corners[to][j] - corners[from][j];
-    }
-    longest2 = std::max(longest2, e[0] * e[0] + e[1] * e[1] + e[2] * e[2]);
-  };
-  const auto determinant = [](const double* a, const double* b, const double* c)
-  {
-    return a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) +
-           a[2] * (b[0] * c[1] - b[1] * c[0]);
-  };
-  double determinants[9];
-  int count = 0;
-  if (shape == Shape::Hex)
-  {
-    double e[3][4][3], sum[3][3]; // sum: four times the edges at the centre
-    for (int d = 0; d < 3; ++d)
-    {
-      for (int k = 0; k < 4; ++k)
-      {
-        edge(HexAxisEdges[d][k][0], HexAxisEdges[d][k][1], e[d][k]);
-      }
-      for (int j = 0; j < 3; ++j)
-      {
-        sum[d][j] = e[d][0][j] + e[d][1][j] + e[d][2][j] + e[d][3][j];
-      }
-    }
-    for (; count < 8; ++count)
-    {
-      const int u = count & 1, v = (count >> 1) & 1, w = count >> 2;
-      determinants[count] = determinant(e[0][v + 2 * w], e[1][u + 2 * w], e[2][u + 2 * v]);
-    }
-    determinants[count++] = determinant(sum[0], sum[1], sum[2]) / 64;
-  }
-  else if (shape == Shape::Wedge)
-  {
-    for (const int(&c)[4] : WedgeCornerNodes)
-    {
-      double e[3][3];
-      for (int k = 0; k < 3; ++k)
-      {
-        edge(c[0], c[k + 1], e[k]);
-      }
-      determinants[count++] = determinant(e[0], e[1], e[2]);
-    }
-  }
-  const double bound =
-    std::max(Beyond * longest2 * std::sqrt(longest2), std::numeric_limits<double>::min());
-  bool positive = count > 0;
-  for (int k = 0; k < count; ++k)
-  {
-    positive = positive && determinants[k] > bound; // false for NaN
-  }
-  return positive;
 }
 
 Quality measureQuality(const Mesh& mesh, const ConstPoints& points,
   const std::vector<std::int8_t>& orientation, const std::vector<std::uint8_t>& skip,
   Monitor& monitor)
 {
-  return measureCells(mesh, points, orientation, skip, nullptr, false, monitor);
-}
-
-Quality measureQualityOf(const Mesh& mesh, const ConstPoints& points,
-  const std::vector<std::int8_t>& orientation, const std::vector<Index>& cells,
-  const std::vector<std::uint8_t>& skip, Monitor& monitor)
-{
-  return measureCells(mesh, points, orientation, skip, &cells, false, monitor);
+  return measureCells(mesh, points, orientation, skip, false, monitor);
 }
 
 Quality measureCorners(const Mesh& mesh, const ConstPoints& points,
   const std::vector<std::int8_t>& orientation, const std::vector<std::uint8_t>& skip,
   Monitor& monitor)
 {
-  return measureCells(mesh, points, orientation, skip, nullptr, true, monitor);
+  return measureCells(mesh, points, orientation, skip, true, monitor);
 }
 
 std::vector<Index> invertedCells(const Quality& quality)
@@ -594,5 +628,28 @@ std::vector<Index> invertedCells(const Mesh& mesh, const Points& points,
   const std::vector<std::int8_t>& orientation, Monitor& monitor)
 {
   return invertedCells(measureQuality(mesh, points, orientation, {}, monitor));
+}
+
+Index worstCount(Index measured, double share)
+{
+  const double all = static_cast<double>(measured);
+  return std::clamp<Index>(static_cast<Index>(std::ceil(share * all)), 1, measured);
+}
+
+double worstMean(const Quality& quality, double share)
+{
+  std::vector<double> values;
+  values.reserve(quality.measured);
+  std::copy_if(quality.scaledJacobian.begin(), quality.scaledJacobian.end(),
+    std::back_inserter(values), [](double value) { return !std::isnan(value); });
+  if (values.empty())
+  {
+    return std::numeric_limits<double>::quiet_NaN();
+  }
+  const Index count = worstCount(static_cast<Index>(values.size()), share);
+  const auto last = values.begin() + count;
+  std::nth_element(values.begin(), last - 1, values.end());
+  std::sort(values.begin(), last);
+  return std::accumulate(values.begin(), last, 0.) / static_cast<double>(count);
 }
 }

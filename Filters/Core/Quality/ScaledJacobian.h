@@ -26,25 +26,18 @@ namespace morph
 /// Two values differ from Verdict: 0 where a corner's edges have no length (Verdict: 1e30), and a
 /// pyramid's negative values (Verdict: 0). Only the corners of a quadratic cell count here;
 /// measureQuality() looks inside it. `corners`: numberOfCorners x 3, in VTK's hexahedron, wedge,
-/// ... order.
-double scaledJacobian(std::uint8_t type, const double (*corners)[3]);
+/// ... order. `samples`: of a volume cell, those that count (samplesOf()); NaN if there are none.
+double scaledJacobian(const CellShape& shape, const double (*corners)[3], unsigned samples = ~0u);
 
 /// The samples of a volume cell of which its scaled Jacobian is the minimum, as a set of bits: its
 /// corners, in the order of the formula, then a hexahedron's centre; one for a tetrahedron. Returns
 /// those that depend on a corner node k with bit k in `nodes`.
 unsigned samplesOf(Shape shape, unsigned nodes);
 
-/// The minimum over a volume cell's `samples` alone; NaN if there are none.
-double scaledJacobian(std::uint8_t type, const double (*corners)[3], unsigned samples);
-
 /// Returns an upper bound of the scaled Jacobian over the samples that depend on a corner node
 /// without a bit in `nodes`, for any position of these. It is the sine of an angle between edges of
 /// a face, in the scale of the cell; infinite without such a face corner.
-double scaledJacobianBound(std::uint8_t type, const double (*corners)[3], unsigned nodes);
-
-/// Whether scaledJacobian() of a hexahedron or wedge is certainly positive despite rounding. False
-/// proves nothing. Cost: a third of scaledJacobian()'s, by determinants that are not normalised.
-bool areCornersSurelyPositive(Shape shape, const double (*corners)[3]);
+double scaledJacobianBound(Shape shape, const double (*corners)[3], unsigned nodes);
 
 struct Quality
 {
@@ -62,7 +55,7 @@ struct Quality
 /// corners' value unless its true map proves otherwise (quadraticScaledJacobian()). It is then at
 /// most 0 if the determinant is negative somewhere inside.
 ///
-/// `points`: #nodes x 3, the positions to measure; the mesh's own tell the corners of polyhedra.
+/// `points`: #nodes x 3, the positions to measure, instead of the mesh's own.
 /// `orientation`: #cells of +1 / -1 (Topology.h), or empty for VTK's order throughout. Runs in
 /// parallel; sums have a fixed order. Cost: one pass, about 0.1 microseconds a cell, 3 for a
 /// polyhedron, 5 for a quadratic volume cell.
@@ -83,4 +76,12 @@ std::vector<Index> invertedCells(const Quality& quality);
 /// Measures `mesh` at `points` and returns the ids, ascending, of cells without a positive value.
 std::vector<Index> invertedCells(const Mesh& mesh, const Points& points,
   const std::vector<std::int8_t>& orientation, Monitor& monitor);
+
+/// Returns the mean scaled Jacobian of the worst `share` of the measured cells, one cell at least.
+/// `share`: in (0, 1]. NaN if no cell was measured. It does not depend on the cells' numbering.
+/// Cost: a pass over the cells.
+double worstMean(const Quality& quality, double share = 0.01);
+
+/// Returns how many cells that is, of `measured` ones, at least 1.
+Index worstCount(Index measured, double share);
 }

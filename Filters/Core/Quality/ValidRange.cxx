@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Quality/ValidRange.h"
 
+#include "Quality/CellMap.h"
+#include "Quality/Certificate.h"
 #include "Quality/MeasuredPlaces.h"
-#include "Quality/PolyhedronPlaces.h"
+#include "Quality/PolyhedronQuality.h"
 #include "Quality/PolynomialRoot.h"
-#include "Quality/QuadraticJacobian.h"
-#include "Quality/QuadraticMap.h"
 #include "Support/Parallel.h"
 
 #include <Eigen/Geometry>
@@ -190,7 +190,7 @@ void addQuadratic(const Mesh& mesh, const NodeMotion& motion, Index cell, double
 {
   static const Interpolation<D> interpolation;
   constexpr int Count = Interpolation<D>::Count;
-  const QuadraticMap& map = *QuadraticMap::find(mesh.types[cell]);
+  const CellMap& map = *CellMap::find(mesh.types[cell]);
   Path<D> path[MostNodesOfVolume];
   for (int i = 0; i < map.numberOfNodes(); ++i)
   {
@@ -294,7 +294,7 @@ template <int D>
 void addCell(const Mesh& mesh, const NodeMotion& motion, Index cell, double sign,
   CellEnds<D>& places, Ends& ends)
 {
-  const CellShape& shape = *cellShape(mesh.types[cell]);
+  const CellShape& shape = *cellShape(mesh, cell);
   Path<D> x[8];
   for (int k = 0; k < shape.numberOfCorners; ++k)
   {
@@ -333,7 +333,7 @@ Ends endsOf(const Mesh& mesh, const NodeMotion& motion, const std::vector<std::i
       {
         ends.low.known = low.load(std::memory_order_relaxed);
         ends.high.known = high.load(std::memory_order_relaxed);
-        if (const CellShape* shape = cellShape(mesh.types[c]); shape && shape->dimension == 3)
+        if (const CellShape* shape = cellShape(mesh, c); shape && shape->dimension == 3)
         {
           const double sign = orientation.empty() ? 1 : orientation[c];
           CellEnds<D> places(before, c, sign, ends);

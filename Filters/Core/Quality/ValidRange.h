@@ -39,7 +39,7 @@ struct ValidRange
 /// Each determinant is a cubic in s or, for a rotation, a polynomial of degree 6 in tan(s angle /
 /// 2) over a positive denominator. The ends are roots of these (PolynomialRoot.h), on the safe side
 /// by at most 1e-12 of the root, and rounding. A quadratic cell also needs positive Bernstein
-/// coefficients of its determinant (QuadraticMap.h), which are such polynomials, too. This is
+/// coefficients of its determinant (CellMap.h), which are such polynomials, too. This is
 /// sufficient and not necessary: its ends are on the safe side by more, and 0 where a coefficient
 /// is not positive at s = 0.
 ///

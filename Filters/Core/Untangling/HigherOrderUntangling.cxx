@@ -3,8 +3,8 @@
 
 #include "Mesh/CellShape.h"
 #include "Mesh/SimplicialDecomposition.h"
-#include "Quality/QuadraticJacobian.h"
-#include "Quality/QuadraticMap.h"
+#include "Quality/CellMap.h"
+#include "Quality/Certificate.h"
 #include "Quality/ScaledJacobian.h"
 
 #include <algorithm>
@@ -107,7 +107,7 @@ private:
     std::map<Index, Eigen::RowVector3d> straight;
     for (Index c : cells)
     {
-      const CellShape& shape = *cellShape(this->mesh_.types[c]);
+      const CellShape& shape = *cellShape(this->mesh_, c);
       for (int i = shape.numberOfCorners; i < shape.numberOfNodes; ++i)
       {
         const Index node = this->mesh_.cell(c)[i];
@@ -161,7 +161,7 @@ private:
   void nodesOf(Index cell, Nodes& x) const
   {
     const Index* id = this->mesh_.cell(cell);
-    const int count = cellShape(this->mesh_.types[cell])->numberOfNodes;
+    const int count = cellShape(this->mesh_, cell)->numberOfNodes;
     for (int i = 0; i < count; ++i)
     {
       x[i] = this->points_.row(id[i]).transpose();
@@ -173,13 +173,13 @@ private:
   {
     Nodes x;
     this->nodesOf(cell, x);
-    return proveQuadratic(this->mesh_.types[cell], x).certificate == Certificate::Inverted;
+    return proveJacobian(this->mesh_.types[cell], x).certificate == Certificate::Inverted;
   }
 
   /// Returns six times the volume of the cell through the corners.
   double straightVolume(Index cell) const
   {
-    const CellShape& shape = *cellShape(this->mesh_.types[cell]);
+    const CellShape& shape = *cellShape(this->mesh_, cell);
     double corners[8][3];
     copyCorners(this->mesh_, cell, shape, this->points_, corners[0]);
     return 6 * this->orientation_[cell] * signedVolume(shape.shape, corners);
@@ -195,7 +195,7 @@ private:
     for (Index c = 0; c < this->mesh_.numberOfCells(); ++c)
     {
       if (report.cells[c] == Certificate::Inverted && corners.scaledJacobian[c] > 0 &&
-          QuadraticMap::find(this->mesh_.types[c]) && this->straightVolume(c) > 0)
+          isQuadraticVolume(*cellShape(this->mesh_, c)) && this->straightVolume(c) > 0)
       {
         cells.push_back(c);
       }
@@ -208,7 +208,7 @@ private:
   {
     const auto visit = [&](Index c, const auto& onNode)
     {
-      const CellShape& shape = *cellShape(this->mesh_.types[c]);
+      const CellShape& shape = *cellShape(this->mesh_, c);
       for (int i = shape.numberOfCorners; i < shape.numberOfNodes; ++i)
       {
         const Index node = this->mesh_.cell(c)[i];
@@ -232,7 +232,7 @@ private:
     }
     for (Index c = 0; c < this->mesh_.numberOfCells(); ++c)
     {
-      if (QuadraticMap::find(this->mesh_.types[c]))
+      if (isQuadraticVolume(*cellShape(this->mesh_, c)))
       {
         visit(c,
           [&](Index node)
@@ -255,7 +255,7 @@ private:
     {
       Nodes x;
       this->nodesOf(c, x);
-      const QuadraticMap& map = *QuadraticMap::find(this->mesh_.types[c]);
+      const CellMap& map = *CellMap::find(this->mesh_.types[c]);
       BernsteinHalving::Part whole = map.halving().whole();
       map.determinant(map.derivatives(x), 0, whole.c);
       least = std::min(least, map.halving().minimum(whole) / std::abs(this->straightVolume(c)));

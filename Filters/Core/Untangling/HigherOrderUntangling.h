@@ -19,7 +19,7 @@ struct HigherOrderUntangling
 /// face and body nodes move if they are not prescribed; all corners stay. They move towards the
 /// means of their corners first, no farther than needed. Where cells stay inverted, each of their
 /// nodes in turn raises the minimum Bernstein coefficient of the Jacobian determinants around it
-/// (QuadraticMap.h), by a compass search. A determinant is affine in a single node, so that minimum
+/// (CellMap.h), by a compass search. A determinant is affine in a single node, so that minimum
 /// is concave, and a positive one certifies a cell. There are never more inverted cells than
 /// before. `orientation`: #cells, see cellSigns() in Topology.h; `points`: #nodes x 3, start and
 /// result. The result does not depend on threads. Cost: certify(), and some milliseconds for each

@@ -50,7 +50,7 @@ Index keepMinimum(const Mesh& mesh, const std::vector<Index>& free, const Points
       if (quality.scaledJacobian[c] < minimum)
       {
         corners.insert(
-          corners.end(), mesh.cell(c), mesh.cell(c) + cellShape(mesh.types[c])->numberOfCorners);
+          corners.end(), mesh.cell(c), mesh.cell(c) + cellShape(mesh, c)->numberOfCorners);
       }
     }
     communicator.spread(corners);

@@ -39,7 +39,7 @@ double volume(const Mesh& mesh, const std::vector<std::int8_t>& orientation, con
   return communicator.sum(reproducibleSum(mesh.numberOfCells(), monitor, 0.,
     [&](Index c)
     {
-      const CellShape& shape = *cellShape(mesh.types[c]);
+      const CellShape& shape = *cellShape(mesh, c);
       double x[8][3];
       copyCorners(mesh, c, shape, points, x[0]);
       return numberOfCorners(shape.shape) > 0 ? orientation[c] * signedVolume(shape.shape, x) : 0;

@@ -2,7 +2,7 @@
 #include "Private/Data/Quality.h"
 
 #include "Private/Data/GridMesh.h"
-#include "Quality/PartialQuality.h"
+#include "Quality/ScaledJacobian.h"
 
 #include <vtkCellData.h>
 #include <vtkDataSet.h>
@@ -77,10 +77,12 @@ morph::Quality Measure(const morph::Mesh& mesh, vtkUnstructuredGrid* output,
   const std::vector<std::int8_t>& orientation, const std::vector<morph::Index>& cells,
   morph::Monitor& monitor)
 {
-  std::vector<std::uint8_t> skip;
-  skipGhosts(mesh, output, skip);
-  return withPoints(output, [&](const morph::ConstPoints& written)
-    { return morph::measureQualityOf(mesh, written, orientation, cells, skip, monitor); });
+  std::vector<std::uint8_t> skip(mesh.types.size(), 1);
+  for (const morph::Index cell : cells)
+  {
+    skip[cell] = 0;
+  }
+  return Measure(mesh, output, orientation, std::move(skip), monitor);
 }
 
 std::vector<morph::Index> Unmeasured(const morph::Mesh& mesh, const morph::Quality& quality,

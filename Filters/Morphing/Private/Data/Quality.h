@@ -16,7 +16,7 @@ class vtkUnstructuredGrid;
 namespace morph::filters::Quality
 {
 /// Measures `output` on its points as written (the rounding to float included). `mesh`: the cells
-/// of `output`; its points tell the corners of polyhedra alone. `orientation`: #cells of +1 / -1
+/// of `output`; its points do not count. `orientation`: #cells of +1 / -1
 /// from the undeformed mesh (Topology.h), or empty for VTK's order. Ghost cells (vtkGhostType
 /// duplicate or hidden) are not measured.
 morph::Quality Measure(const morph::Mesh& mesh, vtkUnstructuredGrid* output,

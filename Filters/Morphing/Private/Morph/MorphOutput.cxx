@@ -7,7 +7,7 @@
 #include "Private/Data/Results.h"
 #include "Private/Morph/Session.h"
 #include "Private/Pipeline/Input.h"
-#include "Quality/WorstMean.h"
+#include "Quality/ScaledJacobian.h"
 
 #include <vtkDataObject.h>
 #include <vtkPolyData.h>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Mesh/CellShape.h"
 #include "Meshes.h"
-#include "Quality/FourCells.h"
 #include "Quality/ScaledJacobian.h"
 
 #include <gtest/gtest.h>
@@ -81,7 +80,7 @@ double oneByOne(const Mesh& mesh, Index c)
 {
   double corners[8][3];
   copyCorners(mesh, c, *cellShape(mesh.types[c]), mesh.points, corners[0]);
-  return scaledJacobian(mesh.types[c], corners);
+  return scaledJacobian(*cellShape(mesh, c), corners);
 }
 
 /// Whether two corners on an edge are in the same place.
@@ -110,7 +109,7 @@ bool sameBits(double a, double b)
   return std::memcmp(&a, &b, sizeof(a)) == 0 || (std::isnan(a) && std::isnan(b));
 }
 
-TEST(FourCells, AreMeasuredAsOneByOne)
+TEST(ScaledJacobian, CellsByFoursHaveTheBitsOfOneByOne)
 {
   const Mesh mesh = cellsOfAllKinds(20001);
   for (const int threads : { 1, 3 })
@@ -137,7 +136,7 @@ TEST(FourCells, AreMeasuredAsOneByOne)
   }
 }
 
-TEST(FourCells, HaveTheSignOfZero)
+TEST(ScaledJacobian, CellsByFoursHaveTheSignOfZero)
 {
   // Two corners in the middle of the diagonal beside them: flat corners with edges of all lengths.
   Mesh mesh = meshes::hexes(8, 1, 1);
@@ -156,42 +155,5 @@ TEST(FourCells, HaveTheSignOfZero)
     EXPECT_TRUE(sameBits(quality.scaledJacobian[c], oneByOne(mesh, c))) << "cell " << c;
   }
   EXPECT_GT(zeros, 0);
-}
-
-TEST(FourCells, RefuseWhatNeedsCare)
-{
-  FourCells cells;
-  const Mesh hex = meshes::hexes(1, 1, 1);
-  for (int k = 0; k < 8; ++k)
-  {
-    for (int j = 0; j < 3; ++j)
-    {
-      for (int lane = 0; lane < SimdWidth; ++lane)
-      {
-        cells.x[k][j][lane] = (1 + lane) * hex.points(hex.cell(0)[k], j);
-      }
-    }
-  }
-  double values[SimdWidth];
-  ASSERT_TRUE(measureTets(cells, values));
-  ASSERT_TRUE(measureHexes(cells, values));
-  for (const double value : values)
-  {
-    EXPECT_EQ(value, 1);
-  }
-  for (const double wrong :
-    { std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), 1e200 })
-  {
-    FourCells other = cells;
-    other.x[3][1][2] = wrong;
-    EXPECT_FALSE(measureHexes(other, values)) << wrong;
-    EXPECT_FALSE(measureTets(other, values)) << wrong;
-  }
-  for (int j = 0; j < 3; ++j)
-  {
-    cells.x[2][j][1] = cells.x[3][j][1];
-  }
-  EXPECT_FALSE(measureHexes(cells, values));
-  EXPECT_FALSE(measureTets(cells, values));
 }
 }

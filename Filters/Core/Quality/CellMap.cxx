@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Quality/QuadraticMap.h"
+#include "Quality/CellMap.h"
 
 #include "Mesh/CellShape.h"
 
@@ -13,15 +13,224 @@
 
 namespace morph
 {
+const BernsteinDomain BoxDomain = { 6, 3, { 0, 0, 1, 1, 2, 2 },
+  { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 0, 0 }, { 0, 1, 0 }, { 0, 0, 0 }, { 0, 0, 1 } }, { 0, 2, 4 },
+  { 1, 3, 5 } };
+const BernsteinDomain WedgeDomain = { 5, 2, { 0, 0, 0, 1, 1, -1 },
+  { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 0 }, { 0, 0, 1 } }, { 0, 0, 3 }, { 1, 2, 4 } };
+const BernsteinDomain TetDomain = { 4, 1, { 0, 0, 0, 0, -1, -1 },
+  { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } }, { 0, 0, 0 }, { 1, 2, 3 } };
+
+namespace
+{
+double factorial(int n)
+{
+  return n < 2 ? 1 : n * factorial(n - 1);
+}
+
+/// Appends all ways to distribute each simplex's degree among its slots from `slot` on.
+void enumerate(const BernsteinDomain& domain, int slot, Degrees left, Exponents& exponents,
+  std::vector<Exponents>& result)
+{
+  if (slot == domain.slots)
+  {
+    result.push_back(exponents);
+    return;
+  }
+  const int simplex = domain.simplex[slot];
+  const int next = slot + 1;
+  const bool isLast =
+    next >= BernsteinDomain::MostSlots || next == domain.slots || domain.simplex[next] != simplex;
+  const int all = left[simplex];
+  for (int power = isLast ? all : 0; power <= all; ++power)
+  {
+    exponents[slot] = static_cast<std::int8_t>(power);
+    left[simplex] = all - power;
+    enumerate(domain, next, left, exponents, result);
+  }
+  exponents[slot] = 0;
+}
+}
+
+BernsteinTerms::BernsteinTerms(const BernsteinDomain& domain, const Degrees& degrees)
+  : domain_(&domain)
+{
+  Exponents none{};
+  enumerate(domain, 0, degrees, none, this->exponents_);
+  for (int term = 0; term < this->size(); ++term)
+  {
+    this->number_[this->exponents_[term]] = term;
+  }
+}
+
+double BernsteinTerms::multinomial(int term) const
+{
+  const Exponents& exponents = this->exponents_[term];
+  double result = 1;
+  int degree[3] = { 0, 0, 0 };
+  for (int slot = 0; slot < this->domain_->slots; ++slot)
+  {
+    degree[this->domain_->simplex[slot]] += exponents[slot];
+    result /= factorial(exponents[slot]);
+  }
+  // Small integers: rounding the quotient makes it exact.
+  return std::round(result * factorial(degree[0]) * factorial(degree[1]) * factorial(degree[2]));
+}
+
+BernsteinHalving::BernsteinHalving(const BernsteinDomain& domain, const BernsteinTerms& terms)
+  : domain_(&domain)
+  , size_(terms.size())
+{
+  for (int from = 0; from < domain.slots; ++from)
+  {
+    for (int to = from + 1; to < domain.slots && domain.simplex[to] == domain.simplex[from]; ++to)
+    {
+      Edge edge{ from, to, {}, {} };
+      for (int first = 0; first < terms.size(); ++first)
+      {
+        Exponents term = terms[first];
+        if (term[to] != 0)
+        {
+          continue;
+        }
+        edge.lengths.push_back(static_cast<std::uint8_t>(term[from] + 1));
+        for (; term[from] >= 0; --term[from], ++term[to])
+        {
+          edge.terms.push_back(static_cast<std::uint8_t>(terms.find(term)));
+        }
+      }
+      this->edges_.push_back(edge);
+    }
+  }
+  for (int term = 0; term < terms.size(); ++term)
+  {
+    Corner corner{ term, { -1, -1, -1 } };
+    int used = 0;
+    for (int slot = 0; slot < domain.slots; ++slot)
+    {
+      if (terms[term][slot] > 0)
+      {
+        corner.slots[domain.simplex[slot]] = slot;
+        ++used;
+      }
+    }
+    if (used == domain.simplices)
+    {
+      this->corners_.push_back(corner);
+    }
+  }
+}
+
+BernsteinHalving::Part BernsteinHalving::whole() const
+{
+  Part part;
+  std::copy(&this->domain_->place[0][0],
+    &this->domain_->place[0][0] + 3 * BernsteinDomain::MostSlots, &part.place[0][0]);
+  return part;
+}
+
+double BernsteinHalving::minimum(const Part& part) const
+{
+  return *std::min_element(part.c.begin(), part.c.begin() + this->size_);
+}
+
+double BernsteinHalving::minimumCorner(const Part& part, double (&at)[3]) const
+{
+  const auto corner = std::min_element(this->corners_.begin(), this->corners_.end(),
+    [&part](const Corner& a, const Corner& b) { return part.c[a.term] < part.c[b.term]; });
+  for (int j = 0; j < 3; ++j)
+  {
+    at[j] = 0;
+    for (int simplex = 0; simplex < this->domain_->simplices; ++simplex)
+    {
+      at[j] += part.place[corner->slots[simplex]][j];
+    }
+  }
+  return part.c[corner->term];
+}
+
+const BernsteinHalving::Edge& BernsteinHalving::mostCurved(const Part& part) const
+{
+  const Edge* best = &this->edges_.front();
+  double most = -1;
+  for (const Edge& edge : this->edges_)
+  {
+    double curvature = 0;
+    const std::uint8_t* row = edge.terms.data();
+    for (const int length : edge.lengths)
+    {
+      for (int i = 0; i + 2 < length; ++i)
+      {
+        curvature = std::max(
+          curvature, std::abs(part.c[row[i]] - 2 * part.c[row[i + 1]] + part.c[row[i + 2]]));
+      }
+      row += length;
+    }
+    if (curvature > most)
+    {
+      most = curvature;
+      best = &edge;
+    }
+  }
+  return *best;
+}
+
+void BernsteinHalving::halve(const Part& part, Part& low, Part& high) const
+{
+  const Edge& edge = this->mostCurved(part);
+  high = part;
+  low = part;
+  for (int j = 0; j < 3; ++j)
+  {
+    low.place[edge.to][j] = high.place[edge.from][j] =
+      (part.place[edge.from][j] + part.place[edge.to][j]) / 2;
+  }
+  const std::uint8_t* row = edge.terms.data();
+  for (const int length : edge.lengths)
+  {
+    double c[MostDegree + 1];
+    for (int i = 0; i < length; ++i)
+    {
+      c[i] = high.c[row[i]];
+    }
+    for (int last = length - 2; last >= 0; --last)
+    {
+      for (int i = 0; i <= last; ++i)
+      {
+        c[i] = (c[i] + c[i + 1]) / 2;
+      }
+      low.c[row[length - 1 - last]] = c[0];
+      high.c[row[last]] = c[last];
+    }
+    row += length;
+  }
+  low.halvings = high.halvings = part.halvings + 1;
+}
+
+double exactScale(const Eigen::Vector3d* points, int count)
+{
+  double largest = 0;
+  for (int i = 0; i < count; ++i)
+  {
+    if (!points[i].allFinite())
+    {
+      return 1;
+    }
+    largest = std::max(largest, points[i].cwiseAbs().maxCoeff());
+  }
+  // Subnormal coordinates would ask for a power that is no double; 2^1023 takes them far enough.
+  return largest == 0 ? 1 : std::ldexp(1., std::min(299 - std::ilogb(largest), 1023));
+}
+
 namespace
 {
 constexpr double Unit = std::numeric_limits<double>::epsilon() / 2;
-constexpr std::uint8_t Types[] = { QuadraticTetra, QuadraticHexahedron, QuadraticWedge,
-  QuadraticPyramid, TriquadraticHexahedron, QuadraticLinearWedge, BiquadraticQuadraticWedge,
-  BiquadraticQuadraticHexahedron };
+constexpr std::uint8_t Types[] = { Hexahedron, Wedge, QuadraticTetra, QuadraticHexahedron,
+  QuadraticWedge, QuadraticPyramid, TriquadraticHexahedron, QuadraticLinearWedge,
+  BiquadraticQuadraticWedge, BiquadraticQuadraticHexahedron };
 
 /// A linear combination of the cell's nodes.
-using Combination = Eigen::Matrix<double, QuadraticMap::MostNodes, 1>;
+using Combination = Eigen::Matrix<double, CellMap::MostNodes, 1>;
 
 const BernsteinDomain& domainOf(Shape shape)
 {
@@ -59,9 +268,10 @@ Exponents moved(Exponents term, const std::array<int, 2>& from, int to)
 }
 
 /// The points of the full lattice, then the map's Bernstein coefficients, as combinations of nodes.
-struct QuadraticMap::Rows
+struct CellMap::Rows
 {
-  /// of degree two; a lattice point has a term's exponents / 2 as barycentric coordinates
+  int degree; ///< one or two, in each simplex
+  /// A lattice point has a term's exponents / degree as barycentric coordinates.
   BernsteinTerms terms;
   std::vector<Combination> lattice, coefficients;
 };
@@ -247,21 +457,21 @@ Degrees degreesOf(const BernsteinDomain& domain, const Exponents& exponents)
 }
 }
 
-const QuadraticMap* QuadraticMap::find(std::uint8_t type)
+const CellMap* CellMap::find(std::uint8_t type)
 {
   static const auto maps = []
   {
-    std::array<std::unique_ptr<const QuadraticMap>, 40> result;
+    std::array<std::unique_ptr<const CellMap>, 40> result;
     for (const std::uint8_t known : Types)
     {
-      result[known].reset(new QuadraticMap(known));
+      result[known].reset(new CellMap(known));
     }
     return result;
   }();
   return type < maps.size() ? maps[type].get() : nullptr;
 }
 
-QuadraticMap::QuadraticMap(std::uint8_t type)
+CellMap::CellMap(std::uint8_t type)
 {
   const CellShape& shape = *cellShape(type);
   this->domain_ = &domainOf(shape.shape);
@@ -275,9 +485,11 @@ QuadraticMap::QuadraticMap(std::uint8_t type)
     std::copy(place, place + 3, this->place_[i]);
   }
 
+  const int degree = this->nodes_ > shape.numberOfCorners ? 2 : 1;
   Rows rows;
-  rows.terms = BernsteinTerms(*this->domain_,
-    { 2, this->domain_->simplices > 1 ? 2 : 0, this->domain_->simplices > 2 ? 2 : 0 });
+  rows.degree = degree;
+  rows.terms = BernsteinTerms(*this->domain_, { degree, this->domain_->simplices > 1 ? degree : 0,
+                                                this->domain_->simplices > 2 ? degree : 0 });
   Lattice lattice(type, *this->domain_, rows.terms);
   for (int term = 0; term < rows.terms.size(); ++term)
   {
@@ -286,7 +498,7 @@ QuadraticMap::QuadraticMap(std::uint8_t type)
     {
       for (int j = 0; j < 3; ++j)
       {
-        place[j] += rows.terms[term][slot] * this->domain_->place[slot][j] / 2;
+        place[j] += rows.terms[term][slot] * this->domain_->place[slot][j] / degree;
       }
     }
     for (int i = 0; i < this->nodes_; ++i)
@@ -302,7 +514,8 @@ QuadraticMap::QuadraticMap(std::uint8_t type)
   for (int term = 0; term < rows.terms.size(); ++term)
   {
     rows.coefficients.push_back(
-      coefficient(*this->domain_, rows.terms, rows.lattice, rows.terms[term], 0));
+      degree == 1 ? rows.lattice[term]
+                  : coefficient(*this->domain_, rows.terms, rows.lattice, rows.terms[term], 0));
   }
   for (int coordinate = 0; coordinate < 3; ++coordinate)
   {
@@ -311,7 +524,7 @@ QuadraticMap::QuadraticMap(std::uint8_t type)
   this->setProduct();
 }
 
-void QuadraticMap::setDerivative(int coordinate, const Rows& rows)
+void CellMap::setDerivative(int coordinate, const Rows& rows)
 {
   const BernsteinDomain& domain = *this->domain_;
   const int from = domain.from[coordinate], to = domain.to[coordinate];
@@ -335,7 +548,7 @@ void QuadraticMap::setDerivative(int coordinate, const Rows& rows)
     ++low[from];
     ++high[to];
     combinations.push_back(
-      2 * multinomial *
+      rows.degree * multinomial *
       (rows.coefficients[rows.terms.find(high)] - rows.coefficients[rows.terms.find(low)]));
     result.inverseMultinomial.push_back(1 / result.terms.multinomial(term));
   }
@@ -385,7 +598,7 @@ void QuadraticMap::setDerivative(int coordinate, const Rows& rows)
   result.errorFactor = (mostWeights + 2) * Unit * mostFactor;
 }
 
-void QuadraticMap::setProduct()
+void CellMap::setProduct()
 {
   const BernsteinDomain& domain = *this->domain_;
   const BernsteinTerms &r = this->derivative_[0].terms, &s = this->derivative_[1].terms,
@@ -421,7 +634,7 @@ void QuadraticMap::setProduct()
   this->halving_ = BernsteinHalving(domain, volume);
 }
 
-QuadraticMap::Derivatives QuadraticMap::derivatives(const Vector* x) const
+CellMap::Derivatives CellMap::derivatives(const Vector* x) const
 {
   Derivatives result;
   for (int coordinate = 0; coordinate < 3; ++coordinate)
@@ -447,7 +660,7 @@ QuadraticMap::Derivatives QuadraticMap::derivatives(const Vector* x) const
   return result;
 }
 
-QuadraticMap::Magnitudes QuadraticMap::magnitudes(const Vector* x) const
+CellMap::Magnitudes CellMap::magnitudes(const Vector* x) const
 {
   Magnitudes result;
   for (int coordinate = 0; coordinate < 3; ++coordinate)
@@ -467,7 +680,7 @@ QuadraticMap::Magnitudes QuadraticMap::magnitudes(const Vector* x) const
   return result;
 }
 
-double QuadraticMap::determinant(
+double CellMap::determinant(
   const Derivatives& derivatives, int halvings, BernsteinHalving::Coefficients& c) const
 {
   Vector area[BernsteinHalving::MostTerms];
@@ -518,7 +731,7 @@ double QuadraticMap::determinant(
 
 /// Calls sum(j, term, factor) for the terms of the three derivatives.
 template <typename Sum>
-void QuadraticMap::evaluate(const double (&at)[3], Sum&& sum) const
+void CellMap::evaluate(const double (&at)[3], Sum&& sum) const
 {
   const BernsteinDomain& domain = *this->domain_;
   // A simplex's first slot has the rest of the barycentric coordinates, which sum to 1.
@@ -557,7 +770,7 @@ void QuadraticMap::evaluate(const double (&at)[3], Sum&& sum) const
   }
 }
 
-Eigen::Matrix3d QuadraticMap::jacobian(const Derivatives& derivatives, const double (&at)[3]) const
+Eigen::Matrix3d CellMap::jacobian(const Derivatives& derivatives, const double (&at)[3]) const
 {
   Eigen::Matrix3d result = Eigen::Matrix3d::Zero();
   this->evaluate(
@@ -565,7 +778,7 @@ Eigen::Matrix3d QuadraticMap::jacobian(const Derivatives& derivatives, const dou
   return result;
 }
 
-bool QuadraticMap::isNegative(
+bool CellMap::isNegative(
   const Derivatives& derivatives, const Magnitudes& magnitudes, const double (&at)[3]) const
 {
   Eigen::Matrix3d J = Eigen::Matrix3d::Zero(), size = Eigen::Matrix3d::Zero();
