@@ -3,13 +3,13 @@
  * @class   vtkInversionFreeMorph
  * @brief   morphs a mesh so that no cell is inverted
  *
- * The filter starts from the better of FEMWARP's and simplex-linear's mesh. The foldover-free energy
- * removes its inverted cells, up to the first valid mesh. Then quasi-isometric stiffening raises the
- * minimum scaled Jacobian, up to what the boundary allows. There are never more inverted cells than
- * in FEMWARP's and simplex-linear's meshes and, with as many, no lower minimum. Tetrahedra,
- * hexahedra, wedges, pyramids, mixed meshes, and their quadratic forms, whose corners move as the
- * linear cell. Polyhedra by their pieces, whose minimum is not raised. Not linear in the boundary's
- * motion: there is no adjoint.
+ * The filter starts from the better of FEMWARP's and simplex-linear's mesh. The foldover-free
+ * energy removes its inverted cells, up to the first valid mesh. Then quasi-isometric stiffening
+ * raises the minimum scaled Jacobian, up to what the boundary allows. There are never more inverted
+ * cells than in FEMWARP's and simplex-linear's meshes and, with as many, no lower minimum.
+ * Tetrahedra, hexahedra, wedges, pyramids, mixed meshes, and their quadratic forms, whose corners
+ * move as the linear cell. Polyhedra by their pieces. Not linear in the boundary's motion: there is
+ * no adjoint.
  *
  * The default of Validity is VALIDITY_SUB_STEP here. A boundary that inverts cells by itself is
  * refused, with the ids of the cells. Where no valid mesh is found for the whole motion, there is
@@ -18,12 +18,12 @@
  *
  * An undeformed mesh with inverted cells is untangled, even without motion. It starts from the
  * undeformed mesh, or from the graph-Laplace mesh where that is better. Undeformed cells that are
- * inverted or flat have the ideal shape as target. Middle nodes of quadratic cells move where a cell
- * is inverted between its corners.
+ * inverted or flat have the ideal shape as target. Middle nodes of quadratic cells move where a
+ * cell is inverted between its corners.
  *
- * Preparing is FEMWARP's and simplex-linear's. Evaluating takes steps with a linear solution each, of
- * the cells near the worst ones and, where that is not enough, of all: 3 microseconds of processor
- * time a hexahedron.
+ * Preparing is FEMWARP's and simplex-linear's. Evaluating takes steps with a linear solution each,
+ * of the cells near the worst ones and, where that is not enough, of all: 3 microseconds of
+ * processor time a hexahedron.
  *
  * V. Garanzha, I. Kaporin, L. Kudryavtseva, F. Protais, N. Ray, D. Sokolov, "Foldover-free maps in
  * 50 lines of code", ACM Trans. Graph. 40(4) (2021), arXiv 2102.03069. V. Garanzha, I. Kaporin, L.

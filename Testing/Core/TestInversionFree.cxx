@@ -362,8 +362,9 @@ TEST(InversionFree, ABoundaryWithoutAMeshIsGivenUpSoon)
   EXPECT_GT(folded.inverted, 0);
   EXPECT_EQ(count(folded.report, "Untangled"), 0);
   EXPECT_GT(count(folded.report, "NewtonSteps"), 0);
-  EXPECT_LE(count(folded.report, "NewtonSteps"), 4 * count(valid.report, "NewtonSteps"));
-  EXPECT_LE(count(folded.report, "LinearIterations"), 4 * count(valid.report, "LinearIterations"));
+  EXPECT_LE(count(folded.report, "NewtonSteps"), 2 * count(valid.report, "NewtonSteps"));
+  // Untangling ends at the first valid mesh, so that it asks for few iterations.
+  EXPECT_LE(count(folded.report, "LinearIterations"), 3 * count(valid.report, "LinearIterations"));
 }
 
 TEST(InversionFree, ThreadsRenumberingRigidMotionAndScaleDoNotShow)

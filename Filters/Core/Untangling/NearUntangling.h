@@ -26,8 +26,8 @@ TargetMatrices untanglingTargets(const Mesh& mesh, const std::vector<std::int8_t
 /// within 5 and 15 rings of those that are left; `firstRings`: the first of these numbers. `mesh`:
 /// the reference shapes; `free`: ids of the nodes that may move, ascending; `inverted`: ids of the
 /// inverted cells. Returns whether all tetrahedra of these parts are positive; otherwise `points`
-/// stay. Gives up at once if more than a tenth of all cells is inverted. Cost: that of the energy on
-/// a mesh of the parts alone, and passes over the nodes. `effort`: added to.
+/// stay. Gives up at once if more than a tenth of all cells is inverted. Cost: that of the energy
+/// on a mesh of the parts alone, and passes over the nodes. `effort`: added to.
 bool untangleNear(const Mesh& mesh, const std::vector<std::int8_t>& orientation,
   const std::vector<Index>& free, const std::vector<Index>& inverted, int firstRings,
   const Aim& aim, Points& points, MinimizerEffort& effort, Monitor& monitor,

@@ -100,6 +100,8 @@ public:
       return {};
     }
     this->around_ = nodeToCells(this->mesh_);
+    // Far below the goal sums of distortions rise the fastest. Near it they would lower the minimum.
+    this->way_ = 2 * this->quality_.minimum < this->goal_ ? 1. / 2 : NearWay;
     this->raiseMinimum();
     if (hasReached(this->quality_.minimum, this->goal_) && !hasReached(this->quality_.minimum, 1))
     {
@@ -321,7 +323,7 @@ private:
     {
       if (step > 0 && step % Patience == 0)
       {
-        if (best < (1 + WorthWhile) * mark)
+        if (way <= NearWay && best < (1 + WorthWhile) * mark)
         {
           break;
         }
@@ -361,7 +363,7 @@ private:
   bool isOfTetrahedra_;
   MovableQuality::Result quality_;
   Adjacency around_; ///< cells round nodes
-  double way_ = 1. / 2;
+  double way_ = NearWay;
   MinimizerEffort effort_;
 };
 }

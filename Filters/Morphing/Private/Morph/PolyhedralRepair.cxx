@@ -9,14 +9,6 @@
 
 namespace morph::filters::PolyhedralRepair
 {
-void Adapt(morph::Morpher& method)
-{
-  if (auto* inversionFree = dynamic_cast<morph::InversionFree*>(&method))
-  {
-    inversionFree->setSteps(morph::RaisingSteps::None);
-  }
-}
-
 bool Run(const morph::Mesh& mesh, const morph::Points& reference,
   const morph::NodePartition& partition,
   const std::function<std::size_t(const morph::Points& points)>& bad, morph::Points& moved,
@@ -31,7 +23,6 @@ bool Run(const morph::Mesh& mesh, const morph::Points& reference,
   morph::ProgressRange preparing(monitor, 0, 0.3);
   const morph::PolyhedronPieces pieces(mesh, preparing);
   morph::InversionFree repair;
-  Adapt(repair);
   repair.setReference(pieces.extend(reference));
   repair.prepare(pieces.mesh(), pieces.extend(partition), preparing);
   for (int round = 0; round < Rounds && left > 0; ++round)

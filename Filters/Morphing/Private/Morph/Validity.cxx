@@ -312,7 +312,6 @@ Validity::Outcome Validity::Ensure(morph::Points& moved, morph::Monitor& monitor
         {
           return method;
         }
-        PolyhedralRepair::Adapt(*method);
         return morph::morpherForPolyhedra(std::move(method));
       };
       return this->SubStep(make, moved, second);
