@@ -36,7 +36,7 @@ public:
 
   /// Makes the levels. `matrix` must outlive this object and stay in place. Aggregates consist of
   /// near nodes, see nearNeighbors(); `coordinates`: #rows x 3. Throws Error of kind Singular where
-  /// a diagonal entry is about 1e38 times smaller than the largest entry. A matrix of no rows has no
+  /// a diagonal entry is about 1e38 times smaller than the largest one. A matrix of no rows has no
   /// level, and apply() does nothing.
   void prepare(
     const CsrMatrix& matrix, Symmetry symmetry, const ConstPoints& coordinates, Monitor& monitor);

@@ -21,7 +21,7 @@ class MultigridSolver : public LinearSolver
 public:
   /// `x`: up to four columns, without copies; what it is after an error has no meaning. Each column
   /// of each component stops at |b - A x| <= max(tolerance |b_column|, 1e-14 |b_all|); the second
-  /// term ends columns that are pure rounding. A guess with a larger residual than 0 is not used. If
+  /// term ends columns that are pure rounding. A guess with a larger residual than 0 is dropped. If
   /// rounding keeps the residual above the goal, the best x is returned and the residual reported.
   /// Throws Error of kind NoConvergence, with the residual, after `maxIterations` or on overflow.
   virtual SolveReport solve(const RightHandSide& b, MultiVector& x, double tolerance,

@@ -100,7 +100,7 @@ public:
       return {};
     }
     this->around_ = nodeToCells(this->mesh_);
-    // Far below the goal sums of distortions rise the fastest. Near it they would lower the minimum.
+    // Far below the goal sums of distortions rise the fastest; near it they lower the minimum.
     this->way_ = 2 * this->quality_.minimum < this->goal_ ? 1. / 2 : NearWay;
     this->raiseMinimum();
     if (hasReached(this->quality_.minimum, this->goal_) && !hasReached(this->quality_.minimum, 1))
