@@ -19,6 +19,7 @@ void InversionFree::takeEvaluateOptions(const Morpher& serial)
   const auto& own = static_cast<const morph::InversionFree&>(serial);
   this->femWarp_.setTolerance(own.tolerance());
   this->options_.steps = own.steps();
+  this->options_.raisesValid = own.raisesValid();
 }
 
 MeshImprovement InversionFree::improvement(const std::vector<Index>& hopeless) const

@@ -93,6 +93,7 @@ MeshImprovement InversionFree::improvement(const std::vector<Index>& hopeless) c
 {
   ImprovementOptions options;
   options.steps = this->steps_;
+  options.raisesValid = this->raisesValid_;
   options.nearOnly = this->nearOnly_;
   options.minimumAtRest = this->minimumAtRest_;
   options.preconditioner = this->preconditioner_.get();

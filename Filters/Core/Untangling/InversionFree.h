@@ -48,6 +48,10 @@ public:
   /// Sets how many steps may raise the minimum scaled Jacobian, 0 or more: see RaisingSteps.
   void setSteps(int steps) { this->steps_ = steps; }
   int steps() const { return this->steps_; }
+  /// Sets whether the minimum of a mesh that needs no untangling rises, too. Default on. Off for
+  /// pieces of polyhedra, as their minimum may rise while that of the polyhedra falls.
+  void setRaisesValid(bool on) { this->raisesValid_ = on; }
+  bool raisesValid() const { return this->raisesValid_; }
 
   /// Sets whether repair() moves only nodes near inverted cells, or none where these cannot be
   /// untangled so. prepare() then takes passes over the cells alone, and evaluate() throws Error.
@@ -81,6 +85,7 @@ private:
 
   int steps_ = RaisingSteps::Default;
   bool nearOnly_ = false;
+  bool raisesValid_ = true;
 
   Points reference_;
   Mesh referenceMesh_; ///< the reference, its coordinates times scale_

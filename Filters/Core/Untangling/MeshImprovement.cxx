@@ -139,7 +139,9 @@ MeshImprovement::Outcome MeshImprovement::run(const Points& guide, TargetConstru
     }
   }
   outcome.untangled = best.inverted == 0;
-  if (this->options_.steps == 0 || (isRepair && (wasValid || !outcome.untangled)))
+  const bool raises =
+    wasValid ? !isRepair && this->options_.raisesValid : !isRepair || outcome.untangled;
+  if (this->options_.steps == 0 || !raises)
   {
     return outcome;
   }

@@ -23,7 +23,8 @@ struct RaisingSteps
 struct ImprovementOptions
 {
   int steps = RaisingSteps::Default;
-  bool nearOnly = false; ///< whether to leave a mesh that cannot be untangled near inverted cells
+  bool raisesValid = true; ///< whether the minimum of a mesh without inverted cells rises, too
+  bool nearOnly = false;   ///< whether to leave a mesh that cannot be untangled near inverted cells
   double minimumAtRest = 0; ///< scaled Jacobian of the undeformed mesh
   /// for Newton's linear systems of the whole mesh, by unknownOrdering(); null: none
   const NodePreconditioner* preconditioner = nullptr;

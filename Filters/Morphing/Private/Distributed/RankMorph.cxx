@@ -14,6 +14,7 @@
 #include "Private/Distributed/RankPolyhedra.h"
 #include "Private/Distributed/RankQuality.h"
 #include "Private/Distributed/RankValidity.h"
+#include "Private/Morph/PolyhedralRepair.h"
 #include "Private/Morph/Series.h"
 #include "Private/Pipeline/Input.h"
 #include "Quality/MovableQuality.h"
@@ -192,6 +193,10 @@ std::unique_ptr<morph::Morpher> Morphing::Internals::Settings(const Session::Opt
 {
   std::unique_ptr<morph::Morpher> settings = options.CreateMorpher();
   options.SetEvaluateOptions(*settings);
+  if (this->Mesh.HasPolyhedra())
+  {
+    PolyhedralRepair::Adapt(*settings);
+  }
   return settings;
 }
 

@@ -9,6 +9,14 @@
 
 namespace morph::filters::PolyhedralRepair
 {
+void Adapt(morph::Morpher& method)
+{
+  if (auto* inversionFree = dynamic_cast<morph::InversionFree*>(&method))
+  {
+    inversionFree->setRaisesValid(false);
+  }
+}
+
 bool Run(const morph::Mesh& mesh, const morph::Points& reference,
   const morph::NodePartition& partition,
   const std::function<std::size_t(const morph::Points& points)>& bad, morph::Points& moved,

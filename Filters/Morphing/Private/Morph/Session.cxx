@@ -58,6 +58,17 @@ std::unique_ptr<morph::Morpher> makeMethod(const Session::Options& options, cons
                                    : std::move(method);
 }
 
+/// Sets the options that only evaluate() reads; `method`: of makeMethod().
+void setEvaluateOptions(
+  const Session::Options& options, const morph::Mesh& mesh, morph::Morpher& method)
+{
+  options.SetEvaluateOptions(morph::methodOf(method));
+  if (morph::hasPolyhedra(mesh))
+  {
+    PolyhedralRepair::Adapt(morph::methodOf(method));
+  }
+}
+
 /// Smooths `moved` and returns the steps that led to it.
 morph::Index smoothAfterwards(const morph::Mesh& rest, const std::vector<std::int8_t>& orientation,
   const morph::NodePartition& partition, int iterationLimit, morph::Points& moved,
@@ -233,7 +244,7 @@ StepResult Session::MorphStep(const morph::Mesh& from, const BoundaryMatch::Resu
     [&options, &from]
     {
       auto morpher = makeMethod(options, from);
-      options.SetEvaluateOptions(morph::methodOf(*morpher));
+      setEvaluateOptions(options, from, *morpher);
       return morpher;
     } };
   validity.RequireFeasible();
@@ -242,7 +253,7 @@ StepResult Session::MorphStep(const morph::Mesh& from, const BoundaryMatch::Resu
   this->Prepare(from, options, preparing);
 
   auto evaluating = part(0.45, 0.75);
-  options.SetEvaluateOptions(morph::methodOf(*this->Method));
+  setEvaluateOptions(options, from, *this->Method);
   const auto start = Clock::now();
   StepResult result;
   const morph::EvaluateReport report =
