@@ -83,8 +83,8 @@ void notRaised(InversionFree& method)
   method.setSteps(morph::RaisingSteps::None);
 }
 
-/// Expects a mesh whose minimum is at most 1 % below that of one process, or 3 % where the minimum
-/// is raised: that ends at one of several maxima.
+/// Expects a mesh whose minimum is at most 3 % below that of one process where it is raised: that
+/// ends at one of several maxima. Untangling alone ends at its first valid mesh.
 void compare(
   const Ranks& ranks, const std::string& name, const Mesh& whole, const motions::Map& map,
   const Setting& set = [](InversionFree&) {})
@@ -92,7 +92,7 @@ void compare(
   SCOPED_TRACE(name);
   InversionFree settings;
   set(settings);
-  const double share = settings.steps() > 0 ? 0.97 : 0.99;
+  const double share = settings.steps() > 0 ? 0.97 : 0;
   const Result expected = serial(whole, map, set), mine = onRanks(ranks, whole, map, set);
   EXPECT_EQ(expected.inverted, 0);
   EXPECT_EQ(mine.inverted, expected.inverted);

@@ -246,25 +246,26 @@ private:
     }
   }
 
+  /// Bisects for the value that WorstShare of all processes' cells are below.
+  double limitOfWorst() const
+  {
+    const auto countBelow = [&](double limit)
+    { return this->communicator_.sum(static_cast<double>(this->cellsBelow(limit).size())); };
+    const double wanted = WorstShare * countBelow(1);
+    double low = this->quality_.minimum, high = 1;
+    while (high - low > NearBound * high)
+    {
+      const double middle = (low + high) / 2;
+      (countBelow(middle) > wanted ? high : low) = middle;
+    }
+    return high;
+  }
+
   /// Raises the worst cells but those at the bound of the minimum.
   void raiseOthers()
   {
-    std::vector<double> sorted;
-    for (const double s : this->quality_.scaledJacobian)
-    {
-      if (!std::isnan(s))
-      {
-        sorted.push_back(s);
-      }
-    }
-    const auto nth =
-      sorted.begin() + static_cast<Index>(WorstShare * static_cast<double>(sorted.size()));
-    if (nth == sorted.end())
-    {
-      return;
-    }
-    std::nth_element(sorted.begin(), nth, sorted.end());
-    if (hasReached(this->quality_.minimum, *nth))
+    const double limit = this->limitOfWorst();
+    if (hasReached(this->quality_.minimum, limit))
     {
       return;
     }
@@ -272,7 +273,7 @@ private:
     const MovableQuality::Result had = this->quality_;
     bool isWhole = false;
     double outside = 0;
-    Part part = this->partAround(this->cellsBelow(*nth), this->rings() / 2, isWhole, outside);
+    Part part = this->partAround(this->cellsBelow(limit), this->rings() / 2, isWhole, outside);
     this->way_ = NearWay;
     this->climb(part, 1, StepsOfRound / 2, true);
     this->take(part);
