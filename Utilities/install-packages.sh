@@ -5,7 +5,7 @@ set -euo pipefail
 usage() {
   cat <<END
 Usage: install-packages.sh [--use | --demo] [--solvers] [--benchmark] [--developer] [--site]
-                           [--other-debian]
+                           [--portable] [--other-debian]
 Installs the Debian packages that MeshMorphing is built and tested with, as root or through sudo.
 Does nothing where they are all installed. Exits with 77 where the registry does not answer.
   --use         only what it takes to build and to use it: compiler, ParaView, libraries
@@ -16,6 +16,7 @@ Does nothing where they are all installed. Exits with 77 where the registry does
   --developer   also ccache, and what format.sh, lint.sh, check-documentation.sh and
                 design_picture.py need (clang, clang-format, clang-tidy, doxygen, graphviz)
   --site        also what site.sh needs (mkdocs, doxygen)
+  --portable    also compilers for other systems, see portable.sh
   --other-debian  also what other-debian.sh needs (mmdebstrap)
 Knows Debian 12, 13 and unstable.
 END
@@ -65,6 +66,8 @@ for option in "$@"; do
     --benchmark) packages+=(libsuitesparse-dev libopenblas-dev xdotool) ;;
     --developer) packages+=(ccache clang clang-format clang-tidy doxygen graphviz) ;;
     --site) packages+=(mkdocs doxygen) ;;
+    --portable) packages+=(clang googletest g++-mingw-w64-x86-64-posix wine64 g++-aarch64-linux-gnu
+      qemu-user emscripten) ;;
     --other-debian) packages+=(mmdebstrap uidmap) ;;
     *) usage >&2; exit 2 ;;
   esac

@@ -5,25 +5,22 @@ cd "$(dirname "$0")/.."
 
 usage() {
   cat <<END
-Usage: portable.sh [-j N] [--install] [SYSTEM...]
+Usage: portable.sh [-j N] [SYSTEM...]
 Compiles the core, the readers and writers of solvers' files, and the core's tests for other
 systems, and runs the tests. Prints how many files and tests there were, and how many ran. Fails
 where one file does not compile or one test does not pass that is not named below.
-  SYSTEM     twin (this system, without GNU's vectors), clang, mingw (Windows, by Wine), aarch64
-             (by qemu-user), emscripten (by node); by default all five, one after the other
-  --install  installs the Debian packages that they need first
-  -j N       processes to compile with (default: all cores)
+  SYSTEM  twin (this system, without GNU's vectors), clang, mingw (Windows, by Wine), aarch64
+          (by qemu-user), emscripten (by node); by default all five, one after the other
+  -j N    processes to compile with (default: all cores)
 END
 }
 
 jobs=$(nproc)
-install=no
 systems=()
 while [ $# -gt 0 ]; do
   case "$1" in
     -h | --help) usage; exit 0 ;;
     -j) shift; jobs=${1:?"-j needs a number"} ;;
-    --install) install=yes ;;
     twin | clang | mingw | aarch64 | emscripten) systems+=("$1") ;;
     *) usage >&2; exit 2 ;;
   esac
@@ -31,7 +28,7 @@ while [ $# -gt 0 ]; do
 done
 if [ ${#systems[@]} -eq 0 ]; then systems=(twin clang mingw aarch64 emscripten); fi
 
-# Sets compiler, flags and program for a system, its packages, and the tests that it leaves out.
+# Sets compiler, flags and program for a system, and the tests that it leaves out.
 system() {
   left_out=()
   cmake=(-DCMAKE_SYSTEM_NAME=Linux)
@@ -40,16 +37,13 @@ system() {
   program=tests
   case "$1" in
     twin)
-      packages=(g++)
       compiler=g++
       flags=(-DMORPH_SCALAR_SIMD)
       run=() ;;
     clang)
-      packages=(clang)
       compiler=clang++
       run=() ;;
     mingw)
-      packages=(g++-mingw-w64-x86-64-posix wine64)
       compiler=x86_64-w64-mingw32-g++-posix
       cmake=(-DCMAKE_SYSTEM_NAME=Windows)
       # GCC does not align the stack for wide vectors there (its bug 54412): the twin has none.
@@ -58,12 +52,10 @@ system() {
       program=tests.exe
       run=(env WINEDEBUG=-all WINEPREFIX="$PWD/build/portable/wine" /usr/lib/wine/wine64) ;;
     aarch64)
-      packages=(g++-aarch64-linux-gnu qemu-user)
       compiler=aarch64-linux-gnu-g++
       link=(-static)
       run=(qemu-aarch64) ;;
     emscripten)
-      packages=(emscripten)
       compiler=em++
       cmake=(-DCMAKE_TOOLCHAIN_FILE=/usr/share/emscripten/cmake/Modules/Platform/Emscripten.cmake)
       flags=(-fexceptions -DCGAL_ALWAYS_ROUND_TO_NEAREST)
@@ -77,12 +69,8 @@ system() {
 failed=0
 for name in "${systems[@]}"; do
   system "$name"
-  if [ "$install" = yes ]; then
-    apt-get install -y --no-install-recommends cmake ninja-build googletest "${packages[@]}" \
-      >/dev/null
-  fi
   if ! command -v "$compiler" >/dev/null; then
-    echo "portable.sh: $name needs ${packages[*]}: call it with --install." >&2
+    echo "portable.sh: there is no $compiler; see install-packages.sh --portable." >&2
     exit 1
   fi
   build=build/portable/$name

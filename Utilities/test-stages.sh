@@ -12,6 +12,7 @@ mpi         8  meshes on one to four MPI ranks
 solvers     4  files that OpenFOAM, CalculiX and Gmsh read and solve
 package     2  the Debian package: made, installed, tried and removed
 site        2  the pages as a site, its links and pictures
+portable   60  the core compiled for other systems, and its tests run there (portable.sh)
 debian13   25  test.sh in Debian 13
 sanitizers 20  core, fuzz, filters and two MPI ranks with address and undefined-behavior sanitizers
 plainvtk   16  the library and its Python module with Debian's VTK
@@ -68,6 +69,7 @@ if [ "$inside" = yes ]; then
       package=$(Utilities/package.sh --from build/paraview -j "$jobs")
       Testing/Install/package.sh "$package" ;;
     site) on_debian_12; Utilities/site.sh ;;
+    portable) on_debian_12; Utilities/portable.sh -j "$jobs" ;;
     debian13) on_debian_12; Utilities/other-debian.sh trixie test -j "$jobs" ;;
     sanitizers)
       cmake --preset asan -DMESHMORPHING_UNITY_BUILD=ON \
@@ -85,7 +87,7 @@ if [ ${#chosen[@]} -eq 0 ]; then
   mapfile -t chosen < <(awk 'NF { print $1 }' <<< "$stages")
 fi
 if [ "$install" = yes ]; then
-  Utilities/install-packages.sh --solvers --site --other-debian
+  Utilities/install-packages.sh --solvers --site --portable --other-debian
 fi
 if command -v ccache > /dev/null; then
   export CMAKE_CXX_COMPILER_LAUNCHER=ccache CCACHE_BASEDIR=$PWD
