@@ -34,12 +34,12 @@ Eigen::Matrix2d cofactor(const Eigen::Matrix2d& J)
 }
 
 /// J = U diag(s) V^T with rotations U and V; s[1] has the sign of the determinant.
-struct SignedSingularValues
+struct PlaneSingularValues
 {
   Eigen::Matrix2d U, V;
   Eigen::Vector2d s;
 
-  explicit SignedSingularValues(const Eigen::Matrix2d& J)
+  explicit PlaneSingularValues(const Eigen::Matrix2d& J)
   {
     const double e = (J(0, 0) + J(1, 1)) / 2, f = (J(0, 0) - J(1, 1)) / 2;
     const double g = (J(1, 0) + J(0, 1)) / 2, h = (J(1, 0) - J(0, 1)) / 2;
@@ -99,7 +99,7 @@ double FaceDensity::gradient(const Eigen::Matrix2d& J, Eigen::Matrix2d& derivati
 
 FaceDensity::Hessian FaceDensity::hessian(const Eigen::Matrix2d& J) const
 {
-  const SignedSingularValues svd(J);
+  const PlaneSingularValues svd(J);
   const double s0 = svd.s[0], s1 = svd.s[1], square = s0 * s0 + s1 * s1;
   const Weight weight(s0 * s1, this->epsilon);
   const double byDeterminant = square * weight.first;
