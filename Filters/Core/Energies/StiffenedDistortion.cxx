@@ -309,6 +309,13 @@ MORPH_SIMD_INLINE void addByCentre(const SimdMatrix (&block)[3][3], SimdMatrix* 
   }
 }
 
+/// An edge from a tetrahedron's first corner. `nodes`: of a batch, from the cell's lane on.
+Eigen::RowVector3d edgeOf(
+  const Points& points, const std::int32_t* nodes, const int* corner, int edge)
+{
+  return points.row(nodes[corner[edge + 1] * SimdWidth]) - points.row(nodes[corner[0] * SimdWidth]);
+}
+
 /// Adds the forces on edges from a tetrahedron's first corner.
 MORPH_SIMD_INLINE void addForces(const SimdMatrix& force, const int* corner, SimdVector (&to)[8])
 {
@@ -633,12 +640,7 @@ void StiffenedDistortion::findLimits(
   Limits* limits = this->limits_.data() + this->firstLimits_[batch];
   const std::int32_t* nodes = this->batches_.nodes(batch) + lane;
   const auto length = [&](const Points& points, int k, int edge)
-  {
-    const int* corner = corners.tets[k].corner;
-    return (
-      points.row(nodes[corner[edge + 1] * SimdWidth]) - points.row(nodes[corner[0] * SimdWidth]))
-      .norm();
-  };
+  { return edgeOf(points, nodes, corners.tets[k].corner, edge).norm(); };
   double before[MostCorners][3], now[MostCorners][3], sumBefore = 0, sumNow = 0;
   for (int k = 0; k < corners.count; ++k)
   {
@@ -690,10 +692,7 @@ void StiffenedDistortion::restoreLimits(const Points& points)
           if (least < near)
           {
             const std::int32_t* nodes = this->batches_.nodes(batch) + lane;
-            const int* corner = corners.tets[k].corner;
-            const double square = (points.row(nodes[corner[edge + 1] * SimdWidth]) -
-                                   points.row(nodes[corner[0] * SimdWidth]))
-                                    .squaredNorm();
+            const double square = edgeOf(points, nodes, corners.tets[k].corner, edge).squaredNorm();
             least = std::max(least, std::min(near, static_cast<float>(Room * Room * square)));
           }
         }

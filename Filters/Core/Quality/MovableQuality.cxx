@@ -7,6 +7,7 @@
 #include <bitset>
 #include <limits>
 #include <tuple>
+#include <utility>
 
 namespace morph
 {
@@ -129,6 +130,18 @@ void MovableQuality::summarise(Result& result) const
   }
   result.minimum = this->communicator_.minimum(result.minimum);
   result.inverted = this->communicator_.sum(result.inverted);
+}
+
+bool MovableQuality::keepBetter(Points trial, Points& points, Result& best, Monitor& monitor) const
+{
+  Result result = this->measure(trial, monitor);
+  const bool isBetter = best < result;
+  if (isBetter)
+  {
+    best = std::move(result);
+    points = std::move(trial);
+  }
+  return isBetter;
 }
 
 MovableQuality::Bounds MovableQuality::bounds(const Points& points) const

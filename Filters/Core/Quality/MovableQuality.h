@@ -48,6 +48,10 @@ public:
   void measureAgain(
     const std::vector<Index>& cells, const Points& points, Result& result, Monitor& monitor) const;
 
+  /// Replaces `points` by `trial`, and `best`, what points measure, by that of the trial, if it is
+  /// better. Returns whether it is.
+  bool keepBetter(Points trial, Points& points, Result& best, Monitor& monitor) const;
+
   /// What the prescribed nodes alone allow; infinite where they set no limit.
   struct Bounds
   {

@@ -107,17 +107,8 @@ TargetConstruction InversionFree::findStart(const Points& boundary, const Movabl
   const Points atRest = points;
   MovableQuality::Result best;
   best.inverted = this->referenceMesh_.numberOfCells() + 1;
-  const auto keepBetter = [&](const Points& start)
-  {
-    MovableQuality::Result result = quality.measure(start, monitor);
-    const bool isBetter = best < result;
-    if (isBetter)
-    {
-      best = std::move(result);
-      points = start;
-    }
-    return isBetter;
-  };
+  const auto keepBetter = [&](Points start)
+  { return quality.keepBetter(std::move(start), points, best, monitor); };
   ProgressRange first(monitor, 0, 0.05), second(monitor, 0.05, 0.1);
   if (this->hasFemWarp_)
   {

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <utility>
 
 namespace morph
 {
@@ -100,16 +101,7 @@ MeshImprovement::Outcome MeshImprovement::run(const Points& guide, TargetConstru
   const bool wasValid = best.inverted == 0;
   Outcome outcome;
   const auto keepBetter = [&](Points& trial)
-  {
-    MovableQuality::Result result = quality.measure(trial, monitor);
-    const bool isBetter = best < result;
-    if (isBetter)
-    {
-      best = std::move(result);
-      points.swap(trial);
-    }
-    return isBetter;
-  };
+  { return quality.keepBetter(std::move(trial), points, best, monitor); };
   if (!wasValid)
   {
     ProgressRange near(monitor, 0.1, 0.3);
