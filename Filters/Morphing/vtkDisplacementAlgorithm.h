@@ -418,9 +418,11 @@ public:
    * what moves along an edge, curves first, as with vtkMorphBoundary, vertices being held, and the
    * others stay: a surface that only shares a vertex does not touch. Where the motion allows it to
    * 1 % of the largest displacement, a following surface keeps its own shape (plane, cylinder, or
-   * its facets); else a warning says how far it leaves it. Or nodes fade: they follow the motion
-   * the less, the farther they are from the nearest moving node, up to FalloffRadius. Or all
-   * surfaces follow, whether they touch or not. Default SURROUNDINGS_FOLLOW.
+   * its facets); else a warning says how far it leaves it. Where a following surface folds, its
+   * nodes slide along it until it does not (smoothSurfaceMeshes()), and a warning says how many
+   * slid how far. Or nodes fade: they follow the motion the less, the farther they are from the
+   * nearest moving node, up to FalloffRadius. Or all surfaces follow, whether they touch or not.
+   * Default SURROUNDINGS_FOLLOW.
    */
   vtkSetClampMacro(Surroundings, int, SURROUNDINGS_STAY, SURROUNDINGS_FOLLOW_ALL);
   vtkGetMacro(Surroundings, int);

@@ -411,8 +411,8 @@ void vtkMorphBoundary::vtkInternals::Run(
   if (how.method == morph::SurfaceMorphOptions::Method::MeshSmoothing)
   {
     monitor.SetRange(0.9, 0.95);
-    const morph::SurfaceMeshSmoothing meshes =
-      morph::smoothSurfaceMeshes(faces, geometry, place.get(), motion, monitor);
+    const morph::SurfaceMeshSmoothing meshes = morph::smoothSurfaceMeshes(
+      faces, geometry, place.get(), morph::SmoothedSurfaces::All, motion, monitor);
     std::vector<Index> better;
     for (const Index s : meshes.kept)
     {

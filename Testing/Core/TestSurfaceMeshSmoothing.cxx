@@ -42,7 +42,8 @@ struct Case : shapes::ClassifiedShape
   SurfaceMeshSmoothing smooth(
     BoundaryMotion& motion, Monitor& monitor, const ProjectionTarget* target = nullptr) const
   {
-    return smoothSurfaceMeshes(this->faces, this->geometry, target, motion, monitor);
+    return smoothSurfaceMeshes(
+      this->faces, this->geometry, target, SmoothedSurfaces::All, motion, monitor);
   }
 };
 

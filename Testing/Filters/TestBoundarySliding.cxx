@@ -2,7 +2,9 @@
 // What surfaces do that touch what moves: they keep their shape where they can. The others stay.
 #include "DisplacedBoundaries.h"
 
+#include "../Core/BoundaryShapes.h"
 #include "vtkFEMWarpMorph.h"
+#include "vtkInversionFreeMorph.h"
 #include "vtkMorphMesh.h"
 
 #include <vtkCylindricalTransform.h>
@@ -498,4 +500,33 @@ TEST(BoundarySliding, NamesWhatDoesNotExist)
   filter->Update();
   ASSERT_EQ(listener.Errors.size(), 1u);
   EXPECT_NE(listener.Errors[0].find("SlidingSurfaces names 'Curve 1'"), std::string::npos);
+}
+
+TEST(BoundarySliding, SurfacesThatFoldAsTheyFollowSlideUntilTheyDoNot)
+{
+  auto grid = grids::make(shapes::boxWithHole(24, 5, 2));
+  auto filter = displaced::make(grid);
+  filter->SetMovingToPatches();
+  filter->AddPatch(displaced::surfaceName(filter, onHole).c_str());
+  filter->SetMotionToVector();
+  filter->SetVector(0.85, 0, 0);
+  const grids::Listener listener(filter);
+  filter->Update();
+
+  ASSERT_EQ(listener.Warnings.size(), 1);
+  EXPECT_NE(listener.Warnings[0].find("folded as they followed"), std::string::npos)
+    << listener.Warnings[0];
+  const morph::Points x = displaced::restPositions(filter->GetOutput());
+  const morph::Points y = grids::points(filter->GetOutput());
+  for (morph::Index i = 0; i < x.rows(); ++i)
+  {
+    EXPECT_EQ(y(i, 2), x(i, 2)) << "the ends stay in their planes";
+    EXPECT_TRUE(!onHole(x.row(i)) || y.row(i) == x.row(i) + Row(0.85, 0, 0));
+  }
+  vtkNew<vtkInversionFreeMorph> morph;
+  morph->SetInputData(0, grid);
+  morph->SetInputConnection(1, filter->GetOutputPort());
+  morph->Update();
+  EXPECT_EQ(morph->GetInvertedCells(), 0);
+  EXPECT_GT(morph->GetMinScaledJacobian(), 0.1);
 }

@@ -198,18 +198,27 @@ bool movesAffinely(const std::vector<Index>& nodes, const BoundaryMotion& motion
 }
 
 SurfaceMeshSmoothing smoothSurfaceMeshes(const BoundaryFaces& faces, const Classification& geometry,
-  const ProjectionTarget* target, BoundaryMotion& motion, Monitor& monitor)
+  const ProjectionTarget* target, SmoothedSurfaces which, BoundaryMotion& motion, Monitor& monitor)
 {
   SurfaceMeshSmoothing report;
   const Points start = motion.moved();
-  const FaceQuality quality = faceQuality(motion.rest, start, faces, geometry);
   const std::vector<std::uint8_t> isFolded = foldedMask(motion.rest, start, faces, geometry);
+  const auto isWanted = [&](const GeometrySurface& surface)
+  {
+    return which == SmoothedSurfaces::All || std::any_of(surface.faces.begin(), surface.faces.end(),
+                                               [&](Index f) { return isFolded[f] != 0; });
+  };
+  if (std::none_of(geometry.surfaces.begin(), geometry.surfaces.end(), isWanted))
+  {
+    return report;
+  }
+  const FaceQuality quality = faceQuality(motion.rest, start, faces, geometry);
   Points result = start;
   const double count = static_cast<double>(geometry.surfaces.size());
   for (std::size_t s = 0; s < geometry.surfaces.size(); ++s)
   {
     const std::vector<Index>& nodes = geometry.surfaces[s].nodes;
-    if (movesAffinely(nodes, motion))
+    if (!isWanted(geometry.surfaces[s]) || movesAffinely(nodes, motion))
     {
       continue;
     }

@@ -3,10 +3,18 @@
 
 #include "BoundaryMorphing/BoundaryProjection.h"
 
+#include <cstdint>
 #include <vector>
 
 namespace morph
 {
+/// Which surfaces smoothSurfaceMeshes() smooths.
+enum class SmoothedSurfaces : std::uint8_t
+{
+  All,
+  Folded ///< those with a face in foldedFaces()
+};
+
 /// The result of smoothSurfaceMeshes().
 struct SurfaceMeshSmoothing
 {
@@ -39,5 +47,5 @@ struct SurfaceMeshSmoothing
 /// on their target stay. Mid-side and face nodes follow their corners. The result does not depend
 /// on threads. Cost: per Newton step about a microsecond a corner.
 SurfaceMeshSmoothing smoothSurfaceMeshes(const BoundaryFaces& faces, const Classification& geometry,
-  const ProjectionTarget* target, BoundaryMotion& motion, Monitor& monitor);
+  const ProjectionTarget* target, SmoothedSurfaces which, BoundaryMotion& motion, Monitor& monitor);
 }

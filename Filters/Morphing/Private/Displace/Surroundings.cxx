@@ -2,7 +2,6 @@
 #include "Private/Displace/Surroundings.h"
 
 #include "BoundaryMorphing/CurveMorph.h"
-#include "BoundaryMorphing/SurfaceMeshSmoothing.h"
 #include "BoundaryMorphing/SurfaceSmoothing.h"
 #include "Support/Error.h"
 
@@ -406,10 +405,10 @@ void Surroundings::Follow(const BoundaryModel& model, const Choice::Result& choi
     sliding.insert(sliding.end(), able.begin(), able.end());
   }
   this->Slide(model, sliding, { Follows }, result);
-  if (options.method == Method::MeshSmoothing)
-  {
-    this->SmoothMeshes(model, sliding, motion, result, monitor);
-  }
+  this->SmoothMeshes(model, sliding,
+    options.method == Method::MeshSmoothing ? morph::SmoothedSurfaces::All
+                                            : morph::SmoothedSurfaces::Folded,
+    motion, result, monitor);
   if (!report.reflected.empty())
   {
     std::vector<Index> ids;
@@ -424,7 +423,8 @@ void Surroundings::Follow(const BoundaryModel& model, const Choice::Result& choi
 }
 
 void Surroundings::SmoothMeshes(const BoundaryModel& model, const std::vector<Index>& sliding,
-  morph::BoundaryMotion& motion, Result& result, morph::Monitor& monitor)
+  morph::SmoothedSurfaces which, morph::BoundaryMotion& motion, Result& result,
+  morph::Monitor& monitor)
 {
   const LocalBoundary& local = this->Local;
   for (std::size_t i = 0; i < local.Nodes().size(); ++i)
@@ -442,16 +442,38 @@ void Surroundings::SmoothMeshes(const BoundaryModel& model, const std::vector<In
   }
   const ShapeTarget target(std::move(shapes));
   const Points before = motion.displacement;
-  morph::smoothSurfaceMeshes(local.Faces(), local.Geometry(), &target, motion, monitor);
+  const morph::SurfaceMeshSmoothing report =
+    morph::smoothSurfaceMeshes(local.Faces(), local.Geometry(), &target, which, motion, monitor);
   const Points moved = motion.moved();
+  const auto hasSlid = [&](Index here)
+  { return motion.displacement.row(here) != before.row(here); };
   for (std::size_t i = 0; i < local.Nodes().size(); ++i)
   {
     const Index here = static_cast<Index>(i);
-    if (motion.displacement.row(here) != before.row(here))
+    if (hasSlid(here))
     {
       result.Moved.row(local.Nodes()[i]) = moved.row(here);
     }
   }
+  if (which == morph::SmoothedSurfaces::All || report.smoothed.empty())
+  {
+    return;
+  }
+  std::ostringstream said;
+  said.precision(2);
+  for (const Index s : report.smoothed)
+  {
+    Index count = 0;
+    double most = 0;
+    for (const Index here : local.Geometry().surfaces[s].nodes)
+    {
+      count += hasSlid(here) ? 1 : 0;
+      most = std::max(most, (motion.displacement.row(here) - before.row(here)).norm());
+    }
+    said << (s == report.smoothed.front() ? "" : ", ") << count << " nodes of Surface "
+         << model.Geometry().surfaces[s].id << " slid by up to " << most;
+  }
+  monitor.warn("Surfaces folded as they followed, and were smoothed: " + said.str() + ".");
 }
 
 void Surroundings::Fade(const BoundaryModel& model, const Choice::Result& choice,

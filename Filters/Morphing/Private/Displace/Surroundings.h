@@ -2,6 +2,7 @@
 #pragma once
 
 #include "BoundaryMorphing/Falloff.h"
+#include "BoundaryMorphing/SurfaceMeshSmoothing.h"
 #include "BoundaryMorphing/SurfaceMorph.h"
 #include "Private/Displace/BoundaryModel.h"
 #include "Private/Displace/Choice.h"
@@ -64,7 +65,8 @@ public:
   ///   vertices being held. A surface touches if a moving edge, or a moving node without a moving
   ///   neighbor, is on it. The others stay. Where the motion lets a surface keep its shape, to 1 %
   ///   of the largest displacement, its nodes slide along it; else a warning says how far they
-  ///   leave it;
+  ///   leave it. Where a surface folds, its mesh is smoothed along its shape, and a warning says
+  ///   so;
   /// - with FollowAll: all follow, and none slides;
   /// - with Fade: nodes within the radius of a moving node follow it in part; see morph::Falloff.
   /// Nodes of sliding surfaces, moving ones too, go to the nearest point at their height above the
@@ -114,9 +116,11 @@ private:
   /// Puts nodes of these roles onto the shapes of the surfaces that they are on.
   void Slide(const BoundaryModel& model, const std::vector<morph::Index>& surfaces,
     const std::vector<Role>& roles, Result& result);
-  /// Smooths the meshes of surfaces that followed; those in `sliding` keep to their shapes.
+  /// Smooths the meshes of surfaces that followed; those in `sliding` keep to their shapes. Warns
+  /// of those that were folded.
   void SmoothMeshes(const BoundaryModel& model, const std::vector<morph::Index>& sliding,
-    morph::BoundaryMotion& motion, Result& result, morph::Monitor& monitor);
+    morph::SmoothedSurfaces which, morph::BoundaryMotion& motion, Result& result,
+    morph::Monitor& monitor);
   /// Does all of Spread() but the free surfaces.
   void Place(const BoundaryModel& model, const Choice::Result& choice, const Options& options,
     Result& result, morph::Monitor& monitor);
