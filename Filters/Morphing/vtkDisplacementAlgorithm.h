@@ -243,8 +243,8 @@ public:
   ///@{
   /**
    * Whether the target is first rotated and shifted onto what moves, or onto the whole boundary
-   * where the target says what moves. The mesh is not. See vtkIterativeClosestPointTransform; the
-   * starts are the target's place, equal centres and equal principal axes. Default off.
+   * where the target says what moves. The mesh is not. Iterative closest points start from the
+   * target's place, equal centres and equal principal axes. Default off.
    */
   vtkSetMacro(AlignTarget, bool);
   vtkGetMacro(AlignTarget, bool);

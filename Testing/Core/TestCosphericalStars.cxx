@@ -230,6 +230,28 @@ TEST(CosphericalStars, FillTheHullOfTurnedLatticesAndCylinders)
   }
 }
 
+// Its pyramids are so flat that some overlap.
+TEST(CosphericalStars, EachWalkEndsInAFlatLattice)
+{
+  std::mt19937 generator(meshes::seed());
+  std::uniform_real_distribution<double> value(0, 1);
+  const Mesh mesh = meshes::hexes(2, 2, 2);
+  const std::vector<Index> outer = motions::outerPartition(mesh).prescribed;
+  for (int trial = 0; trial < 2000; ++trial)
+  {
+    const Row stretch(std::pow(10, 5 * value(generator)), std::pow(10, 4 * value(generator)), 1);
+    const Eigen::Matrix3d map = stretch.asDiagonal() * rotation(generator);
+    const Star star(meshes::rows(mesh.points, outer) * map);
+    const Points places = (random(8, generator).array() + 1).matrix() * map;
+    for (Index i = 0; i < places.rows(); ++i)
+    {
+      const Row x = places.row(i) - star.delaunay.origin();
+      const int found = star.delaunay.locate(x, star.delaunay.startNear(x));
+      ASSERT_TRUE(found >= 0 && found < static_cast<int>(star.delaunay.tetrahedra().size()));
+    }
+  }
+}
+
 // As a mesher places nodes on a turned solid: each ring a little off its plane. A tetrahedron of
 // four nodes of a ring is flat.
 TEST(CosphericalStars, FlatTetrahedraInsideDoNotPartTheirNeighbors)

@@ -9,6 +9,7 @@
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Triangulation_vertex_base_with_info_3.h>
 #include <CGAL/natural_neighbor_coordinates_3.h>
+#include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -159,6 +160,26 @@ TEST(NaturalNeighbors, ReproduceLinearFieldsAndAreNotNegative)
       EXPECT_LT((weights.transpose() * sites - x).norm(), 1e-14);
       EXPECT_GE(weights.minCoeff(), -1e-8);
     }
+  }
+}
+
+// The place is on the spheres of many tetrahedra, in whatever position the box is.
+TEST(NaturalNeighbors, TheCentreOfATurnedBoxHasThem)
+{
+  std::mt19937 random(meshes::seed());
+  std::uniform_real_distribution<double> value(-1, 1);
+  const Points lattice = meshes::hexes(2, 2, 2).points.rowwise() - Row(1, 1, 1);
+  for (int trial = 0; trial < 1000; ++trial)
+  {
+    const Eigen::Vector3d axis(value(random), value(random), value(random));
+    const Eigen::Matrix3d turn =
+      Eigen::AngleAxisd(3 * value(random), axis.normalized()).toRotationMatrix();
+    const Points box = lattice * Row(1.2, 1.4, 1).asDiagonal() * turn * (2 + value(random));
+    Points sites(26, 3);
+    sites << box.topRows(13), box.bottomRows(13);
+    const Eigen::VectorXd weights = Diagram(sites).weights(box.row(13));
+    ASSERT_EQ(weights.size(), 26) << turn;
+    EXPECT_LT((weights - weights.reverse()).cwiseAbs().maxCoeff(), 1e-12);
   }
 }
 

@@ -97,6 +97,18 @@ TEST(SurfaceMeshSmoothing, AffineMotionsAreExact)
   }
 }
 
+TEST(SurfaceMeshSmoothing, RoundingOfCoordinatesHidesNoAffineMotion)
+{
+  Mesh mesh = shapes::boxWithHole(16, 3, 2);
+  const Row away(4e6, -3e6, 1e6);
+  mesh.points.rowwise() += away;
+  const Case c(mesh);
+  Monitor monitor;
+  BoundaryMotion motion =
+    c.follow([&](const Row& x) { return Row(x + 1e-3 * (x - away).reverse()); }, monitor);
+  EXPECT_EQ(c.smooth(motion, monitor).steps, 0);
+}
+
 TEST(SurfaceMeshSmoothing, FoldsOpen)
 {
   // The hole comes near the plate's side.

@@ -8,8 +8,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
+#include <vector>
 
 using namespace morph;
 using shapes::Row;
@@ -97,6 +99,19 @@ TEST(SurfaceSmoothing, GoodSurfacesStayBitForBit)
     EXPECT_TRUE(report.moved.empty());
     EXPECT_EQ(motion.displacement, before);
   }
+}
+
+TEST(SurfaceSmoothing, FoldsOfTheUndeformedSurfaceStay)
+{
+  Mesh mesh = meshes::hexes(6, 6, 2);
+  mesh.points.row(middleOf(Case(mesh), 2, Row(3, 3, 2))) += Row(1.5, 0, 0);
+  Case c(mesh);
+  BoundaryMotion motion = c.moved(same);
+  const std::vector<double> quality = c.quality(motion).scaledJacobian;
+  ASSERT_LT(*std::min_element(quality.begin(), quality.end()), 0);
+  const SurfaceSmoothing report = smoothSurfaces(c.faces, c.geometry, nullptr, motion, c.monitor);
+  EXPECT_EQ(report.poor, 0);
+  EXPECT_TRUE(motion.displacement.isZero(0));
 }
 
 TEST(SurfaceSmoothing, AffineImagesStay)

@@ -129,6 +129,22 @@ INSTANTIATE_TEST_SUITE_P(Kinds, ValidRanges,
     return name;
   });
 
+TEST(ValidRange, OfQuadraticCellsIsAsAccurateForASlowMotion)
+{
+  constexpr double Slow = 1e-5;
+  std::mt19937 random(meshes::seed());
+  const Mesh mesh = meshes::quadraticTets(1, 1, 1);
+  Monitor monitor;
+  for (int trial = 0; trial < 20; ++trial)
+  {
+    const Points fast = meshes::noise(mesh.points.rows(), 1, random), slow = Slow * fast;
+    const ValidRange own = validRange(mesh, { &mesh.points, &fast, nullptr, 0 }, {}, {}, monitor);
+    const ValidRange range = validRange(mesh, { &mesh.points, &slow, nullptr, 0 }, {}, {}, monitor);
+    EXPECT_NEAR(range.highest * Slow, own.highest, 1e-9 * own.highest);
+    EXPECT_NEAR(range.lowest * Slow, own.lowest, -1e-9 * own.lowest);
+  }
+}
+
 TEST(ValidRange, OfACubeThatIsFlattened)
 {
   Case problem;

@@ -22,6 +22,8 @@
 #include <vtkInformationIntegerKey.h>
 #include <vtkInformationStringKey.h>
 #include <vtkNew.h>
+#include <vtkObjectFactory.h>
+#include <vtkOutputWindow.h>
 #include <vtkOverlappingAMR.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
@@ -42,6 +44,17 @@ using grids::Row;
 
 namespace
 {
+/// Keeps what VTK's classes say that are no filters.
+class Heard : public vtkOutputWindow
+{
+public:
+  static Heard* New();
+  vtkTypeMacro(Heard, vtkOutputWindow);
+  void DisplayText(const char* text) override { this->Text += text; }
+  std::string Text;
+};
+vtkStandardNewMacro(Heard);
+
 /// Hexahedra of size 1 on [0, nx] x [0, ny] x [0, nz], from `origin` on.
 vtkSmartPointer<vtkUnstructuredGrid> box(int nx, int ny, int nz, const Row& origin = Row(0, 0, 0))
 {
@@ -572,6 +585,27 @@ TEST(CompositeBlocks, CellsOfTwoBlocksAreOne)
   EXPECT_STREQ(filter->GetMorphStatus(), "Valid");
   const auto moved = blocks::pointsByNumber(filter->GetOutputDataObject(0));
   EXPECT_EQ(moved.size(), 36u);
+}
+
+TEST(CompositeBlocks, FlagsOfThreeComponentsAreNoGhosts)
+{
+  auto whole = box(2, 2, 2);
+  markLeft(whole);
+  vtkNew<vtkUnsignedCharArray> flags;
+  flags->SetName(vtkDataSetAttributes::GhostArrayName());
+  flags->SetNumberOfComponents(3);
+  flags->SetNumberOfTuples(whole->GetNumberOfPoints());
+  flags->FillValue(vtkDataSetAttributes::DUPLICATEPOINT);
+  whole->GetPointData()->AddArray(flags);
+  auto filter = lifting(withBlocks({ { "only", whole } }));
+  const grids::Listener listener(filter); // its own warnings do not count
+  vtkNew<Heard> heard;
+  const vtkSmartPointer<vtkOutputWindow> before = vtkOutputWindow::GetInstance();
+  vtkOutputWindow::SetInstance(heard);
+  filter->Update();
+  vtkOutputWindow::SetInstance(before);
+  EXPECT_EQ(heard->Text, "");
+  EXPECT_STREQ(filter->GetMorphStatus(), "Valid");
 }
 
 TEST(CompositeBlocks, EmptyBlocksAndOneBlock)

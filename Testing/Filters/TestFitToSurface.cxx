@@ -284,6 +284,19 @@ TEST(FitToSurface, ATargetWithItsOwnAxesIsAlignedFirst)
   EXPECT_LT(sphere->GetMaxTargetDistanceBefore(), 0.4);
 }
 
+TEST(FitToSurface, ATargetWhoseCornerIsNearestToAllIsAligned)
+{
+  vtkNew<vtkTransform> away;
+  away->Translate(1000, 1000, 1000);
+  auto grid = brick();
+  auto filter = make(grid, moved(largerBrick(), away));
+  filter->AlignTargetOn();
+  grids::Listener listener(filter);
+  filter->Update();
+  ASSERT_TRUE(listener.Errors.empty()) << listener.Errors[0];
+  EXPECT_LT(cornerError(grid, filter->GetOutput(), Row(3.6, 2.4, 1.8)), 1e-3);
+}
+
 TEST(FitToSurface, AlignmentTellsItsProgress)
 {
   auto filter = make(brick(), largerBrick());

@@ -387,6 +387,22 @@ TEST_P(MorphMiddles, FollowWhereCornersAloneAreNamed)
   EXPECT_LT((moved - 2 * mesh.points).cwiseAbs().maxCoeff(), 1e-9);
 }
 
+TEST_P(MorphMiddles, AreHeldWhereCornersMoveByRounding)
+{
+  const morph::Mesh mesh = Mesh();
+  const auto boundary = Corners(
+    mesh, [](const grids::Row&) { return true; }, [](const grids::Row& x) { return x; });
+  grids::addVectors(boundary, "Shift", Points::Constant(boundary->GetNumberOfPoints(), 3, 1e-16));
+  vtkNew<vtkFEMWarpMorph> filter;
+  filter->SetInputData(grids::make(mesh));
+  filter->SetBoundaryData(boundary);
+  filter->SetDisplacementArray("Shift");
+  filter->Update();
+  morph::Monitor serial;
+  const auto outer = static_cast<vtkIdType>(morph::boundaryFaces(mesh, serial).nodes.size());
+  EXPECT_EQ(filter->GetPrescribedPoints(), outer);
+}
+
 TEST_P(MorphMiddles, StayBetweenCornersThatStay)
 {
   morph::Mesh mesh = Mesh();

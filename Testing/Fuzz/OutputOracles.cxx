@@ -222,14 +222,16 @@ Finding checkPrescribed(const Case& made, vtkMorphAlgorithm* filter, vtkUnstruct
     bool isThere = true;
     for (int j = 0; j < 3; ++j)
     {
-      const double value =
-        isFloat(output) ? static_cast<double>(static_cast<float>(wanted[j])) : wanted[j];
       const double rounding =
         (scale == 1 && made.boundary.isExact && !isOfFew) || scale == 0
           ? 0
           : (isRounded ? 1e-6 : 1e-14) *
                 (std::abs(rest[j]) + std::abs(scale) * (std::abs(target[j]) + std::abs(rest[j]))) +
               subnormal;
+      // Floats end where a coordinate's rounding, multiplied by ScaleFactor, may not.
+      const double value = isFloat(output) && rounding == 0
+                             ? static_cast<double>(static_cast<float>(wanted[j]))
+                             : wanted[j];
       isThere = isThere && std::abs(x[j] - value) <= rounding;
     }
     if (!isThere)

@@ -335,6 +335,21 @@ int isMirrored(const Mesh& mesh)
   return cells == 0 ? -1 : mirrored > 0 ? 1 : 0;
 }
 
+bool isInvertedByMirror(const Mesh& mesh)
+{
+  Points mirrored = mesh.points;
+  mirrored.col(0) *= -1;
+  const std::vector<int> sense = senses(mesh, mirrored);
+  for (Index c = 0; c < mesh.numberOfCells(); ++c)
+  {
+    if (isVolume(mesh, c) && sense[c] >= 0)
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
 bool isValid(const Mesh& mesh, const Points& points, double least)
 {
   const double unit = extent(points);

@@ -28,6 +28,10 @@ Recount recount(const morph::Mesh& mesh, const morph::Points& reference,
 /// are, 0 if surely none are, -1 if nobody can tell.
 int isMirrored(const morph::Mesh& mesh);
 
+/// Whether a mirror inverts cells of a valid mesh. The order of a body's only tetrahedron,
+/// hexahedron or pyramid is VTK's, as nothing tells that it is mirrored.
+bool isInvertedByMirror(const morph::Mesh& mesh);
+
 /// Whether all volume cells are valid at their corners by more than rounding, in VTK's order.
 bool isValid(const morph::Mesh& mesh, const morph::Points& points, double least);
 

@@ -16,7 +16,8 @@ namespace morph
 {
 namespace
 {
-constexpr double Rounding = 1e-10; // of the largest displacement
+constexpr double Rounding = 1e-10;   // of the largest displacement
+constexpr double Coordinate = 1e-15; // rounding of a coordinate, relative
 constexpr int Layers = 30;
 
 std::vector<std::uint8_t> foldedMask(const Points& rest, const Points& moved,
@@ -186,14 +187,15 @@ bool movesAffinely(const std::vector<Index>& nodes, const BoundaryMotion& motion
 {
   const AffineFit fit =
     AffineLeastSquares(motion.rest(nodes, allColumns)).fit(motion.displacement(nodes, allColumns));
-  double most = 0, off = 0;
+  double most = 0, off = 0, size = 0;
   for (const Index node : nodes)
   {
+    size = std::max(size, motion.rest.row(node).cwiseAbs().maxCoeff());
     const Eigen::RowVector3d own = motion.displacement.row(node);
     most = std::max(most, own.norm());
     off = std::max(off, (own - fit.displacement(motion.rest.row(node))).norm());
   }
-  return off <= Rounding * most;
+  return off <= Rounding * most + Coordinate * size;
 }
 }
 

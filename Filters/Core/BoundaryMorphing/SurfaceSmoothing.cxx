@@ -65,8 +65,9 @@ public:
     std::vector<Index> poor;
     for (std::size_t f = 0; f < now.scaledJacobian.size(); ++f)
     {
+      const double undeformed = rest.scaledJacobian[f]; // negative where it is folded
       if (now.scaledJacobian[f] < Poor &&
-          now.scaledJacobian[f] < PartOfRest * rest.scaledJacobian[f])
+          now.scaledJacobian[f] < undeformed - PartOfRest * std::abs(undeformed))
       {
         poor.push_back(static_cast<Index>(f));
       }

@@ -13,7 +13,7 @@ struct SurfaceSmoothing
 };
 
 /// Smooths surfaces where faces are poor: their scaled Jacobian (see faceQuality()) is below 0.2
-/// and below half of its undeformed value. Corners that their surface moved (state OnSurface),
+/// and has lost half of its undeformed size. Corners that their surface moved (state OnSurface),
 /// within two faces of a poor one, move along the surface. For up to 20 sweeps, each in turn lowers
 /// the sum, over the corners of its faces, of
 ///

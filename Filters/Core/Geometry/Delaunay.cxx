@@ -31,6 +31,8 @@ constexpr Index Grain = 1024;
 constexpr double FlatVolume =
   1e-4; // 6 V / (longest edge)^3 below which a centre takes exact arithmetic
 
+constexpr int LeastSteps = 1000; // of a walk, before all tetrahedra are tried
+
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Point = Kernel::Point_3;
 using VertexBase = CGAL::Triangulation_vertex_base_with_info_3<int, Kernel>;
@@ -194,10 +196,8 @@ void Delaunay::replace(Points sites, std::vector<Tetrahedron> tetrahedra)
 int Delaunay::locate(const Eigen::RowVector3d& x, int start) const
 {
   constexpr auto& Faces = Tetrahedron::Faces;
-  int before = Outside; // the previous tetrahedron: x is not on its side
-  int here = start;
-  std::uint32_t random = 0;
-  while (true)
+  /// Returns a neighbor on whose side x certainly is, but for `before`, or `here`.
+  const auto nextOf = [&](int here, int before, std::uint32_t turn)
   {
     const Tetrahedron& tetrahedron = this->tetrahedra_[here];
     Eigen::RowVector3d d[4];
@@ -205,19 +205,27 @@ int Delaunay::locate(const Eigen::RowVector3d& x, int start) const
     {
       d[k] = this->sites_.row(tetrahedron.sites[k]) - x;
     }
-    int next = here;
-    const std::uint32_t turn = this->isDelaunay_ ? 0 : random >> 30;
-    random = 1664525 * random + 1013904223; // Numerical Recipes' generator
-    for (std::uint32_t i = 0; i < 4 && next == here; ++i)
+    for (std::uint32_t i = 0; i < 4; ++i)
     {
       const std::uint32_t k = (i + turn) % 4;
       const int neighbor = tetrahedron.neighbors[k];
       if (neighbor != Outside && neighbor != before &&
           isBeyond(d[Faces[k][0]], d[Faces[k][1]], d[Faces[k][2]]))
       {
-        next = neighbor;
+        return neighbor;
       }
     }
+    return here;
+  };
+  const auto count = static_cast<std::int64_t>(this->tetrahedra_.size());
+  int before = Outside; // the previous tetrahedron: x is not on its side
+  int here = start;
+  std::uint32_t random = 0;
+  for (std::int64_t step = 0; this->isDelaunay_ || step < LeastSteps + count; ++step)
+  {
+    const std::uint32_t turn = this->isDelaunay_ ? 0 : random >> 30;
+    random = 1664525 * random + 1013904223; // Numerical Recipes' generator
+    const int next = nextOf(here, before, turn);
     if (next == here)
     {
       return here;
@@ -225,6 +233,14 @@ int Delaunay::locate(const Eigen::RowVector3d& x, int start) const
     before = here;
     here = next;
   }
+  for (int t = 0; t < count; ++t)
+  {
+    if (nextOf(t, Outside, 0) == t)
+    {
+      return t;
+    }
+  }
+  return here;
 }
 
 int Delaunay::startNear(const Eigen::RowVector3d& x) const

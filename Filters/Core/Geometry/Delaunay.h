@@ -58,9 +58,10 @@ public:
   /// Finds a tetrahedron that contains `x`, up to rounding. A visibility walk from the tetrahedron
   /// `start` crosses only faces that x is certainly beyond, so it ends. For x outside the hull it
   /// returns a tetrahedron at whose outer face the walk ends. After replace() faces are tried in a
-  /// pseudorandom order, since a fixed order might walk in circles. The result depends on x and
-  /// start only. `x` is relative to origin(). Cost: the tetrahedra on the way. Source: Devillers,
-  /// Pion, Teillaud, Int. J. Found. Comput. Sci. 13 (2002) 181-199.
+  /// pseudorandom order, since a fixed order might walk in circles. Where sites are flat to
+  /// rounding, tetrahedra may overlap, and such a walk finds no end: then all are tried. The result
+  /// depends on x and start only. `x` is relative to origin(). Cost: the tetrahedra on the way.
+  /// Source: Devillers, Pion, Teillaud, Int. J. Found. Comput. Sci. 13 (2002) 181-199.
   int locate(const Eigen::RowVector3d& x, int start) const;
   /// Returns a start for a first `x`, relative to origin(): a tetrahedron at the nearest of some
   /// sample sites (jump and walk).

@@ -29,6 +29,7 @@ NaturalNeighbors::NaturalNeighbors(const Delaunay& delaunay, Monitor& monitor)
   this->outer_ = delaunay.origin();
   this->origin_ = (sites.colwise().minCoeff() + sites.colwise().maxCoeff()) / 2;
   this->sites_ = sites.rowwise() - this->origin_;
+  this->extent_ = this->sites_.cwiseAbs().maxCoeff();
   const Points centres = delaunay.circumcentres(monitor);
   this->cells_.resize(delaunay.tetrahedra().size());
   for (std::size_t t = 0; t < this->cells_.size(); ++t)
@@ -77,7 +78,10 @@ double NaturalNeighbors::power(const Cell& cell, const Vector& x, double squared
 {
   const double product = cell.centre[0] * x[0] + cell.centre[1] * x[1] + cell.centre[2] * x[2];
   const double power = squaredNorm - 2 * product + cell.constant;
-  const double size = squaredNorm + 2 * std::abs(product) + std::abs(cell.constant);
+  const double centre =
+    std::abs(cell.centre[0]) + std::abs(cell.centre[1]) + std::abs(cell.centre[2]);
+  const double size =
+    squaredNorm + 2 * std::abs(product) + this->extent_ * (2 * centre + this->extent_);
   return std::abs(power) <= PowerTolerance * size ? 0 : power;
 }
 

@@ -90,6 +90,7 @@ private:
   /// The origin of all coordinates here, relative to outer_: the middle of the sites.
   Eigen::RowVector3d origin_ = Eigen::RowVector3d::Zero();
   Points sites_;
+  double extent_ = 0; ///< the largest coordinate of a site
   std::vector<Cell> cells_;
 };
 }

@@ -184,6 +184,21 @@ struct Interpolation
   }
 };
 
+/// The unit of t in which a cell's straight motion is as large as the cell. `path`: from its first
+/// node. Interpolated coefficients are as accurate as the values at |t| <= 2, so that a slow motion
+/// needs a unit of its own.
+template <int D>
+double unitOf(const Path<D>* path, int nodes)
+{
+  double size = 0, speed = 0;
+  for (int i = 0; i < nodes; ++i)
+  {
+    size = std::max(size, path[i].col(0).norm());
+    speed = std::max(speed, path[i].col(1).norm());
+  }
+  return D == 1 && speed > 1e-90 * size ? size / speed : 1;
+}
+
 /// Adds the Bernstein coefficients of a quadratic cell as polynomials in t.
 template <int D>
 void addQuadratic(const Mesh& mesh, const NodeMotion& motion, Index cell, double sign, Ends& ends)
@@ -194,8 +209,9 @@ void addQuadratic(const Mesh& mesh, const NodeMotion& motion, Index cell, double
   Path<D> path[MostNodesOfVolume];
   for (int i = 0; i < map.numberOfNodes(); ++i)
   {
-    path[i] = pathOf<D>(motion, mesh.cell(cell)[i]);
+    path[i] = pathOf<D>(motion, mesh.cell(cell)[i]) - pathOf<D>(motion, mesh.cell(cell)[0]);
   }
+  const double unit = unitOf<D>(path, map.numberOfNodes());
   BernsteinHalving::Coefficients c[Count];
   for (int k = 0; k < Count; ++k)
   {
@@ -205,7 +221,7 @@ void addQuadratic(const Mesh& mesh, const NodeMotion& motion, Index cell, double
       x[i] = path[i].col(D);
       for (int power = D - 1; power >= 0; --power)
       {
-        x[i] = x[i] * interpolation.t[k] + path[i].col(power);
+        x[i] = x[i] * (unit * interpolation.t[k]) + path[i].col(power);
       }
     }
     c[k].fill(0);
@@ -220,6 +236,12 @@ void addQuadratic(const Mesh& mesh, const NodeMotion& motion, Index cell, double
     }
     Determinant<D> a;
     Eigen::Map<Eigen::Matrix<double, Count, 1>>(a.data()) = interpolation.toCoefficients * values;
+    double power = 1;
+    for (double& coefficient : a)
+    {
+      coefficient /= power;
+      power *= unit;
+    }
     addDeterminant<D>(a, cell, ends);
   }
 }

@@ -90,6 +90,8 @@ public:
     , monitor_(monitor)
     , isOfTetrahedra_(isMostlyTetrahedra(this->mesh_, this->communicator_))
     , quality_(measured.measure(points, monitor))
+    , leastAtStart_(this->quality_.minimum)
+    , meanAtStart_(this->meanOf(this->quality_))
   {
   }
 
@@ -190,12 +192,10 @@ private:
   /// energy at a fixed level is that of a mean, with a barrier just below the minimum.
   void guardMean()
   {
-    const MovableQuality::Result start = this->measured_.measure(this->start_, this->monitor_);
-    const double mean = this->meanOf(start);
     const auto isEnough = [&]
     {
-      return this->quality_.minimum > ForTheMean * start.minimum ||
-             this->meanOf(this->quality_) >= mean;
+      return this->quality_.minimum > ForTheMean * this->leastAtStart_ ||
+             this->meanOf(this->quality_) >= this->meanAtStart_;
     };
     if (isEnough())
     {
@@ -335,6 +335,7 @@ private:
       newton(objective, x, limits, matrix, this->effort_, this->monitor_);
       this->effort_.steps = before + 1;
       this->monitor_.progress(std::min(1., static_cast<double>(before) / this->steps_));
+      this->monitor_.check();
       objective.restoreLimits(x);
       const double least = this->leastOf(objective, x, floor), gain = least / last - 1;
       last = least;
@@ -363,6 +364,7 @@ private:
   Monitor& monitor_;
   bool isOfTetrahedra_;
   MovableQuality::Result quality_;
+  const double leastAtStart_, meanAtStart_;
   Adjacency around_; ///< cells round nodes
   double way_ = NearWay;
   MinimizerEffort effort_;

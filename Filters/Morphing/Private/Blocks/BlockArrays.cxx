@@ -88,7 +88,7 @@ void mergeGhosts(const std::vector<Part>& parts, vtkIdType count, vtkDataSetAttr
   for (const Part& part : parts)
   {
     auto* flags = vtkUnsignedCharArray::SafeDownCast(part.From->GetAbstractArray(name));
-    if (!flags)
+    if (!flags || flags->GetNumberOfComponents() != 1)
     {
       continue;
     }

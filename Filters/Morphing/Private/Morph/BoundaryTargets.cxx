@@ -148,13 +148,18 @@ Index takeFree(BoundaryMatch::NamedPoints& named, std::vector<Index>& row)
 }
 
 /// Marks the outer nodes without a row as held, but for mid-side and face nodes between corners one
-/// of which moves: those follow their cell, or edges would bend where corners alone are named.
-/// ScaleFactor does not matter, so that changing it does not prepare again.
-void holdUnnamed(const morph::BoundaryFaces& outer, const morph::Mesh& rest, const Points& targets,
-  std::vector<Index>& row)
+/// of which moves: those follow their cell, or edges would bend where corners alone are named. A
+/// motion of rounding is none: rotation about a node leaves such. ScaleFactor does not matter, so
+/// that changing it does not prepare again.
+void holdUnnamed(const morph::BoundaryFaces& outer, const morph::Mesh& rest, double size,
+  const Points& targets, std::vector<Index>& row)
 {
   const auto moves = [&](Index node)
-  { return row[node] >= 0 && targets.row(row[node]) != rest.points.row(node); };
+  {
+    const auto from = rest.points.row(node);
+    const double rounding = 1e-12 * size + 1e-15 * from.cwiseAbs().maxCoeff();
+    return row[node] >= 0 && (targets.row(row[node]) - from).norm() > rounding;
+  };
   for (std::size_t i = 0; i < outer.nodes.size(); ++i)
   {
     const Index node = outer.nodes[i], k = static_cast<Index>(i);
@@ -207,7 +212,7 @@ Result FindTargets(NamedPoints named, const morph::Mesh& rest, const morph::Boun
 
   if (options.HoldUnnamedBoundary)
   {
-    holdUnnamed(outer, rest, targets, row);
+    holdUnnamed(outer, rest, size, targets, row);
   }
 
   result.Ids.reserve(pairs.size() + outer.nodes.size());

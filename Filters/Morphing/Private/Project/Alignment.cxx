@@ -4,12 +4,8 @@
 #include "Support/ProgressRange.h"
 
 #include <vtkCellArray.h>
-#include <vtkCellLocator.h>
 #include <vtkGenericCell.h>
 #include <vtkIdList.h>
-#include <vtkIterativeClosestPointTransform.h>
-#include <vtkLandmarkTransform.h>
-#include <vtkMatrix4x4.h>
 #include <vtkNew.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
@@ -20,6 +16,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 namespace morph::filters
@@ -34,8 +31,8 @@ constexpr int Iterations = 100;
 /// To find the best start.
 constexpr int FewLandmarks = 100;
 constexpr int FewIterations = 30;
-/// Between two looks at the monitor.
-constexpr int AtATime = 10;
+/// Iterations end where one moves the landmarks by less, root mean square, of the place's size.
+constexpr double Still = 1e-9;
 
 /// Centre of area and principal axes of a surface.
 struct Moments
@@ -128,92 +125,67 @@ std::vector<Vector> landmarksOf(vtkPolyData* surface, int most)
   return landmarks;
 }
 
-vtkSmartPointer<vtkPolyData> cloud(const std::vector<Vector>& points, const Rigid& motion)
-{
-  vtkNew<vtkPoints> moved;
-  moved->SetDataTypeToDouble();
-  for (const Vector& x : points)
-  {
-    const Vector y = motion * x;
-    moved->InsertNextPoint(y.data());
-  }
-  auto data = vtkSmartPointer<vtkPolyData>::New();
-  data->SetPoints(moved);
-  return data;
-}
-
 /// The surface onto which another one is turned and shifted.
-struct Place
+class Place
 {
-  vtkPolyData* Surface;
-  vtkNew<vtkCellLocator> Cells; ///< for all iterations
-
+public:
   explicit Place(vtkPolyData* surface)
-    : Surface(surface)
+    : Size(surface->GetLength())
   {
-    this->Cells->SetDataSet(surface);
-    this->Cells->SetNumberOfCellsPerBucket(1); // as the iterations set it
-    this->Cells->BuildLocator();
+    this->Locator->SetDataSet(surface);
+    this->Locator->BuildLocator();
   }
+
+  Vector Closest(const Vector& x) const
+  {
+    Vector y;
+    vtkIdType id = -1;
+    int part = 0;
+    double distance2 = 0;
+    this->Locator->FindClosestPoint(x.data(), y.data(), this->Cell, id, part, distance2);
+    return y;
+  }
+
+  const double Size;
+
+private:
+  vtkNew<vtkStaticCellLocator> Locator;
+  vtkNew<vtkGenericCell> Cell;
 };
 
-/// Closest-point iterations; adds their motion. Returns how many there were.
-int iterate(const std::vector<Vector>& landmarks, const Place& place, int iterations, Rigid& motion)
-{
-  vtkNew<vtkIterativeClosestPointTransform> closest;
-  closest->SetSource(cloud(landmarks, motion));
-  closest->SetTarget(place.Surface);
-  closest->SetLocator(place.Cells);
-  closest->GetLandmarkTransform()->SetModeToRigidBody();
-  closest->SetMaximumNumberOfLandmarks(static_cast<int>(landmarks.size()));
-  closest->SetMaximumNumberOfIterations(iterations);
-  closest->CheckMeanDistanceOn();
-  closest->SetMaximumMeanDistance(1e-9 * place.Surface->GetLength());
-  closest->Update();
-  Rigid step = Rigid::Identity();
-  for (int i = 0; i < 3; ++i)
-  {
-    for (int j = 0; j < 4; ++j)
-    {
-      step(i, j) = closest->GetMatrix()->GetElement(i, j);
-    }
-  }
-  motion = step * motion;
-  return closest->GetNumberOfIterations();
-}
-
-/// The motion after closest-point iterations from a start. A few at a time, since VTK's run tells
-/// no progress and cannot be stopped.
+/// The motion after closest-point iterations from a start: each takes the landmarks as near as
+/// rigid motion can to their closest points.
 Rigid iterated(const std::vector<Vector>& landmarks, const Rigid& start, const Place& place,
   int iterations, morph::Monitor& monitor)
 {
   Rigid motion = start;
-  for (int done = 0; done < iterations; done += AtATime)
+  const auto count = static_cast<Eigen::Index>(landmarks.size());
+  Eigen::Matrix3Xd from(3, count), to(3, count);
+  double moved = std::numeric_limits<double>::infinity();
+  for (int done = 0; done < iterations && moved > Still * place.Size; ++done)
   {
     monitor.check();
     monitor.progress(static_cast<double>(done) / iterations);
-    if (iterate(landmarks, place, AtATime, motion) < AtATime)
+    for (Eigen::Index i = 0; i < count; ++i)
     {
-      break;
+      from.col(i) = motion * landmarks[i];
+      to.col(i) = place.Closest(from.col(i));
     }
+    const Rigid step(Eigen::umeyama(from, to, false));
+    motion = step * motion;
+    moved = std::sqrt((step * from - from).colwise().squaredNorm().mean());
   }
   monitor.progress(1);
   return motion;
 }
 
-double meanDistance(
-  const std::vector<Vector>& landmarks, const Rigid& motion, vtkStaticCellLocator* onto)
+double meanDistance(const std::vector<Vector>& landmarks, const Rigid& motion, const Place& place)
 {
-  vtkNew<vtkGenericCell> cell;
   double sum = 0;
   for (const Vector& x : landmarks)
   {
     const Vector y = motion * x;
-    double place[3], distance2 = 0;
-    vtkIdType id = -1;
-    int part = 0;
-    onto->FindClosestPoint(y.data(), place, cell, id, part, distance2);
-    sum += std::sqrt(distance2);
+    sum += (place.Closest(y) - y).norm();
   }
   return sum / static_cast<double>(landmarks.size());
 }
@@ -225,10 +197,6 @@ vtkSmartPointer<vtkPolyData> Onto(vtkPolyData* surface, vtkPolyData* onto, morph
 {
   const Place place(onto);
   const std::vector<Vector> landmarks = landmarksOf(surface, FewLandmarks);
-  const double size = onto->GetLength();
-  vtkNew<vtkStaticCellLocator> locator;
-  locator->SetDataSet(onto);
-  locator->BuildLocator();
   Rigid best = Rigid::Identity();
   double least = -1;
   const std::vector<Rigid> starts = startsOf(momentsOf(surface), momentsOf(onto));
@@ -238,8 +206,8 @@ vtkSmartPointer<vtkPolyData> Onto(vtkPolyData* surface, vtkPolyData* onto, morph
     const double done = share * static_cast<double>(i);
     morph::ProgressRange part(monitor, done, done + share);
     const Rigid motion = iterated(landmarks, starts[i], place, FewIterations, part);
-    const double distance = meanDistance(landmarks, motion, locator);
-    if (motion.matrix().allFinite() && (least < 0 || distance < 0.99 * least - 1e-6 * size))
+    const double distance = meanDistance(landmarks, motion, place);
+    if (motion.matrix().allFinite() && (least < 0 || distance < 0.99 * least - 1e-6 * place.Size))
     {
       least = distance;
       best = motion;

@@ -15,10 +15,10 @@ namespace morph::filters::Alignment
 {
 /// Returns `surface`, rotated and shifted so that it lies on `onto`, with points in double
 /// precision; cells and arrays are shared. Both have triangles or other polygons, and finite
-/// points. vtkIterativeClosestPointTransform runs from six starts: the current place, equal
-/// centres, and the four rotations that turn principal axes into each other. The start that ends
-/// with the least mean distance is taken; of nearly equal ones the first, which turns it less.
-/// A symmetric surface may so be turned about its symmetry. `monitor` hears of progress, and may
-/// cancel, every 10 iterations. Cost: some 70,000 searches at most.
+/// points. Iterative closest points, each by Umeyama's least squares (IEEE Trans. PAMI 13 (1991)
+/// 376-380), run from six starts: the current place, equal centres, and the four rotations that
+/// turn principal axes into each other. The start that ends with the least mean distance is taken;
+/// of nearly equal ones the first, which turns it less. A symmetric surface may so be turned about
+/// its symmetry. Cost: some 70,000 searches at most.
 vtkSmartPointer<vtkPolyData> Onto(vtkPolyData* surface, vtkPolyData* onto, morph::Monitor& monitor);
 }
