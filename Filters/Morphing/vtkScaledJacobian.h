@@ -122,10 +122,10 @@ public:
    *
    * | criterion | of | limit |
    * |---|---|---|
-   * | AspectRatio | longest edge / shortest edge; triangles, quads, tetrahedra: Verdict's | 100 |
+   * | AspectRatio | longest edge / shortest edge; linear triangles, quads, tets: Verdict's | 100 |
    * | Skewness | equiangle skewness, the worst face | 0.95 |
    * | Warpage | the worst face | 0.7 |
-   * | JacobianRatio | smallest / largest determinant at corners; volume cells but polyhedra | 0.03 |
+   * | JacobianRatio | smallest / largest determinant at corners; not of polyhedra | 0.03 |
    * | Taper | quads and hexahedra | 0.5 |
    * | NonOrthogonality | degrees, the worst inner face | 70 |
    * | FaceSkewness | OpenFOAM's skewness, the worst face | 4 |
@@ -133,11 +133,11 @@ public:
    * | FirstHeight | mean distance of the other corners from a face on the boundary | 0 |
    *
    * Cells are beyond the limit above it; for JacobianRatio, FacePyramid and FirstHeight at it or
-   * below. Each criterion adds a cell array of its name, NaN where the cell has none. The field data
-   * Criterion, CriterionLimit, CriterionWorst, CriterionWorstCellId and CriterionCellsBeyond have a
-   * row for each. A quadratic cell is measured by its corners, a voxel as Verdict has no value for
-   * it. The last four are of volume cells alone; with pieces on several MPI ranks they take the
-   * cells across. A name or a limit that is not valid is an error.
+   * below. Each criterion adds a cell array of its name, NaN where the cell has none. The field
+   * data Criterion, CriterionLimit, CriterionWorst, CriterionWorstCellId and CriterionCellsBeyond
+   * have a row for each. Quadratic cells are measured by their corners. The last four are of volume
+   * cells alone; with pieces on several MPI ranks they take the cells across. A name or a limit
+   * that is not valid is an error.
    */
   void SetCriteria(const char* text);
   const char* GetCriteria() const { return this->Criteria.c_str(); }

@@ -56,6 +56,10 @@ vtkSmartPointer<vtkScaledJacobian> measure(vtkUnstructuredGrid* grid, const Argu
   filter->SetCriteria(arguments.criteria.c_str());
   Messages messages(filter);
   messages.update("Cannot measure " + arguments.grid);
+  for (const std::string& warning : messages.warnings())
+  {
+    std::cerr << "morph-mesh: warning: " << warning << "\n";
+  }
   return filter;
 }
 

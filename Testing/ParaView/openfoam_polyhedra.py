@@ -73,7 +73,8 @@ class OpenFoamPolyhedra(unittest.TestCase):
         worst = measured.GetArray("CriterionWorst")
         for row, printed in enumerate((r"Mesh non-orthogonality Max: (\S+)",
                                        r"Max skewness = ([^, ]+)")):
-            self.assertEqual(f"{worst.GetValue(row):.6g}", re.search(printed, output)[1].rstrip("."))
+            expected = re.search(printed, output)[1].rstrip(".")
+            self.assertEqual(f"{worst.GetValue(row):.6g}", expected)
         self.assertGreater(worst.GetValue(2), 0)
         self.assertEqual(measured.GetArray("InvertedCells").GetValue(0), 0)
         allowed = before | {"***Number of non-orthogonality errors", "***Max skewness ="}

@@ -98,7 +98,13 @@ public:
     }
     this->centers_.resize(mesh.numberOfCells());
     parallel(mesh.numberOfCells(), 256, monitor,
-      [&](Index c) { this->centers_[c] = this->centerOf(this->faces(c)); });
+      [&](Index c)
+      {
+        if (this->shape(c) && this->shape(c)->dimension == 3)
+        {
+          this->centers_[c] = centerOf(this->faces(c));
+        }
+      });
   }
 
   const CellShape* shape(Index cell) const { return cellShape(this->mesh_, cell); }

@@ -28,7 +28,7 @@ struct Criterion
 
 /// All of them. Cells are measured by their corners.
 ///
-///   AspectRatio     longest edge / shortest edge; triangles, quads and tetrahedra are Verdict's
+///   AspectRatio     longest edge / shortest edge; of linear triangles, quads and tets Verdict's
 ///   Skewness        equiangle: over the angles a of faces with n edges, the maximum of
 ///                   (a - e) / (180 - e) and (e - a) / e, e = 180 (n - 2) / n degrees
 ///   Warpage         over the faces: 1 - cos^3 of the angle between the normals at corners that are
