@@ -16,6 +16,7 @@
 #include <atomic>
 #include <cmath>
 #include <mutex>
+#include <vector>
 
 namespace morph
 {
@@ -70,13 +71,13 @@ Polynomial change(const Lengths& of)
   return result;
 }
 
-/// The step in one direction in which no determinant can reach 0.
+/// A step in one direction in which no determinant can reach 0.
 struct Step
 {
-  double sign; ///< of the direction
-  double most; ///< of what is of interest
-  int degree;  ///< of the bounds
-  double length = Infinity;
+  double sign;            ///< of the direction
+  int degree;             ///< of the bounds
+  double most = Infinity; ///< what is of interest
+  std::vector<Polynomial> bounds;
 
   /// `rest`: what second derivatives can change; zeros for a cubic.
   void add(Polynomial bound, const Polynomial& rest)
@@ -85,11 +86,31 @@ struct Step
     {
       bound[k] = (k % 2 ? this->sign : 1) * bound[k] - rest[k];
     }
-    // Most places do not shorten it: a bound that is positive up to there needs no root.
-    if (!isPositiveUntil(bound.data(), this->degree, std::min(this->length, this->most)))
+    this->bounds.push_back(bound);
+  }
+  /// Whether the bound needs no root: most do not.
+  bool isPositive(const Polynomial& bound, double last) const
+  {
+    return isPositiveUntil(bound.data(), this->degree, last);
+  }
+  /// Forgets the bounds, and returns the step; infinity if it is beyond `most`. Else it does not
+  /// depend on it.
+  double take()
+  {
+    double length = Infinity;
+    const bool isBeyond = std::all_of(this->bounds.begin(), this->bounds.end(),
+      [this](const Polynomial& bound) { return this->isPositive(bound, this->most); });
+    for (const Polynomial& bound : this->bounds)
     {
-      this->length = std::min(this->length, firstPositiveRoot(bound.data(), this->degree));
+      if (!isBeyond && !this->isPositive(bound, length))
+      {
+        // Another step follows where the bound is no cubic.
+        const double precision = this->degree == 3 ? 1e-12 : 1e-2;
+        length = std::min(length, firstPositiveRoot(bound.data(), this->degree, precision));
+      }
     }
+    this->bounds.clear();
+    return length > this->most ? Infinity : length;
   }
 };
 
@@ -398,25 +419,25 @@ struct End
   }
 };
 
-/// Returns how far the cell is valid, or infinity where that is beyond `step.most`. `step`: the
-/// first. No step passes the end, so that the steps to an end before that do not depend on it.
-double follow(MovingCell& cell, Step step)
+/// Returns how far the cell is valid, or infinity where that is beyond `step.most`. `step`: has the
+/// bounds at 0. No step passes the end, so that the steps to an end before that do not depend on it.
+double follow(MovingCell& cell, Step& step)
 {
   const double most = step.most;
-  double factor = 0;
-  for (int steps = 1; !(step.length > step.most); ++steps)
+  double factor = 0, length = step.take();
+  for (int steps = 1; step.degree > 3 && length < Infinity; ++steps)
   {
-    factor += step.length;
-    if (step.degree == 3 || step.length <= Precision * factor || steps == MostSteps)
+    factor += length;
+    if (length <= Precision * factor || steps == MostSteps)
     {
       return factor;
     }
-    step.length = Infinity;
     step.most = most - factor;
     cell.forEachBound(step.sign * factor,
       [&step](const Polynomial& d, const Polynomial& rest, bool) { step.add(d, rest); });
+    length = step.take();
   }
-  return Infinity;
+  return length;
 }
 }
 
@@ -440,13 +461,17 @@ ValidRange validRange(const Mesh& mesh, const NodeMotion& motion,
     [&](Index first, Index end)
     {
       MovingCell cell(mesh, motion, before, last);
+      Step down = { -1, degree }, up = { 1, degree };
       for (Index c = first; c < end; ++c)
       {
         if (!cell.take(c, orientation.empty() ? 1 : orientation[c]))
         {
           continue;
         }
-        Step down = { -1, Margin * lowest, degree }, up = { 1, Margin * highest, degree };
+        down.most = Margin * lowest;
+        up.most = Margin * highest;
+        down.bounds.clear();
+        up.bounds.clear();
         bool isValid = true;
         cell.forEachBound(0,
           [&](const Polynomial& d, const Polynomial& rest, bool isPlace)
