@@ -74,9 +74,9 @@ Polynomial change(const Lengths& of)
 /// A step in one direction in which no determinant can reach 0.
 struct Step
 {
-  double sign;            ///< of the direction
-  int degree;             ///< of the bounds
-  double most = Infinity; ///< what is of interest
+  double sign; ///< of the direction
+  int degree;  ///< of the bounds
+  double most; ///< what is of interest
   std::vector<Polynomial> bounds;
 
   /// `rest`: what second derivatives can change; zeros for a cubic.
@@ -420,7 +420,7 @@ struct End
 };
 
 /// Returns how far the cell is valid, or infinity where that is beyond `step.most`. `step`: has the
-/// bounds at 0. No step passes the end, so that the steps to an end before that do not depend on it.
+/// bounds at 0. No step passes the end, so that those to an end before that do not depend on it.
 double follow(MovingCell& cell, Step& step)
 {
   const double most = step.most;
@@ -461,7 +461,7 @@ ValidRange validRange(const Mesh& mesh, const NodeMotion& motion,
     [&](Index first, Index end)
     {
       MovingCell cell(mesh, motion, before, last);
-      Step down = { -1, degree }, up = { 1, degree };
+      Step down = { -1, degree, last, {} }, up = { 1, degree, last, {} };
       for (Index c = first; c < end; ++c)
       {
         if (!cell.take(c, orientation.empty() ? 1 : orientation[c]))
