@@ -7,6 +7,7 @@
 #include "Private/Compare/Comparison.h"
 #include "Private/Compare/PeakMemory.h"
 #include "Private/Data/GridMesh.h"
+#include "Private/Data/Quality.h"
 #include "Private/Distributed/OnRanks.h"
 #include "Private/Pipeline/Follower.h"
 #include "Private/Pipeline/Input.h"
@@ -22,15 +23,19 @@
 #include "vtkInversionFreeMorph.h"
 #include "vtkLBWarpMorph.h"
 #include "vtkRadialBasisMorph.h"
+#include "vtkScaledJacobian.h"
 #include "vtkSimplexLinearMorph.h"
 #include "vtkSimplexNaturalNeighborMorph.h"
 #include "vtkSmoothingMorph.h"
 #include "vtkWeightedResidualMorph.h"
 
 #include <vtkAlgorithmOutput.h>
+#include <vtkDataArray.h>
+#include <vtkFieldData.h>
 #include <vtkInformation.h>
 #include <vtkInformationDoubleVectorKey.h>
 #include <vtkInformationVector.h>
+#include <vtkMath.h>
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
 #include <vtkPointSet.h>
@@ -43,6 +48,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace filters = morph::filters;
@@ -103,7 +109,9 @@ vtkIdType badCells(
   if (processes.IsOf() == filters::RankGroup::Of::All)
   {
     vtkNew<vtkUnstructuredGrid> measured;
-    const morph::Quality whole = filters::OnRanks::Measure(grid, false, measured, monitor).Whole;
+    std::vector<filters::Quality::OfCriterion> none;
+    const morph::Quality whole =
+      filters::OnRanks::Measure(grid, false, none, measured, monitor).Whole;
     return static_cast<vtkIdType>(whole.inverted + whole.degenerate);
   }
   const morph::Mesh mesh = filters::GridMesh::FromGrid(grid);
@@ -114,8 +122,32 @@ vtkIdType badCells(
 
 /// Runs `filter` through its steps, until the first that fails. Each message becomes one warning,
 /// with the first step that raised it. All `processes` call it.
+/// A column for each number that vtkScaledJacobian has of each of `criteria`.
+std::vector<std::pair<std::string, double>> measureCriteria(
+  vtkUnstructuredGrid* grid, const std::string& criteria)
+{
+  std::vector<std::pair<std::string, double>> result;
+  vtkNew<vtkScaledJacobian> measure;
+  measure->SetCriteria(criteria.c_str());
+  measure->SetInputData(grid);
+  measure->Update();
+  vtkFieldData* found = measure->GetOutput()->GetFieldData();
+  for (const filters::Quality::OfCriterion& criterion : filters::Quality::ReadCriteria(criteria))
+  {
+    for (const char* column : { "Limit", "Worst", "WorstCellId", "CellsBeyond" })
+    {
+      vtkDataArray* array = found->GetArray((std::string("Criterion") + column).c_str());
+      const auto row = static_cast<vtkIdType>(result.size() / 4);
+      result.emplace_back(criterion.Criterion->name + std::string(column),
+        array ? array->GetComponent(row, 0) : vtkMath::Nan());
+    }
+  }
+  return result;
+}
+
 void follow(vtkMorphAlgorithm* filter, const std::vector<double>& times, double percentile,
-  const filters::RankGroup& processes, filters::MethodRun& run, morph::Monitor& monitor)
+  const std::string& criteria, const filters::RankGroup& processes, filters::MethodRun& run,
+  morph::Monitor& monitor)
 {
   const auto check = [&] { processes.Together([&] { monitor.check(); }); };
   const filters::PeakMemory memory;
@@ -146,6 +178,10 @@ void follow(vtkMorphAlgorithm* filter, const std::vector<double>& times, double 
       break;
     }
     run.Steps.push_back(filters::Comparison::Measure(filter, times[i], percentile, processes));
+    if (!criteria.empty())
+    {
+      run.Steps.back().Criteria = measureCriteria(filter->GetOutput(), criteria);
+    }
   }
   run.PeakMegabytes = processes.Maximum(memory.Megabytes());
 }
@@ -304,6 +340,7 @@ void vtkCompareMorphMethods::Compare(vtkUnstructuredGrid* grid,
                                         "one on.");
   }
 
+  filters::Quality::ReadCriteria(this->Criteria); // an error before the work
   vtkInternals& kept = *this->Internals;
   const std::vector<double> times = kept.Times();
   vtkNew<filters::BoundarySeries> source;
@@ -339,7 +376,7 @@ void vtkCompareMorphMethods::Compare(vtkUnstructuredGrid* grid,
       this->Configure(filter);
       filter->SetStepping(
         relative ? vtkMorphAlgorithm::STEPPING_RELATIVE : vtkMorphAlgorithm::STEPPING_ABSOLUTE);
-      follow(filter, times, this->Percentile, processes, run, part);
+      follow(filter, times, this->Percentile, this->Criteria, processes, run, part);
       runs.push_back(std::move(run));
     }
   }
@@ -358,6 +395,16 @@ void vtkCompareMorphMethods::Compare(vtkUnstructuredGrid* grid,
     runs.begin(), runs.end(), [](const filters::MethodRun& run) { return run.Rank == 1; });
   kept.BestMethod = best->Method;
   kept.BestStepping = best->Stepping;
+}
+
+void vtkCompareMorphMethods::SetCriteria(const char* text)
+{
+  const std::string criteria = text ? text : "";
+  if (criteria != this->Criteria)
+  {
+    this->Criteria = criteria;
+    this->Modified();
+  }
 }
 
 const char* vtkCompareMorphMethods::GetBestMethod() const
@@ -386,6 +433,7 @@ void vtkCompareMorphMethods::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Relative: " << this->Relative << "\n";
   os << indent << "NumberOfSteps: " << this->NumberOfSteps << "\n";
   os << indent << "Percentile: " << this->Percentile << "\n";
+  os << indent << "Criteria: " << this->Criteria << "\n";
   os << indent << "Stiffness: " << this->Stiffness << "\n";
   os << indent << "StiffnessExponent: " << this->StiffnessExponent << "\n";
   os << indent << "BoundaryIdArray: " << text(this->BoundaryIdArray) << "\n";

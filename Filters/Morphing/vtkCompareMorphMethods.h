@@ -13,7 +13,8 @@
  * Method, Stepping, Step, Time, MinScaledJacobian, MeanScaledJacobian, LowScaledJacobian (see
  * Percentile), InvertedCells, DegenerateCells, BoundaryInvertedCells (those of them that no method
  * can avoid; see vtkMorphAlgorithm), PrepareSeconds, EvaluateSeconds, and PeakMegabytes, the
- * largest increase of memory during the method's run (Linux; NaN elsewhere).
+ * largest increase of memory during the method's run (Linux; NaN elsewhere). Behind these are four
+ * columns for each of the Criteria.
  *
  * Output 1 is made for a line chart: Time, and a column of minimum scaled Jacobians for each method
  * and stepping.
@@ -50,6 +51,7 @@
 #include <vtkTableAlgorithm.h>
 
 #include <memory> // for std::unique_ptr
+#include <string> // for the criteria
 #include <vector> // for the boundaries
 
 namespace morph
@@ -140,6 +142,16 @@ public:
 
   ///@{
   /**
+   * More criteria for output 0, as vtkScaledJacobian::SetCriteria() has them: "NonOrthogonality=70"
+   * adds NonOrthogonalityLimit, NonOrthogonalityWorst, NonOrthogonalityWorstCellId and
+   * NonOrthogonalityCellsBeyond. Default: none.
+   */
+  void SetCriteria(const char* text);
+  const char* GetCriteria() const { return this->Criteria.c_str(); }
+  ///@}
+
+  ///@{
+  /**
    * The stiffness of the cells for FEMWARP: see vtkFEMWarpMorph. Defaults STIFFNESS_UNIFORM, 1.
    */
   vtkSetClampMacro(Stiffness, int, 0, 2);
@@ -221,6 +233,7 @@ private:
   bool Relative = false;
   int NumberOfSteps = 5;
   double Percentile = 1;
+  std::string Criteria;
   char* BoundaryIdArray = nullptr;
   char* DisplacementArray = nullptr;
   double ScaleFactor = 1;

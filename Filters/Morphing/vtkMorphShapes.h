@@ -159,8 +159,8 @@ public:
   /**
    * Whether to find the valid range of each weight: the open interval around 0 in which no cell is
    * inverted, the other weights at their present values. Its ends are roots of the determinants
-   * that ScaledJacobian measures: polynomials of degree 3 in a weight, and of degree 6 in the
-   * tangent of half the angle for a rotation. The ends are on the safe side by rounding, for
+   * that ScaledJacobian measures: polynomials of degree 3 in a weight, and for a rotation the
+   * limits of steps in which these stay positive. The ends are on the safe side by rounding, for
    * quadratic cells by more (morph::validRange()). The field data have ShapeLowestWeight and
    * ShapeHighestWeight; both are NaN where cells are inverted at a weight of 0. Those of polyhedra
    * are near the exact ends, on either side: their centres keep the weights that they have at a

@@ -89,8 +89,10 @@ void reportUnmeasured(
 void measureOnRanks(vtkScaledJacobian* filter, vtkUnstructuredGrid* input,
   vtkUnstructuredGrid* output, filters::Results& results, morph::Monitor& monitor)
 {
+  std::vector<filters::Quality::OfCriterion> criteria =
+    filters::Quality::ReadCriteria(filter->GetCriteria());
   const filters::OnRanks::Measured found =
-    filters::OnRanks::Measure(input, filter->GetCertify(), output, monitor);
+    filters::OnRanks::Measure(input, filter->GetCertify(), criteria, output, monitor);
   results.Set(found.Whole);
   results.SetInteger("MeasuredCells", found.Whole.measured);
   if (filter->GetCertify())
@@ -196,11 +198,18 @@ void vtkScaledJacobian::Measure(
   std::transform(mesh.types.begin(), mesh.types.end(), skip.begin(),
     [&](std::uint8_t type) { return dimension[type] < highest; });
 
+  std::vector<filters::Quality::OfCriterion> criteria =
+    filters::Quality::ReadCriteria(this->Criteria);
   output->ShallowCopy(input);
   const morph::Quality quality =
     filters::Quality::Measure(mesh, output, orientation, skip, monitor);
   filters::Quality::Remove(output);
   filters::Quality::Write(quality, output);
+  for (filters::Quality::OfCriterion& criterion : criteria)
+  {
+    filters::Quality::Measure(criterion, mesh, output, orientation, skip, {}, monitor);
+  }
+  filters::Quality::Write(criteria, output);
   filters::Results& results = this->Internals->Results;
   results.Set(quality);
   results.SetInteger("MeasuredCells", quality.measured);
@@ -215,6 +224,16 @@ void vtkScaledJacobian::Measure(
   results.Write(output);
 
   reportUnmeasured(this, filters::Quality::Unmeasured(mesh, quality, skip, input), results);
+}
+
+void vtkScaledJacobian::SetCriteria(const char* text)
+{
+  const std::string criteria = text ? text : "";
+  if (criteria != this->Criteria)
+  {
+    this->Criteria = criteria;
+    this->Modified();
+  }
 }
 
 double vtkScaledJacobian::GetNumber(const char* name) const
@@ -233,5 +252,6 @@ void vtkScaledJacobian::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
   os << indent << "CoincidentPoints: " << this->CoincidentPoints << "\n";
   os << indent << "Certify: " << this->Certify << "\n";
+  os << indent << "Criteria: " << this->Criteria << "\n";
   this->Internals->Results.Print(os, indent);
 }

@@ -72,6 +72,7 @@
 #include <vtkUnstructuredGridAlgorithm.h>
 
 #include <memory> // for std::unique_ptr
+#include <string> // for the criteria
 
 namespace morph
 {
@@ -112,6 +113,34 @@ public:
   vtkSetMacro(Certify, bool);
   vtkGetMacro(Certify, bool);
   vtkBooleanMacro(Certify, bool);
+  ///@}
+
+  ///@{
+  /**
+   * More criteria by which to measure, with or without a limit: "NonOrthogonality=70, AspectRatio".
+   * Without one the limit is the usual one. Default: none.
+   *
+   * | criterion | of | limit |
+   * |---|---|---|
+   * | AspectRatio | longest edge / shortest edge; linear triangles, quads, tets: Verdict's | 100 |
+   * | Skewness | equiangle skewness, the worst face | 0.95 |
+   * | Warpage | the worst face | 0.7 |
+   * | JacobianRatio | smallest / largest determinant at corners; not of polyhedra | 0.03 |
+   * | Taper | quads and hexahedra | 0.5 |
+   * | NonOrthogonality | degrees, the worst inner face | 70 |
+   * | FaceSkewness | OpenFOAM's skewness, the worst face | 4 |
+   * | FacePyramid | volume, the smallest pyramid of a face and the cell's centre | 0 |
+   * | FirstHeight | mean distance of the other corners from a face on the boundary | 0 |
+   *
+   * Cells are beyond the limit above it; for JacobianRatio, FacePyramid and FirstHeight at it or
+   * below. Each criterion adds a cell array of its name, NaN where the cell has none. The field
+   * data Criterion, CriterionLimit, CriterionWorst, CriterionWorstCellId and CriterionCellsBeyond
+   * have a row for each. Quadratic cells are measured by their corners. The last four are of volume
+   * cells alone; with pieces on several MPI ranks they take the cells across. A name or a limit
+   * that is not valid is an error.
+   */
+  void SetCriteria(const char* text);
+  const char* GetCriteria() const { return this->Criteria.c_str(); }
   ///@}
 
   ///@{
@@ -193,6 +222,7 @@ private:
   int NumberOfThreads = 0;
   int CoincidentPoints = 0;
   bool Certify = false;
+  std::string Criteria;
 };
 
 #endif

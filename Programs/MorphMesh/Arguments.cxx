@@ -261,10 +261,11 @@ void takeDesigns(const std::vector<std::string>& files, Arguments& result)
     throw UsageError("With --shapes one more file is needed, the grid; " +
                      std::to_string(files.size()) + " are given.");
   }
-  if (result.scaleFactor != 1 || result.postSmooth || result.validity != "Report" || result.results)
+  if (result.scaleFactor != 1 || result.postSmooth || result.validity != "Report" ||
+      result.results || !result.criteria.empty())
   {
-    throw UsageError("--scale-factor, --post-smooth, --validity and --results have no effect on "
-                     "--shapes: remove them.");
+    throw UsageError("--scale-factor, --post-smooth, --validity, --results and --criteria have no "
+                     "effect on --shapes: remove them.");
   }
   result.grid = files.front();
   result.task = Arguments::Task::WriteDesigns;
@@ -347,6 +348,11 @@ std::vector<Option> optionsOf(Arguments& result)
       "what to do about cells that the motion inverts, by default\nReport: None, Report (warn), "
       "SubStep, Repair, Refuse (an error);\nRepairAll repairs those that were inverted before, too",
       text(result.validity) },
+    { "--criteria", "<name>[=<limit>],...",
+      "also report these, with the worst cell and how many are beyond the limit, before and after: "
+      "AspectRatio,\nSkewness, Warpage, JacobianRatio, Taper, NonOrthogonality, FaceSkewness, "
+      "FacePyramid, FirstHeight",
+      text(result.criteria) },
     { "--require-valid", nullptr, "exit status 3 if the motion inverts or collapses a cell",
       flag(result.requireValid) },
     { "--threads", "<number>", "threads to compute with; by default 0, all cores",

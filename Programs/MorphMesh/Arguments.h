@@ -68,6 +68,7 @@ struct Arguments
   std::vector<std::pair<std::string, std::string>> options; ///< of the method, by name
   std::string validity = "Report";
   std::string boundaryIdArray, displacementArray; ///< empty: none
+  std::string criteria;                           ///< as of vtkScaledJacobian
   double scaleFactor = 1;
   bool freeUnnamedBoundary = false;
   bool postSmooth = false;

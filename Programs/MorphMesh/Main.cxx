@@ -18,7 +18,6 @@
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
-#include <vtkScaledJacobian.h>
 #include <vtkUnstructuredGrid.h>
 #include <vtkVersion.h>
 
@@ -132,6 +131,8 @@ vtkSmartPointer<vtkUnstructuredGrid> withPoints(
 int morphPart(vtkMorphAlgorithm* filter, vtkUnstructuredGrid* grid, const Arguments& arguments,
   const std::string& output)
 {
+  const vtkSmartPointer<vtkScaledJacobian> before =
+    arguments.quiet ? nullptr : measure(grid, arguments);
   Messages messages(filter);
   std::string partial;
   {
@@ -148,11 +149,8 @@ int morphPart(vtkMorphAlgorithm* filter, vtkUnstructuredGrid* grid, const Argume
     arguments.results ? morphed : withPoints(grid, morphed).Get(), arguments.grid, output);
   if (!arguments.quiet)
   {
-    vtkNew<vtkScaledJacobian> before;
-    before->SetInputData(grid);
-    before->SetNumberOfThreads(arguments.threads);
-    before->Update();
-    printReport(before, filter);
+    printReport(
+      before, filter, arguments.criteria.empty() ? nullptr : measure(morphed, arguments).Get());
     if (rounding > 0)
     {
       std::cout << "largest rounding of a coordinate: " << std::scientific << rounding << "\n";

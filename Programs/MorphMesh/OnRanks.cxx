@@ -182,7 +182,7 @@ int morphPart(const Ranks& ranks, vtkMorphAlgorithm* filter, vtkUnstructuredGrid
   before->Update();
   if (isFirst && !arguments.quiet)
   {
-    printReport(before, filter);
+    printReport(before, filter, nullptr);
   }
   const bool valid = filter->GetNewInvertedCells() == 0;
   return errors > 0 || (arguments.requireValid && !valid) ? 3 : 0;
@@ -192,9 +192,10 @@ int morphPart(const Ranks& ranks, vtkMorphAlgorithm* filter, vtkUnstructuredGrid
 int morphOnRanks(vtkMorphAlgorithm* filter, const Arguments& arguments)
 {
   requireFiles(arguments); // all ranks have the same arguments
-  if (arguments.steps > 0)
+  if (arguments.steps > 0 || !arguments.criteria.empty())
   {
-    throw UsageError("--steps needs one MPI rank, and mpiexec has started " +
+    throw UsageError(std::string(arguments.steps > 0 ? "--steps" : "--criteria") +
+                     " needs one MPI rank, and mpiexec has started " +
                      std::to_string(numberOfRanks()) + ".");
   }
   const Controller controller;

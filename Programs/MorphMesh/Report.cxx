@@ -1,12 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Report.h"
 
+#include "Messages.h"
+
+#include <vtkDataArray.h>
+#include <vtkFieldData.h>
 #include <vtkMorphAlgorithm.h>
 #include <vtkScaledJacobian.h>
+#include <vtkStringArray.h>
 #include <vtkUnstructuredGrid.h>
 
 #include <iomanip>
 #include <iostream>
+#include <sstream>
 #include <string>
 
 namespace morph_mesh
@@ -19,23 +25,63 @@ void row(const char* what, Value before, Value after)
   std::cout << std::left << std::setw(24) << what << std::right << std::setw(12) << before
             << std::setw(12) << after << "\n";
 }
+
+/// A row for the worst value, the cells beyond the limit and the worst cell of each criterion.
+void printCriteria(vtkFieldData* before, vtkFieldData* after)
+{
+  auto* names = vtkStringArray::SafeDownCast(before->GetAbstractArray("Criterion"));
+  for (vtkIdType i = 0; names && i < names->GetNumberOfValues(); ++i)
+  {
+    const auto number = [i](vtkFieldData* data, const char* column)
+    { return data->GetArray(column)->GetComponent(i, 0); };
+    const auto whole = [&](vtkFieldData* data, const char* column)
+    { return static_cast<vtkIdType>(number(data, column)); };
+    std::ostringstream limit;
+    limit << "cells beyond " << number(before, "CriterionLimit");
+    row(names->GetValue(i).c_str(), number(before, "CriterionWorst"),
+      number(after, "CriterionWorst"));
+    row(("  " + limit.str()).c_str(), whole(before, "CriterionCellsBeyond"),
+      whole(after, "CriterionCellsBeyond"));
+    row(
+      "  worst cell", whole(before, "CriterionWorstCellId"), whole(after, "CriterionWorstCellId"));
+  }
+}
 }
 
-void printReport(vtkScaledJacobian* before, vtkMorphAlgorithm* after)
+vtkSmartPointer<vtkScaledJacobian> measure(vtkUnstructuredGrid* grid, const Arguments& arguments)
 {
-  vtkUnstructuredGrid* grid = after->GetOutput();
-  std::cout << grid->GetNumberOfPoints() << " nodes, " << after->GetPrescribedPoints()
+  auto filter = vtkSmartPointer<vtkScaledJacobian>::New();
+  filter->SetInputData(grid);
+  filter->SetNumberOfThreads(arguments.threads);
+  filter->SetCriteria(arguments.criteria.c_str());
+  Messages messages(filter);
+  messages.update("Cannot measure " + arguments.grid);
+  for (const std::string& warning : messages.warnings())
+  {
+    std::cerr << "morph-mesh: warning: " << warning << "\n";
+  }
+  return filter;
+}
+
+void printReport(vtkScaledJacobian* before, vtkMorphAlgorithm* morph, vtkScaledJacobian* after)
+{
+  vtkUnstructuredGrid* grid = morph->GetOutput();
+  std::cout << grid->GetNumberOfPoints() << " nodes, " << morph->GetPrescribedPoints()
             << " of them prescribed; " << grid->GetNumberOfCells() << " cells\n";
   std::cout << std::fixed << std::setprecision(4);
   row("", "before", "after");
-  row("minimum scaled Jacobian", before->GetMinScaledJacobian(), after->GetMinScaledJacobian());
-  row("mean scaled Jacobian", before->GetMeanScaledJacobian(), after->GetMeanScaledJacobian());
-  row("inverted cells", before->GetInvertedCells(), after->GetInvertedCells());
-  row("collapsed cells", before->GetDegenerateCells(), after->GetDegenerateCells());
-  row("inverted by the motion", std::string(), std::to_string(after->GetNewInvertedCells()));
-  row("worst cell", before->GetWorstCellId(), after->GetWorstCellId());
-  std::cout << "prepared in " << after->GetPrepareSeconds() << " s, evaluated in "
-            << after->GetEvaluateSeconds() << " s, " << after->GetSolverIterations()
+  row("minimum scaled Jacobian", before->GetMinScaledJacobian(), morph->GetMinScaledJacobian());
+  row("mean scaled Jacobian", before->GetMeanScaledJacobian(), morph->GetMeanScaledJacobian());
+  row("inverted cells", before->GetInvertedCells(), morph->GetInvertedCells());
+  row("collapsed cells", before->GetDegenerateCells(), morph->GetDegenerateCells());
+  row("inverted by the motion", std::string(), std::to_string(morph->GetNewInvertedCells()));
+  row("worst cell", before->GetWorstCellId(), morph->GetWorstCellId());
+  if (after)
+  {
+    printCriteria(before->GetOutput()->GetFieldData(), after->GetOutput()->GetFieldData());
+  }
+  std::cout << "prepared in " << morph->GetPrepareSeconds() << " s, evaluated in "
+            << morph->GetEvaluateSeconds() << " s, " << morph->GetSolverIterations()
             << " iterations\n";
 }
 }

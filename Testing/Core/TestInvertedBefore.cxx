@@ -3,7 +3,6 @@
 #include "Mesh/Topology.h"
 #include "Meshes.h"
 #include "Quality/InvertedBefore.h"
-#include "Quality/LargestFactor.h"
 #include "Quality/ValidRange.h"
 
 #include <gtest/gtest.h>
@@ -113,7 +112,7 @@ TEST(InvertedBefore, RangesLeaveOutWhatWasNotPositive)
   Case wedge(withWedge());
   Points first = Points::Zero(wedge.mesh.points.rows(), 3);
   first.col(2) = -.25 * wedge.mesh.points.col(2);
-  const NodeMotion flattened = { &wedge.mesh.points, &first, nullptr, 0 };
+  const NodeMotion flattened = { &wedge.mesh.points, &first, {} };
   EXPECT_TRUE(validRange(wedge.mesh, flattened, {}, {}, wedge.monitor).isEmpty);
   const ValidRange range = validRange(wedge.mesh, flattened, {}, wedge.before, wedge.monitor);
   EXPECT_NEAR(range.highest, 4, 1e-11);
@@ -124,7 +123,7 @@ TEST(InvertedBefore, RangesLeaveOutWhatWasNotPositive)
   turn.col(0) = -wedge.mesh.points.col(1);
   turn.col(1) = wedge.mesh.points.col(0);
   back.leftCols(2) = -wedge.mesh.points.leftCols(2);
-  const CombinedMotion both = { &wedge.mesh.points, &first, { { &turn, &back, .5 } } };
-  EXPECT_TRUE(std::isnan(largestFactor(wedge.mesh, both, {}, {}, wedge.monitor).factor));
-  EXPECT_NEAR(largestFactor(wedge.mesh, both, {}, wedge.before, wedge.monitor).factor, 4, 1e-6);
+  const NodeMotion both = { &wedge.mesh.points, &first, { { &turn, &back, .5 } } };
+  EXPECT_TRUE(std::isnan(validRange(wedge.mesh, both, {}, {}, wedge.monitor).highest));
+  EXPECT_NEAR(validRange(wedge.mesh, both, {}, wedge.before, wedge.monitor).highest, 4, 1e-6);
 }

@@ -5,7 +5,6 @@
 #include "Mesh/Topology.h"
 #include "Motions.h"
 #include "PolyhedralMeshes.h"
-#include "Quality/LargestFactor.h"
 #include "Quality/ScaledJacobian.h"
 #include "Quality/ValidRange.h"
 #include "RandomMeshes.h"
@@ -199,10 +198,12 @@ void makeCase(Case& result, const std::string& kind, bool isRotation, int number
   result.orientation = cellSigns(mesh, connectedComponents(mesh));
   result.first = noise(isRotation ? .5 : 1);
   result.second = noise(.5);
-  result.motion.base = &mesh.points;
-  result.motion.first = &result.first;
-  result.motion.second = isRotation ? &result.second : nullptr;
-  result.motion.angle = isRotation ? 1 + one(random) / 2 : 0;
+  result.motion = { &mesh.points, &result.first, {} };
+  if (isRotation)
+  {
+    result.motion = { &mesh.points, nullptr,
+      { { &result.first, &result.second, 1 + one(random) / 2 } } };
+  }
   for (Index c = 0; c < mesh.numberOfCells(); ++c)
   {
     result.cells.push_back(cellOf(mesh, c));
@@ -252,7 +253,7 @@ TEST_P(PolyhedronRanges, AreThoseOfBisection)
       }
       ++ends;
       measured +=
-        problem.isMeasuredValid(sign * .8 * found) && !problem.isMeasuredValid(sign * 1.2 * found);
+        problem.isMeasuredValid(sign * .9 * found) && !problem.isMeasuredValid(sign * 1.1 * found);
     }
     EXPECT_EQ(range.lowestCell >= 0, std::isfinite(range.lowest));
     EXPECT_EQ(range.highestCell >= 0, std::isfinite(range.highest));
@@ -267,7 +268,7 @@ TEST_P(PolyhedronRanges, AreThoseOfBisection)
   RecordProperty("measured", measured);
   RecordProperty("ends", ends);
   // The measure's own centres change on the way: its ends are near, not the same.
-  EXPECT_GE(measured, .95 * ends) << measured << " of " << ends;
+  EXPECT_GE(measured, .88 * ends) << measured << " of " << ends;
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, PolyhedronRanges,
@@ -284,7 +285,7 @@ TEST(PolyhedronRange, OfAnAffineMotionIsThatOfTheMeasure)
     Points first = Points::Zero(mesh.points.rows(), 3);
     first.col(2) = -.25 * mesh.points.col(2);
     Monitor monitor;
-    const NodeMotion motion = { &mesh.points, &first, nullptr, 0 };
+    const NodeMotion motion = { &mesh.points, &first, {} };
     const ValidRange range = validRange(mesh, motion, orientation, {}, monitor);
     EXPECT_NEAR(range.highest, 4, 1e-9);
     EXPECT_EQ(range.lowest, -HUGE_VAL);
@@ -292,40 +293,5 @@ TEST(PolyhedronRange, OfAnAffineMotionIsThatOfTheMeasure)
     {
       EXPECT_TRUE(invertedCells(mesh, mesh.points + s * first, orientation, monitor).empty());
     }
-  }
-}
-
-TEST(PolyhedronRange, LargestFactorsAreTheEndsOfOneTurn)
-{
-  for (const char* kind : { "hexes", "honeycomb" })
-  {
-    int finite = 0;
-    for (int number = 0; number < 30; ++number)
-    {
-      SCOPED_TRACE(std::string(kind) + " " + std::to_string(number) + ", seed " +
-                   std::to_string(meshes::seed()));
-      Case problem;
-      makeCase(problem, kind, true, number);
-      Monitor monitor;
-      const ValidRange range =
-        validRange(problem.mesh, problem.motion, problem.orientation, {}, monitor);
-      CombinedMotion motion;
-      motion.base = &problem.mesh.points;
-      motion.turns = { { &problem.first, &problem.second, problem.motion.angle } };
-      const LargestFactor found =
-        largestFactor(problem.mesh, motion, problem.orientation, {}, monitor);
-      if (range.isEmpty)
-      {
-        EXPECT_TRUE(std::isnan(found.factor));
-        continue;
-      }
-      if (std::isfinite(range.highest))
-      {
-        ++finite;
-        EXPECT_LE(found.factor, range.highest * (1 + 1e-9));
-        EXPECT_GE(found.factor, range.highest - 1e-3);
-      }
-    }
-    EXPECT_GE(finite, 15);
   }
 }

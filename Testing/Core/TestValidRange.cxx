@@ -53,10 +53,12 @@ void makeCase(Case& result, const std::string& kind, bool isRotation, int number
   result.orientation = cellSigns(mesh, connectedComponents(mesh));
   result.first = noise(isRotation ? .5 : 1);
   result.second = noise(.5);
-  result.motion.base = &mesh.points;
-  result.motion.first = &result.first;
-  result.motion.second = isRotation ? &result.second : nullptr;
-  result.motion.angle = isRotation ? 1 + one(random) / 2 : 0;
+  result.motion = { &mesh.points, &result.first, {} };
+  if (isRotation)
+  {
+    result.motion = { &mesh.points, nullptr,
+      { { &result.first, &result.second, 1 + one(random) / 2 } } };
+  }
 }
 
 class ValidRanges : public testing::TestWithParam<std::tuple<std::string, bool>>
@@ -151,7 +153,7 @@ TEST(ValidRange, OfACubeThatIsFlattened)
   problem.mesh = meshes::hexes(3, 3, 3);
   problem.first = Points::Zero(problem.mesh.points.rows(), 3);
   problem.first.col(2) = -.25 * problem.mesh.points.col(2);
-  problem.motion = { &problem.mesh.points, &problem.first, nullptr, 0 };
+  problem.motion = { &problem.mesh.points, &problem.first, {} };
   Monitor monitor;
   ValidRange range = validRange(problem.mesh, problem.motion, {}, {}, monitor);
   EXPECT_NEAR(range.highest, 4, 1e-11);
@@ -167,7 +169,7 @@ TEST(ValidRange, OfACubeThatIsFlattened)
   problem.first.col(2).setZero();
   second *= -1;
   second.col(2).setZero();
-  const NodeMotion turn = { &problem.mesh.points, &problem.first, &second, 1 };
+  const NodeMotion turn = { &problem.mesh.points, nullptr, { { &problem.first, &second, 1 } } };
   range = validRange(problem.mesh, turn, {}, {}, monitor);
   EXPECT_EQ(range.highest, HUGE_VAL);
   EXPECT_EQ(range.lowest, -HUGE_VAL);
@@ -221,7 +223,7 @@ TEST(ValidRange, AsksWhetherToStop)
   Case problem;
   problem.mesh = meshes::hexes(30, 30, 10);
   problem.first = Points::Random(problem.mesh.points.rows(), 3);
-  problem.motion = { &problem.mesh.points, &problem.first, nullptr, 0 };
+  problem.motion = { &problem.mesh.points, &problem.first, {} };
   meshes::WatchingMonitor monitor;
   validRange(problem.mesh, problem.motion, {}, {}, monitor);
   EXPECT_GE(monitor.questions, 2);

@@ -30,12 +30,15 @@ double bisectedEnd(const IsValid& isValid, double sign, double step, double far)
 /// Returns the points that a motion leads to at `s`, #nodes x 3.
 inline morph::Points pointsAt(const morph::NodeMotion& motion, double s)
 {
-  const morph::Points& base = *motion.base;
-  const morph::Points& first = *motion.first;
-  if (!motion.second)
+  morph::Points points = *motion.base;
+  if (motion.straight)
   {
-    return base + s * first;
+    points += s * *motion.straight;
   }
-  return base + std::sin(s * motion.angle) * first +
-         (1 - std::cos(s * motion.angle)) * *motion.second;
+  for (const morph::NodeMotion::Turn& turn : motion.turns)
+  {
+    points +=
+      std::sin(s * turn.angle) * *turn.first + (1 - std::cos(s * turn.angle)) * *turn.second;
+  }
+  return points;
 }

@@ -11,8 +11,10 @@
 #include "TestGrids.h"
 
 #include <vtkCell.h>
+#include <vtkDataArray.h>
 #include <vtkExtractMorphBoundary.h>
 #include <vtkFEMWarpMorph.h>
+#include <vtkFieldData.h>
 #include <vtkIdList.h>
 #include <vtkInversionFreeMorph.h>
 #include <vtkMorphShapes.h>
@@ -118,12 +120,26 @@ TEST(RankPolyhedra, LinearMethodsMoveThemAsOnOneRank)
       EXPECT_LT(ranks.maximum(most), 1e-10 * size);
     }
     vtkNew<vtkScaledJacobian> serial, mine;
+    for (vtkScaledJacobian* filter : { serial.Get(), mine.Get() })
+    {
+      filter->SetCriteria(
+        "NonOrthogonality=1, FaceSkewness=.1, FacePyramid, FirstHeight, Skewness");
+    }
     serial->SetInputData(whole);
     rank_grids::alone([&] { serial->Update(); });
     mine->SetInputData(part);
     mine->Update();
     EXPECT_EQ(mine->GetMinScaledJacobian(), serial->GetMinScaledJacobian());
     EXPECT_EQ(mine->GetMeasuredCells(), serial->GetMeasuredCells());
+    for (const char* column : { "CriterionWorst", "CriterionCellsBeyond" })
+    {
+      for (int row = 0; row < 5; ++row)
+      {
+        const auto number = [&](vtkScaledJacobian* filter)
+        { return filter->GetOutput()->GetFieldData()->GetArray(column)->GetTuple1(row); };
+        EXPECT_NEAR(number(mine), number(serial), 1e-10) << column << row;
+      }
+    }
   }
 }
 

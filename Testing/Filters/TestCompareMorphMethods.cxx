@@ -3,11 +3,14 @@
 
 #include "vtkCompareMorphMethods.h"
 #include "vtkFEMWarpMorph.h"
+#include "vtkScaledJacobian.h"
 #include "vtkWeightedResidualMorph.h"
 
 #include <vtkCallbackCommand.h>
 #include <vtkCellData.h>
 #include <vtkCommand.h>
+#include <vtkDataArray.h>
+#include <vtkFieldData.h>
 #include <vtkInformation.h>
 #include <vtkInformationVector.h>
 #include <vtkNew.h>
@@ -77,6 +80,7 @@ TEST_F(CompareMorphMethods, RowsAreWhatTheFiltersThemselvesGive)
 {
   this->Choose(true, true);
   this->Filter->SetPercentile(10);
+  this->Filter->SetCriteria("Skewness=.3");
   this->Filter->Update();
   ASSERT_EQ(this->Rows(0), 2 * 2 * 5);
   vtkIdType row = 0;
@@ -113,6 +117,21 @@ TEST_F(CompareMorphMethods, RowsAreWhatTheFiltersThemselvesGive)
         EXPECT_GT(this->Number(0, row, "EvaluateSeconds"), 0);
         EXPECT_EQ(this->Number(0, row, "PrepareSeconds") > 0, relative ? step != 1 : step == 0);
         inverted = inverted || filter->GetInvertedCells() > 0;
+
+        vtkNew<vtkScaledJacobian> measure;
+        measure->SetInputData(filter->GetOutput());
+        measure->SetCriteria("Skewness=.3");
+        measure->Update();
+        for (const char* column : { "Limit", "Worst", "WorstCellId", "CellsBeyond" })
+        {
+          const std::string name = column;
+          EXPECT_EQ(this->Number(0, row, ("Skewness" + name).c_str()),
+            measure->GetOutput()
+              ->GetFieldData()
+              ->GetArray(("Criterion" + name).c_str())
+              ->GetComponent(0, 0))
+            << name;
+        }
 
         vtkDataArray* cells = filter->GetOutput()->GetCellData()->GetArray("ScaledJacobian");
         std::vector<double> sorted;
@@ -363,6 +382,9 @@ TEST_F(CompareMorphMethods, ErrorsGiveEmptyTables)
   this->Filter->SetRelative(false);
   errorAfter("Neither absolute nor relative");
   this->Filter->SetAbsolute(true);
+  this->Filter->SetCriteria("Beauty");
+  errorAfter("'Beauty' is not a criterion");
+  this->Filter->SetCriteria("");
   this->Filter->SetBoundaryIdArray("Nonsense");
   errorAfter("No method gave a mesh. FEMWARP, Absolute: ");
   this->Filter->SetBoundaryIdArray(nullptr);

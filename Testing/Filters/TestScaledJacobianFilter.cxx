@@ -25,6 +25,7 @@
 #include <cstdlib>
 #include <iostream>
 #include <limits>
+#include <numeric>
 #include <random>
 #include <sstream>
 #include <string>
@@ -40,6 +41,8 @@ const Corners RightTet = { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } };
 const Corners UnitTriangle = { { 0, 0, 0 }, { 1, 0, 0 }, { .5, std::sqrt(.75), 0 } };
 const Corners PyramidCorners = { { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, 0 },
   { .5, .5, std::sqrt(.5) } };
+const Corners UnitWedge = { { 0, 0, 0 }, { 0, 1, 0 }, { 1, 0, 0 }, { 0, 0, 1 }, { 0, 1, 1 },
+  { 1, 0, 1 } };
 
 unsigned seed()
 {
@@ -146,6 +149,138 @@ TEST(ScaledJacobianFilter, AgreesWithVerdictOnRandomValidCells)
   }
   EXPECT_GT(valid[0], 1000);
   EXPECT_GT(valid[1], 1000);
+}
+
+#ifdef MESHMORPHING_NEW_VERDICT
+TEST(ScaledJacobianFilter, CriteriaAgreeWithVerdictOnRandomCells)
+{
+  using Measure = vtkMeshQuality::QualityMeasureTypes;
+  std::mt19937 random(seed());
+  auto grid = emptyGrid();
+  for (int i = 0; i < 300; ++i)
+  {
+    add(grid, VTK_TETRA, jittered(RightTet, .2, random));
+    add(grid, VTK_HEXAHEDRON, jittered(Cube, .2, random));
+    add(grid, VTK_PYRAMID, jittered(PyramidCorners, .1, random));
+    add(grid, VTK_WEDGE, jittered(UnitWedge, .15, random));
+  }
+  auto flat = emptyGrid();
+  for (int i = 0; i < 300; ++i)
+  {
+    add(flat, VTK_TRIANGLE, jittered(UnitTriangle, .2, random));
+    add(flat, VTK_QUAD, jittered({ Cube.begin(), Cube.begin() + 4 }, .2, random));
+  }
+  const auto expectVerdicts =
+    [&](const char* criterion, vtkUnstructuredGrid* cells, int type, Measure measure)
+  {
+    vtkNew<vtkMeshQuality> verdict;
+    verdict->SetInputData(cells);
+    type == VTK_TRIANGLE  ? verdict->SetTriangleQualityMeasure(measure)
+    : type == VTK_QUAD    ? verdict->SetQuadQualityMeasure(measure)
+    : type == VTK_TETRA   ? verdict->SetTetQualityMeasure(measure)
+    : type == VTK_PYRAMID ? verdict->SetPyramidQualityMeasure(measure)
+    : type == VTK_WEDGE   ? verdict->SetWedgeQualityMeasure(measure)
+                          : verdict->SetHexQualityMeasure(measure);
+    verdict->Update();
+    vtkNew<vtkScaledJacobian> filter;
+    filter->SetInputData(cells);
+    filter->SetCriteria(criterion);
+    filter->Update();
+    vtkDataArray* theirs = verdict->GetOutput()->GetCellData()->GetArray("Quality");
+    vtkDataArray* ours = filter->GetOutput()->GetCellData()->GetArray(criterion);
+    for (vtkIdType c = 0; c < cells->GetNumberOfCells(); ++c)
+    {
+      if (cells->GetCellType(c) == type)
+      {
+        // VTK's warpage is the cube alone, not 1 - the cube of Verdict's report.
+        const double value = theirs->GetTuple1(c);
+        ASSERT_NEAR(ours->GetTuple1(c), measure == Measure::WARPAGE ? 1 - value : value, 1e-12)
+          << criterion << ", " << c;
+      }
+    }
+  };
+  // That of a tetrahedron has its dihedral angles, too.
+  for (const int type : { VTK_HEXAHEDRON, VTK_PYRAMID, VTK_WEDGE })
+  {
+    expectVerdicts("Skewness", grid, type, Measure::EQUIANGLE_SKEW);
+  }
+  for (const int type : { VTK_TRIANGLE, VTK_QUAD })
+  {
+    expectVerdicts("Skewness", flat, type, Measure::EQUIANGLE_SKEW);
+    expectVerdicts("AspectRatio", flat, type, Measure::ASPECT_RATIO);
+  }
+  expectVerdicts("AspectRatio", grid, VTK_TETRA, Measure::ASPECT_RATIO);
+  expectVerdicts("AspectRatio", grid, VTK_WEDGE, Measure::EDGE_RATIO);
+  expectVerdicts("JacobianRatio", grid, VTK_HEXAHEDRON, Measure::NODAL_JACOBIAN_RATIO);
+  expectVerdicts("Warpage", flat, VTK_QUAD, Measure::WARPAGE);
+  expectVerdicts("Taper", flat, VTK_QUAD, Measure::TAPER);
+  expectVerdicts("Taper", grid, VTK_HEXAHEDRON, Measure::TAPER);
+}
+#endif
+
+TEST(ScaledJacobianFilter, CriteriaOfTwoShearedCubes)
+{
+  auto grid = emptyGrid(); // one above the other, sheared along x by 45 degrees
+  for (int k = 0; k < 3; ++k)
+  {
+    for (const auto& x : Corners(Cube.begin(), Cube.begin() + 4))
+    {
+      grid->GetPoints()->InsertNextPoint(x[0] + k, x[1], k);
+    }
+  }
+  for (vtkIdType cell = 0; cell < 2; ++cell)
+  {
+    vtkIdType ids[8];
+    std::iota(ids, ids + 8, 4 * cell);
+    grid->InsertNextCell(VTK_HEXAHEDRON, 8, ids);
+  }
+  vtkNew<vtkScaledJacobian> filter;
+  filter->SetInputData(grid);
+  filter->SetCriteria("NonOrthogonality=40, FaceSkewness, FacePyramid, FirstHeight, Skewness=.6");
+  filter->Update();
+  vtkFieldData* found = filter->GetOutput()->GetFieldData();
+  // On the boundary the centre of a face is off the normal by half the shear, 0.5; its extent is
+  // 0.5, too.
+  const double worst[] = { 45, 1, 1. / 6, std::sqrt(.5), .5 }, limit[] = { 40, 4, 0, 0, .6 };
+  const double beyond[] = { 2, 0, 0, 0, 0 };
+  for (int i = 0; i < 5; ++i)
+  {
+    EXPECT_NEAR(found->GetArray("CriterionWorst")->GetTuple1(i), worst[i], 1e-12) << i;
+    EXPECT_EQ(found->GetArray("CriterionLimit")->GetTuple1(i), limit[i]) << i;
+    EXPECT_EQ(found->GetArray("CriterionCellsBeyond")->GetTuple1(i), beyond[i]) << i;
+    EXPECT_EQ(found->GetArray("CriterionWorstCellId")->GetTuple1(i), 0) << i;
+  }
+
+  // Off again, neither the arrays of the input stay nor those of a user go.
+  vtkNew<vtkUnstructuredGrid> measured;
+  measured->ShallowCopy(filter->GetOutput());
+  vtkNew<vtkDoubleArray> own;
+  own->SetName("Taper");
+  own->SetNumberOfValues(2);
+  measured->GetCellData()->AddArray(own);
+  filter->SetInputData(measured);
+  filter->SetCriteria("");
+  filter->Update();
+  EXPECT_FALSE(filter->GetOutput()->GetFieldData()->HasArray("Criterion"));
+  EXPECT_FALSE(filter->GetOutput()->GetCellData()->HasArray("NonOrthogonality"));
+  EXPECT_TRUE(filter->GetOutput()->GetCellData()->HasArray("Taper"));
+}
+
+TEST(ScaledJacobianFilter, RefusesCriteriaThatThereAreNot)
+{
+  auto grid = emptyGrid();
+  add(grid, VTK_HEXAHEDRON, Cube);
+  for (const char* text : { "Orthogonality", "Taper=", "Taper=much", "=3", "Taper,,Warpage" })
+  {
+    vtkNew<vtkScaledJacobian> filter;
+    filter->SetInputData(grid);
+    Messages errors(filter, vtkCommand::ErrorEvent);
+    filter->SetCriteria(text);
+    filter->Update();
+    EXPECT_EQ(errors.Count, 1) << text;
+    EXPECT_NE(errors.Text.find("There are AspectRatio, "), std::string::npos) << errors.Text;
+    EXPECT_EQ(filter->GetInvertedCells(), -1);
+  }
 }
 
 TEST(ScaledJacobianFilter, NumbersInArrayFieldDataAndGetters)

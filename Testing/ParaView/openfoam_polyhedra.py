@@ -66,9 +66,17 @@ class OpenFoamPolyhedra(unittest.TestCase):
         self.assertEqual(grid.GetNumberOfPoints(),
                          int(re.search(r"points:\s+(\d+)", output)[1]))
         source = source_of(grid)
-        quality = ScaledJacobian(Input=source)
+        quality = ScaledJacobian(Input=source,
+                                 Criteria="NonOrthogonality, FaceSkewness, FacePyramid")
         quality.UpdatePipeline()
         measured = servermanager.Fetch(quality).GetFieldData()
+        worst = measured.GetArray("CriterionWorst")
+        for row, printed in enumerate((r"Mesh non-orthogonality Max: (\S+)",
+                                       r"Max skewness = ([^, ]+)")):
+            expected = float(re.search(printed, output)[1].rstrip("."))
+            # ParaView reads the case in single precision.
+            self.assertAlmostEqual(worst.GetValue(row) / expected, 1, 5)
+        self.assertGreater(worst.GetValue(2), 0)
         self.assertEqual(measured.GetArray("InvertedCells").GetValue(0), 0)
         allowed = before | {"***Number of non-orthogonality errors", "***Max skewness ="}
         for motion in (foam_case.twisted, foam_case.bent, foam_case.waved):

@@ -95,6 +95,16 @@ class ScaledJacobianTest(unittest.TestCase):
             self.assertEqual(output.GetFieldData().GetArray(name).GetTuple1(0), count, name)
             self.assertEqual(getattr(quality, name), count, name)
 
+    def test_criteria(self):
+        quality = ScaledJacobian(Input=source(hexes(1.0, False)), Criteria="Skewness=.4, Warpage")
+        quality.UpdatePipeline()
+        output = servermanager.Fetch(quality)
+        skewness = output.GetCellData().GetArray("Skewness")
+        for cell, expected in enumerate((0, 0, 0.5, 0.5)):
+            self.assertAlmostEqual(skewness.GetTuple1(cell), expected, 12)
+        self.assertEqual(output.GetFieldData().GetArray("CriterionCellsBeyond").GetTuple1(0), 2)
+        self.assertEqual(output.GetCellData().GetScalars().GetName(), "ScaledJacobian")
+
     def test_number_of_threads_is_set_and_read_back(self):
         quality = ScaledJacobian(Input=source(hexes(0.5, False)))
         self.assertEqual(quality.NumberOfThreads, 0)

@@ -434,6 +434,19 @@ class MorphMesh(unittest.TestCase):
         self.assertEqual(self.morph("--scale-factor", "-5").returncode, 0)
         self.assertEqual(self.morph("--require-valid").returncode, 0)
 
+    def test_criteria_are_reported_before_and_after(self):
+        result = self.morph("--criteria", "NonOrthogonality=20, Skewness")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        before, after = row(result.stdout, "NonOrthogonality")
+        self.assertLess(before, after)
+        self.assertLess(*row(result.stdout, "  cells beyond 20"))
+        self.assertEqual(row(result.stdout, "  cells beyond 0.95"), (0, 0))
+        (self.folder / "out.vtu").unlink()
+        wrong = self.morph("--criteria", "Orthogonality")
+        self.assertEqual(wrong.returncode, 1)
+        self.assertIn("'Orthogonality' is not a criterion", wrong.stderr)
+        self.assertFalse((self.folder / "out.vtu").exists())
+
     def test_validity(self):
         reported = self.morph("--scale-factor", "-5", "--validity=report")
         self.assertIn("warning", reported.stderr)

@@ -56,28 +56,27 @@ double scaleOf(const Vector* nodes, int count, int axis)
 struct Cell
 {
   const CellMap& map;
+  const Vector* nodes;
   Vector x[CellMap::MostNodes];
-  Vector unscale; ///< factors that give the coordinates their ratios back
+  Vector scale; ///< x = scale nodes
   CellMap::Derivatives derivatives;
   bool isFinite;
 
-  Cell(const CellMap& of, const Vector* nodes)
+  Cell(const CellMap& of, const Vector* from)
     : map(of)
+    , nodes(from)
   {
     const int count = of.numberOfNodes();
     this->isFinite =
       std::all_of(nodes, nodes + count, [](const Vector& v) { return v.allFinite(); });
     if (this->isFinite)
     {
-      const double common = exactScale(nodes, count);
-      Vector scale;
       for (int j = 0; j < 3; ++j)
       {
-        scale[j] = scaleOf(nodes, count, j);
-        this->unscale[j] = common / scale[j];
+        this->scale[j] = scaleOf(nodes, count, j);
       }
       std::transform(nodes, nodes + count, this->x,
-        [&scale](const Vector& v) -> Vector { return v.cwiseProduct(scale); });
+        [this](const Vector& v) -> Vector { return v.cwiseProduct(this->scale); });
       this->derivatives = of.derivatives(this->x);
     }
   }
@@ -141,13 +140,20 @@ bool findInvertedPoint(const CellShape& shape, const Cell& cell, double (&at)[3]
   return false;
 }
 
+/// Whether all coefficients are certainly positive. Sets those of `whole` and their error.
+bool isPositive(const Cell& cell, Part& whole, double& error)
+{
+  error = cell.map.determinant(cell.derivatives, MostHalvings, whole.c);
+  return cell.map.halving().minimum(whole) > error;
+}
+
 JacobianProof proveByHalving(const CellShape& shape, const Cell& cell)
 {
   JacobianProof proof;
   const BernsteinHalving& halving = cell.map.halving();
   Part whole = halving.whole();
-  const double error = cell.map.determinant(cell.derivatives, MostHalvings, whole.c);
-  if (halving.minimum(whole) > error)
+  double error;
+  if (isPositive(cell, whole, error))
   {
     proof.certificate = Certificate::Certified;
     return proof;
@@ -221,7 +227,10 @@ double normalisation(Shape shape)
 
 double normalisedDeterminant(const Cell& cell, const double (&at)[3])
 {
-  Eigen::Matrix3d jacobian = cell.unscale.asDiagonal() * cell.map.jacobian(cell.derivatives, at);
+  // Gives the coordinates their ratios back.
+  const double common = exactScale(cell.nodes, cell.map.numberOfNodes());
+  const Vector unscale = (common / cell.scale.array()).matrix();
+  Eigen::Matrix3d jacobian = unscale.asDiagonal() * cell.map.jacobian(cell.derivatives, at);
   for (int j = 0; j < 3; ++j)
   {
     const double length = jacobian.col(j).norm();
@@ -325,13 +334,19 @@ Certificate certifyShape(Shape shape, const Vector* x)
   {
     return Certificate::Undecided;
   }
-  if (!areCornersPositive(shape, x))
+  if (shape == Shape::Tet || shape == Shape::Pyramid)
   {
-    return Certificate::Inverted;
+    return areCornersPositive(shape, x) ? Certificate::Certified : Certificate::Inverted;
   }
-  return shape == Shape::Hex     ? proveJacobian(Hexahedron, x).certificate
-         : shape == Shape::Wedge ? proveJacobian(Wedge, x).certificate
-                                 : Certificate::Certified;
+  // The determinants at the corners are among the coefficients: where all of these are positive,
+  // no exact sign is needed.
+  const std::uint8_t type = shape == Shape::Hex ? Hexahedron : Wedge;
+  const Cell cell(*CellMap::find(type), x);
+  Part whole;
+  double error;
+  return isPositive(cell, whole, error)  ? Certificate::Certified
+         : !areCornersPositive(shape, x) ? Certificate::Inverted
+                                         : prove(*cellShape(type), cell).certificate;
 }
 
 /// `x`: all nodes of a quadratic cell, the corners of another cell.

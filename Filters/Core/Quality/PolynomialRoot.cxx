@@ -12,7 +12,6 @@ namespace
 {
 constexpr int Size = MostPolynomialDegree + 1;
 constexpr int MostHalvings = 60;
-constexpr double Precision = 1e-12;
 
 constexpr double Binomial[Size][Size] = { { 1 }, { 1, 1 }, { 1, 2, 1 }, { 1, 3, 3, 1 },
   { 1, 4, 6, 4, 1 }, { 1, 5, 10, 10, 5, 1 }, { 1, 6, 15, 20, 15, 6, 1 } };
@@ -65,7 +64,7 @@ Part cutLower(Part& part, int degree)
 }
 }
 
-double firstPositiveRoot(const double* a, int degree)
+double firstPositiveRoot(const double* a, int degree, double precision)
 {
   constexpr double Infinity = std::numeric_limits<double>::infinity();
   if (!std::all_of(a, a + degree + 1, [](double c) { return std::isfinite(c); }))
@@ -103,7 +102,7 @@ double firstPositiveRoot(const double* a, int degree)
       continue;
     }
     const double upper = part.high < 1 ? part.high / (1 - part.high) : Infinity;
-    if ((upper < Infinity && upper - t <= Precision * upper) || top == MostHalvings)
+    if ((upper < Infinity && upper - t <= precision * upper) || top == MostHalvings)
     {
       return unit * t;
     }

@@ -8,74 +8,404 @@
 #include "Quality/PolynomialRoot.h"
 #include "Support/Parallel.h"
 
+#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
-#include <Eigen/LU>
 
 #include <algorithm>
 #include <array>
 #include <atomic>
 #include <cmath>
 #include <mutex>
+#include <vector>
 
 namespace morph
 {
 namespace
 {
 using Vector = Eigen::Vector3d;
-constexpr Index Batch = 8192; // cells, quadratic ones some 0.1 ms each
-constexpr Index Grain = 512;
+constexpr Index Batch = 512; // cells, quadratic ones some 0.1 ms each
+constexpr Index Grain = 32;
+constexpr int MostSteps = 500; // of a cell, for slivers that shear without end
+constexpr double Precision = 1e-11;
 constexpr double Infinity = std::numeric_limits<double>::infinity();
-constexpr double Pi = 3.14159265358979323846;
+constexpr double FullTurn = 6.28318530717958647692;
 
-/// A vector whose components are polynomials of degree D in t; a column for each power.
-template <int D>
-using Path = Eigen::Matrix<double, 3, D + 1>;
-/// The coefficients of a determinant.
-template <int D>
-using Determinant = std::array<double, 3 * D + 1>;
+/// Two vectors: a position and its derivative, or the factors of a sine and a cosine.
+using Pair = Eigen::Matrix<double, 3, 2>;
+/// The coefficients of a bound of a determinant.
+using Polynomial = std::array<double, 7>;
+/// The lengths of three edges, of their derivatives, and bounds of half their second derivatives.
+using Lengths = std::array<std::array<double, 3>, 3>;
 
-template <int D>
-Determinant<D> determinant(const Path<D>& a, const Path<D>& b, const Path<D>& c, double sign)
+/// The determinant of a + h a', b + h b', c + h c'.
+Polynomial determinant(const Pair& a, const Pair& b, const Pair& c, double sign)
 {
-  Determinant<D> result;
-  result.fill(0);
-  for (int j = 0; j <= D; ++j)
+  Polynomial result = {};
+  for (int j = 0; j < 2; ++j)
   {
-    for (int k = 0; k <= D; ++k)
+    for (int k = 0; k < 2; ++k)
     {
       const Vector cross = b.col(j).cross(c.col(k));
-      for (int i = 0; i <= D; ++i)
+      result[j + k] += sign * a.col(0).dot(cross);
+      result[1 + j + k] += sign * a.col(1).dot(cross);
+    }
+  }
+  return result;
+}
+
+/// By how much second derivatives can change a determinant: the products with one of them.
+Polynomial change(const Lengths& of)
+{
+  Polynomial result = {};
+  for (int i = 0; i < 3; ++i)
+  {
+    for (int j = 0; j < 3; ++j)
+    {
+      for (int k = 0; k < 3; ++k)
       {
-        result[i + j + k] += sign * a.col(i).dot(cross);
+        const bool isBeyond = i == 2 || j == 2 || k == 2;
+        result[i + j + k] += isBeyond ? of[i][0] * of[j][1] * of[k][2] : 0;
       }
     }
   }
   return result;
 }
 
-/// The paths of nodes in t: s itself, or tan(s angle / 2) with the factor 1 + t^2.
-template <int D>
-Path<D> pathOf(const NodeMotion& motion, Index node)
+/// A step in one direction in which no determinant can reach 0.
+struct Step
 {
-  const Vector base = motion.base->row(node).transpose();
-  const Vector first = motion.first->row(node).transpose();
-  Path<D> path;
-  if constexpr (D == 1)
-  {
-    path << base, first;
-  }
-  else
-  {
-    path << base, 2 * first, base + 2 * Vector(motion.second->row(node).transpose());
-  }
-  return path;
-}
+  double sign; ///< of the direction
+  int degree;  ///< of the bounds
+  double most; ///< what is of interest
+  std::vector<Polynomial> bounds;
 
-/// One end of a range: how far the parameter goes in one direction.
+  /// `rest`: what second derivatives can change; zeros for a cubic.
+  void add(Polynomial bound, const Polynomial& rest)
+  {
+    for (int k = 0; k <= this->degree; ++k)
+    {
+      bound[k] = (k % 2 ? this->sign : 1) * bound[k] - rest[k];
+    }
+    this->bounds.push_back(bound);
+  }
+  /// Whether the bound needs no root: most do not.
+  bool isPositive(const Polynomial& bound, double last) const
+  {
+    return isPositiveUntil(bound.data(), this->degree, last);
+  }
+  /// Forgets the bounds, and returns the step; infinity if it is beyond `most`. Else it does not
+  /// depend on it.
+  double take()
+  {
+    double length = Infinity;
+    const bool isBeyond = std::all_of(this->bounds.begin(), this->bounds.end(),
+      [this](const Polynomial& bound) { return this->isPositive(bound, this->most); });
+    for (const Polynomial& bound : this->bounds)
+    {
+      if (!isBeyond && !this->isPositive(bound, length))
+      {
+        // Another step follows where the bound is no cubic.
+        const double precision = this->degree == 3 ? 1e-12 : 1e-2;
+        length = std::min(length, firstPositiveRoot(bound.data(), this->degree, precision));
+      }
+    }
+    this->bounds.clear();
+    return length > this->most ? Infinity : length;
+  }
+};
+
+/// One cell's nodes, and what moves them.
+class MovingCell
+{
+public:
+  /// `last`: the largest factor of interest, either way.
+  MovingCell(const Mesh& mesh, const NodeMotion& motion, const InvertedBefore& before, double last)
+    : mesh_(mesh)
+    , motion_(motion)
+    , before_(before)
+    , last_(last)
+    , fields_(1 + motion.turns.size())
+  {
+  }
+
+  /// Returns whether the cell is to be followed.
+  bool take(Index cell, double sign)
+  {
+    this->shape_ = cellShape(this->mesh_, cell);
+    if (!this->shape_ || this->shape_->dimension != 3)
+    {
+      return false;
+    }
+    this->positive_ = this->before_.positivePlaces(cell);
+    const bool isQuadratic = isQuadraticVolume(*this->shape_) && !this->positive_;
+    this->map_ = isQuadratic ? CellMap::find(this->mesh_.types[cell]) : nullptr;
+    this->sign_ = sign;
+    if (this->shape_->shape == Shape::Polyhedron &&
+        !this->polyhedron_.take(this->mesh_, cell, *this->motion_.base, sign))
+    {
+      return false;
+    }
+    this->gather(this->fields_[0], cell, this->motion_.base, this->motion_.straight);
+    for (std::size_t t = 0; t < this->motion_.turns.size(); ++t)
+    {
+      const NodeMotion::Turn& turn = this->motion_.turns[t];
+      this->gather(this->fields_[1 + t], cell, turn.first, turn.second);
+    }
+    this->observer_.setZero();
+    if (!this->motion_.turns.empty())
+    {
+      // A determinant is the same for an observer who turns with the cell, and sees it bend less.
+      this->place(0);
+      const Vector turn = this->meanTurn();
+      const std::vector<Lengths> seen = this->bends(turn), still = this->bends(Vector::Zero());
+      const bool isLess = sum(seen) < sum(still);
+      this->observer_ = isLess ? turn : Vector(Vector::Zero());
+      this->bends_ = isLess ? seen : still;
+    }
+    return true;
+  }
+
+  /// Calls act(determinant, change, isPlace) for each that is followed, from `factor` on. Not a
+  /// place is a coefficient of a quadratic cell.
+  template <typename Act>
+  void forEachBound(double factor, const Act& act)
+  {
+    this->place(factor);
+    std::size_t place = 0;
+    this->forEachPlace(this->now_,
+      [&](const Pair& a, const Pair& b, const Pair& c)
+      {
+        Polynomial least = {};
+        if (!this->bends_.empty())
+        {
+          Lengths& lengths = this->bends_[place++];
+          for (int j = 0; j < 2; ++j)
+          {
+            lengths[j] = { a.col(j).norm(), b.col(j).norm(), c.col(j).norm() };
+          }
+          least = change(lengths);
+        }
+        act(determinant(a, b, c, this->sign_), least, true);
+      });
+    if (this->map_)
+    {
+      this->forEachCoefficient(act);
+    }
+  }
+
+private:
+  using Field = std::vector<Pair>; ///< of the cell's nodes
+
+  void gather(Field& field, Index cell, const Points* first, const Points* second) const
+  {
+    field.resize(this->mesh_.cellSize(cell));
+    for (std::size_t i = 0; i < field.size(); ++i)
+    {
+      const Index node = this->mesh_.cell(cell)[i];
+      field[i].col(0) = first->row(node).transpose();
+      field[i].col(1) = second ? Vector(second->row(node).transpose()) : Vector(0, 0, 0);
+    }
+  }
+
+  /// Sets the nodes' positions and the derivatives that the observer sees.
+  void place(double factor)
+  {
+    this->now_ = this->fields_[0];
+    for (std::size_t i = 0; i < this->now_.size(); ++i)
+    {
+      Pair& x = this->now_[i];
+      x.col(0) += factor * x.col(1);
+      for (std::size_t t = 0; t < this->motion_.turns.size(); ++t)
+      {
+        const Pair& turn = this->fields_[1 + t][i];
+        const double speed = this->motion_.turns[t].angle, angle = factor * speed;
+        const double half = std::sin(angle / 2);
+        x.col(0) += std::sin(angle) * turn.col(0) + 2 * half * half * turn.col(1);
+        x.col(1) += speed * (std::cos(angle) * turn.col(0) + std::sin(angle) * turn.col(1));
+      }
+      x.col(1) -= this->observer_.cross(x.col(0));
+    }
+  }
+
+  /// Calls act() with the three edges at each place that was positive before.
+  template <typename Act>
+  void forEachPlace(const Field& x, const Act& act) const
+  {
+    std::size_t place = 0;
+    const auto add = [&](const Pair& a, const Pair& b, const Pair& c)
+    {
+      const std::size_t number = place++;
+      if (!this->positive_ || (*this->positive_)[number])
+      {
+        act(a, b, c);
+      }
+    };
+    if (this->shape_->shape == Shape::Polyhedron)
+    {
+      this->polyhedron_.forEach(x.data(), add);
+      return;
+    }
+    Pair corner[8];
+    for (int k = 0; k < this->shape_->numberOfCorners; ++k)
+    {
+      corner[k] = x[this->shape_->cornerNode[k]];
+    }
+    forEachMeasuredPlace(this->shape_->shape, corner, add);
+  }
+
+  /// The angular velocity of the placed cell, by least squares over its edges.
+  Vector meanTurn() const
+  {
+    Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
+    Vector momentum = Vector::Zero();
+    const auto add = [&](const Pair& edge)
+    {
+      const Vector e = edge.col(0);
+      inertia += e.squaredNorm() * Eigen::Matrix3d::Identity() - e * e.transpose();
+      momentum += e.cross(edge.col(1));
+    };
+    this->forEachPlace(this->now_,
+      [&](const Pair& a, const Pair& b, const Pair& c)
+      {
+        add(a);
+        add(b);
+        add(c);
+      });
+    return inertia.ldlt().solve(momentum);
+  }
+
+  /// Bounds of half the second derivatives of the edges, for an observer with the angular velocity
+  /// `w`. He sees D x = dx / ds - w x x, and D D x of
+  /// - a constant c: w x (w x c); of s c: that times s, less 2 w x c;
+  /// - sin(s a) p + cos(s a) r: the same of p' = -a r - w x p and r' = a p - w x r, twice.
+  /// The last entry is that of a quadratic cell's coefficients.
+  std::vector<Lengths> bends(const Vector& w) const
+  {
+    Field c = this->fields_[0];
+    std::vector<Field> fields = this->fields_;
+    for (std::size_t i = 0; i < c.size(); ++i)
+    {
+      Vector fixed = c[i].col(0) - c[0].col(0);
+      const Vector turned = w.cross(c[i].col(1));
+      for (std::size_t t = 0; t < this->motion_.turns.size(); ++t)
+      {
+        const double a = this->motion_.turns[t].angle;
+        Pair& x = fields[1 + t][i];
+        fixed += x.col(1);
+        x.col(1) *= -1;
+        for (int times = 0; times < 2; ++times)
+        {
+          const Vector sine = -a * x.col(1) - w.cross(x.col(0));
+          x.col(1) = a * x.col(0) - w.cross(x.col(1));
+          x.col(0) = sine;
+        }
+      }
+      fields[0][i] << w.cross(w.cross(fixed)) - 2 * turned, this->last_ * w.cross(turned);
+    }
+    std::vector<Lengths> result;
+    for (const Field& field : fields)
+    {
+      std::size_t place = 0;
+      const auto add = [&](int edge, double length)
+      {
+        result.resize(std::max(result.size(), place + 1));
+        result[place][2][edge] += length / 2;
+      };
+      this->forEachPlace(field,
+        [&](const Pair& a, const Pair& b, const Pair& c)
+        {
+          add(0, a.colwise().norm().sum());
+          add(1, b.colwise().norm().sum());
+          add(2, c.colwise().norm().sum());
+          ++place;
+        });
+      for (int j = 0; j < 2 && this->map_; ++j)
+      {
+        const std::array<double, 3> lengths =
+          largest(this->derivatives(field, Eigen::Vector2d::Unit(j)));
+        for (int edge = 0; edge < 3; ++edge)
+        {
+          add(edge, lengths[edge]);
+        }
+      }
+    }
+    return result;
+  }
+
+  static double sum(const std::vector<Lengths>& bends)
+  {
+    double result = 0;
+    for (const Lengths& lengths : bends)
+    {
+      result += lengths[2][0] + lengths[2][1] + lengths[2][2];
+    }
+    return result;
+  }
+
+  /// Of a quadratic cell with the nodes `field` times `factors`.
+  CellMap::Derivatives derivatives(const Field& field, const Eigen::Vector2d& factors) const
+  {
+    Vector x[MostNodesOfVolume];
+    std::transform(
+      field.begin(), field.end(), x, [&](const Pair& pair) -> Vector { return pair * factors; });
+    return this->map_->derivatives(x);
+  }
+  static std::array<double, 3> largest(const CellMap::Derivatives& of)
+  {
+    const double factor = std::sqrt(3.);
+    return { factor * of.largest[0], factor * of.largest[1], factor * of.largest[2] };
+  }
+
+  /// A coefficient is a convex combination of determinants of the derivatives' own coefficients,
+  /// so that the largest of these bound how it changes.
+  template <typename Act>
+  void forEachCoefficient(const Act& act)
+  {
+    constexpr double At[4] = { 0, -1, 1, 2 };
+    BernsteinHalving::Coefficients values[4];
+    for (int k = 0; k < 4; ++k)
+    {
+      values[k].fill(0);
+      this->map_->determinant(this->derivatives(this->now_, { 1, At[k] }), 0, values[k]);
+    }
+    Polynomial least = {};
+    if (!this->bends_.empty())
+    {
+      Lengths& lengths = this->bends_.back();
+      lengths[0] = largest(this->derivatives(this->now_, { 1, 0 }));
+      lengths[1] = largest(this->derivatives(this->now_, { 0, 1 }));
+      least = change(lengths);
+    }
+    for (int term = 0; term < this->map_->terms(); ++term)
+    {
+      // The cubic through the four values.
+      const double v = this->sign_ * values[0][term], before = this->sign_ * values[1][term],
+                   after = this->sign_ * values[2][term], second = this->sign_ * values[3][term];
+      const double even = (after + before) / 2 - v, odd = (after - before) / 2;
+      const double cubed = (second - v - 4 * even - 2 * odd) / 6;
+      act({ v, odd - cubed, even, cubed }, least, false);
+    }
+  }
+
+  const Mesh& mesh_;
+  const NodeMotion& motion_;
+  const InvertedBefore& before_;
+  double last_;
+  const std::vector<bool>* positive_ = nullptr; ///< see InvertedBefore::positivePlaces()
+  std::vector<Field> fields_;  ///< base and straight, then first and second of each turn
+  Field now_;                  ///< positions and derivatives
+  std::vector<Lengths> bends_; ///< with turns: of each place
+  Vector observer_;            ///< his angular velocity
+  PolyhedronPlaces polyhedron_;
+  const CellShape* shape_ = nullptr;
+  const CellMap* map_ = nullptr; ///< of a quadratic cell
+  double sign_ = 1;
+};
+
+/// One end of a range: how far the factor goes in one direction.
 struct End
 {
-  double distance = Infinity; ///< in s, or half the angle of a rotation
-  double known = Infinity;    ///< another thread found a root there
+  double distance = Infinity;
   Index cell = -1;
 
   void add(double other, Index otherCell)
@@ -89,316 +419,85 @@ struct End
   }
 };
 
-/// Both ends, and a cell that is inverted at 0 (the lowest).
-struct Ends
+/// Returns how far the cell is valid, or infinity where that is beyond `step.most`. `step`: has the
+/// bounds at 0. No step passes the end, so that those to an end before that do not depend on it.
+double follow(MovingCell& cell, Step& step)
 {
-  End low, high;
-  Index inverted = -1;
-
-  void addInverted(Index cell)
+  const double most = step.most;
+  double factor = 0, length = step.take();
+  for (int steps = 1; step.degree > 3 && length < Infinity; ++steps)
   {
-    if (cell >= 0 && (this->inverted < 0 || cell < this->inverted))
+    factor += length;
+    if (length <= Precision * factor || steps == MostSteps)
     {
-      this->inverted = cell;
+      return factor;
     }
+    step.most = most - factor;
+    cell.forEachBound(step.sign * factor,
+      [&step](const Polynomial& d, const Polynomial& rest, bool) { step.add(d, rest); });
+    length = step.take();
   }
-};
-
-template <std::size_t N>
-std::array<double, N> mirrored(std::array<double, N> a)
-{
-  for (std::size_t k = 1; k < N; k += 2)
-  {
-    a[k] = -a[k];
-  }
-  return a;
-}
-
-/// The first root of a rotation's determinant as half the angle, from 0 up. Beyond the half angle
-/// of pi / 2, t comes back from minus infinity, as -1 / v.
-double firstHalfAngle(const std::array<double, 7>& a)
-{
-  const double t = firstPositiveRoot(a.data(), 6);
-  if (t < Infinity)
-  {
-    return std::atan(t);
-  }
-  std::array<double, 7> beyond = mirrored(a);
-  std::reverse(beyond.begin(), beyond.end());
-  const double v = firstPositiveRoot(beyond.data(), 6);
-  return v < Infinity ? Pi / 2 + std::atan(v) : Infinity;
-}
-
-template <int D>
-void addEnd(const Determinant<D>& a, Index cell, End& end)
-{
-  // Most cells do not shorten the range: a polynomial that is positive up to its end needs no root.
-  // The margin keeps the result independent of the order of the cells.
-  const double last = std::min(end.distance, end.known) * (1 + 1e-9);
-  if constexpr (D == 1)
-  {
-    if (!isPositiveUntil(a.data(), 3, last))
-    {
-      end.add(firstPositiveRoot(a.data(), 3), cell);
-    }
-  }
-  else
-  {
-    if (!(last < 1.5 && isPositiveUntil(a.data(), 6, std::tan(last))))
-    {
-      end.add(firstHalfAngle(a), cell);
-    }
-  }
-}
-
-template <int D>
-void addDeterminant(const Determinant<D>& a, Index cell, Ends& ends)
-{
-  addEnd<D>(a, cell, ends.high);
-  addEnd<D>(mirrored(a), cell, ends.low);
-}
-
-/// The values of t at which the coefficients of a quadratic cell are evaluated, and the matrix from
-/// these values to the coefficients of the polynomial in t.
-template <int D>
-struct Interpolation
-{
-  static constexpr int Count = 3 * D + 1;
-  using Square = Eigen::Matrix<double, Count, Count>;
-  double t[Count];
-  Square toCoefficients;
-
-  Interpolation()
-  {
-    Square powers;
-    for (int i = 0; i < Count; ++i)
-    {
-      this->t[i] = D == 1 ? i - 1 : (i - 3) / 2.;
-      double power = 1;
-      for (int k = 0; k < Count; ++k, power *= this->t[i])
-      {
-        powers(i, k) = power;
-      }
-    }
-    this->toCoefficients = powers.inverse();
-  }
-};
-
-/// The unit of t in which a cell's straight motion is as large as the cell. `path`: from its first
-/// node. Interpolated coefficients are as accurate as the values at |t| <= 2, so that a slow motion
-/// needs a unit of its own.
-template <int D>
-double unitOf(const Path<D>* path, int nodes)
-{
-  double size = 0, speed = 0;
-  for (int i = 0; i < nodes; ++i)
-  {
-    size = std::max(size, path[i].col(0).norm());
-    speed = std::max(speed, path[i].col(1).norm());
-  }
-  return D == 1 && speed > 1e-90 * size ? size / speed : 1;
-}
-
-/// Adds the Bernstein coefficients of a quadratic cell as polynomials in t.
-template <int D>
-void addQuadratic(const Mesh& mesh, const NodeMotion& motion, Index cell, double sign, Ends& ends)
-{
-  static const Interpolation<D> interpolation;
-  constexpr int Count = Interpolation<D>::Count;
-  const CellMap& map = *CellMap::find(mesh.types[cell]);
-  Path<D> path[MostNodesOfVolume];
-  for (int i = 0; i < map.numberOfNodes(); ++i)
-  {
-    path[i] = pathOf<D>(motion, mesh.cell(cell)[i]) - pathOf<D>(motion, mesh.cell(cell)[0]);
-  }
-  const double unit = unitOf<D>(path, map.numberOfNodes());
-  BernsteinHalving::Coefficients c[Count];
-  for (int k = 0; k < Count; ++k)
-  {
-    Vector x[MostNodesOfVolume];
-    for (int i = 0; i < map.numberOfNodes(); ++i)
-    {
-      x[i] = path[i].col(D);
-      for (int power = D - 1; power >= 0; --power)
-      {
-        x[i] = x[i] * (unit * interpolation.t[k]) + path[i].col(power);
-      }
-    }
-    c[k].fill(0);
-    map.determinant(map.derivatives(x), 0, c[k]);
-  }
-  for (int term = 0; term < map.terms(); ++term)
-  {
-    Eigen::Matrix<double, Count, 1> values;
-    for (int k = 0; k < Count; ++k)
-    {
-      values[k] = sign * c[k][term];
-    }
-    Determinant<D> a;
-    Eigen::Map<Eigen::Matrix<double, Count, 1>>(a.data()) = interpolation.toCoefficients * values;
-    double power = 1;
-    for (double& coefficient : a)
-    {
-      coefficient /= power;
-      power *= unit;
-    }
-    addDeterminant<D>(a, cell, ends);
-  }
-}
-
-/// Adds the determinants at the places of a cell, or that it is inverted at 0; not those of places
-/// that were not positive before.
-template <int D>
-class CellEnds
-{
-public:
-  CellEnds(const InvertedBefore& before, Index cell, double sign, Ends& ends)
-    : positive_(before.positivePlaces(cell))
-    , cell_(cell)
-    , sign_(sign)
-    , ends_(ends)
-  {
-  }
-  bool isValidBefore() const { return this->positive_ == nullptr; }
-
-  void operator()(const Path<D>& a, const Path<D>& b, const Path<D>& c)
-  {
-    const std::size_t place = this->place_++;
-    if (this->positive_ && !(*this->positive_)[place])
-    {
-      return;
-    }
-    const Determinant<D> values = determinant<D>(a, b, c, this->sign_);
-    if (values[0] > 0)
-    {
-      addDeterminant<D>(values, this->cell_, this->ends_);
-    }
-    else
-    {
-      this->ends_.addInverted(this->cell_);
-    }
-  }
-
-private:
-  const std::vector<bool>* positive_;
-  std::size_t place_ = 0;
-  Index cell_;
-  double sign_;
-  Ends& ends_;
-};
-
-/// What a thread keeps from one polyhedron to the next.
-template <int D>
-struct PolyhedronMemory
-{
-  PolyhedronPlaces places;
-  std::vector<Path<D>> x;
-};
-
-template <int D>
-void addPolyhedron(const Mesh& mesh, const NodeMotion& motion, Index cell, double sign,
-  PolyhedronMemory<D>& memory, CellEnds<D>& ends)
-{
-  if (!memory.places.take(mesh, cell, *motion.base, sign))
-  {
-    return;
-  }
-  memory.x.clear();
-  for (Index k = 0; k < mesh.cellSize(cell); ++k)
-  {
-    memory.x.push_back(pathOf<D>(motion, mesh.cell(cell)[k]));
-  }
-  memory.places.forEach(
-    memory.x.data(), [&](const Path<D>& a, const Path<D>& b, const Path<D>& c) { ends(a, b, c); });
-}
-
-template <int D>
-void addCell(const Mesh& mesh, const NodeMotion& motion, Index cell, double sign,
-  CellEnds<D>& places, Ends& ends)
-{
-  const CellShape& shape = *cellShape(mesh, cell);
-  Path<D> x[8];
-  for (int k = 0; k < shape.numberOfCorners; ++k)
-  {
-    x[k] = pathOf<D>(motion, mesh.cell(cell)[shape.cornerNode[k]]);
-  }
-  forEachMeasuredPlace(
-    shape.shape, x, [&](const Path<D>& a, const Path<D>& b, const Path<D>& c) { places(a, b, c); });
-  if (isQuadraticVolume(shape) && places.isValidBefore())
-  {
-    addQuadratic<D>(mesh, motion, cell, sign, ends);
-  }
-}
-
-template <int D>
-Ends endsOf(const Mesh& mesh, const NodeMotion& motion, const std::vector<std::int8_t>& orientation,
-  const InvertedBefore& before, Monitor& monitor)
-{
-  Ends result;
-  std::mutex mutex;
-  // A range that starts with the best ends so far needs fewer roots. See addEnd() for why the
-  // result does not depend on it.
-  std::atomic<double> low = Infinity, high = Infinity;
-  const auto lower = [](std::atomic<double>& shared, double value)
-  {
-    double before = shared.load();
-    while (value < before && !shared.compare_exchange_weak(before, value))
-    {
-    }
-  };
-  parallelBatches(monitor, mesh.numberOfCells(), Batch, Grain,
-    [&](Index first, Index last)
-    {
-      Ends ends;
-      PolyhedronMemory<D> memory;
-      for (Index c = first; c < last; ++c)
-      {
-        ends.low.known = low.load(std::memory_order_relaxed);
-        ends.high.known = high.load(std::memory_order_relaxed);
-        if (const CellShape* shape = cellShape(mesh, c); shape && shape->dimension == 3)
-        {
-          const double sign = orientation.empty() ? 1 : orientation[c];
-          CellEnds<D> places(before, c, sign, ends);
-          if (shape->shape == Shape::Polyhedron)
-          {
-            addPolyhedron<D>(mesh, motion, c, sign, memory, places);
-          }
-          else
-          {
-            addCell<D>(mesh, motion, c, sign, places, ends);
-          }
-          lower(low, ends.low.distance);
-          lower(high, ends.high.distance);
-        }
-      }
-      const std::lock_guard<std::mutex> lock(mutex);
-      result.low.add(ends.low.distance, ends.low.cell);
-      result.high.add(ends.high.distance, ends.high.cell);
-      result.addInverted(ends.inverted);
-    });
-  return result;
+  return length;
 }
 }
 
 ValidRange validRange(const Mesh& mesh, const NodeMotion& motion,
   const std::vector<std::int8_t>& orientation, const InvertedBefore& before, Monitor& monitor)
 {
-  const bool isRotation = motion.second != nullptr;
-  const Ends ends = isRotation ? endsOf<2>(mesh, motion, orientation, before, monitor)
-                               : endsOf<1>(mesh, motion, orientation, before, monitor);
-  const double unit = isRotation ? 2 / motion.angle : 1;
-  ValidRange range;
-  if (ends.inverted >= 0)
+  double last = Infinity;
+  for (const NodeMotion::Turn& turn : motion.turns)
   {
-    range.lowest = range.highest = std::numeric_limits<double>::quiet_NaN();
-    range.lowestCell = range.highestCell = ends.inverted;
-    range.isEmpty = true;
-    return range;
+    last = std::min(last, FullTurn / std::abs(turn.angle));
   }
-  range.lowest = -ends.low.distance * unit;
-  range.highest = ends.high.distance * unit;
-  range.lowestCell = ends.low.cell;
-  range.highestCell = ends.high.cell;
-  return range;
+  const int degree = motion.turns.empty() ? 3 : 6;
+  End low, high;
+  Index inverted = -1;
+  std::mutex mutex;
+  // A search that knows the best ends so far takes fewer steps. The margin keeps the result
+  // independent of the order of the cells.
+  constexpr double Margin = 1 + 1e-9;
+  std::atomic<double> lowest = last, highest = last;
+  parallelBatches(monitor, mesh.numberOfCells(), Batch, Grain,
+    [&](Index first, Index end)
+    {
+      MovingCell cell(mesh, motion, before, last);
+      Step down = { -1, degree, last, {} }, up = { 1, degree, last, {} };
+      for (Index c = first; c < end; ++c)
+      {
+        if (!cell.take(c, orientation.empty() ? 1 : orientation[c]))
+        {
+          continue;
+        }
+        down.most = Margin * lowest;
+        up.most = Margin * highest;
+        down.bounds.clear();
+        up.bounds.clear();
+        bool isValid = true;
+        cell.forEachBound(0,
+          [&](const Polynomial& d, const Polynomial& rest, bool isPlace)
+          {
+            isValid = isValid && (d[0] > 0 || !isPlace);
+            down.add(d, rest);
+            up.add(d, rest);
+          });
+        const double below = isValid ? follow(cell, down) : 0;
+        const double above = isValid ? follow(cell, up) : 0;
+        if (below < Infinity || above < Infinity)
+        {
+          const std::lock_guard<std::mutex> lock(mutex);
+          inverted = isValid || (inverted >= 0 && inverted < c) ? inverted : c;
+          low.add(below, c);
+          high.add(above, c);
+          lowest = std::min(low.distance, last);
+          highest = std::min(high.distance, last);
+        }
+      }
+    });
+  if (inverted >= 0)
+  {
+    const double none = std::numeric_limits<double>::quiet_NaN();
+    return { none, none, inverted, inverted, true };
+  }
+  return { -low.distance, high.distance, low.cell, high.cell };
 }
 }

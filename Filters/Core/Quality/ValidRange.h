@@ -11,17 +11,24 @@
 
 namespace morph
 {
-/// A motion of all nodes by one parameter s. Without `second`, the positions are base + s first;
-/// with it they are base + sin(s angle) first + (1 - cos(s angle)) second. All #nodes x 3.
+/// Straight motions and turns of all nodes that grow together by one factor s. The positions are
+/// base + s straight + sum of sin(s angle) first + (1 - cos(s angle)) second over the turns.
+/// All fields are #nodes x 3.
 struct NodeMotion
 {
-  const Points* base = nullptr; ///< at s = 0
-  const Points* first = nullptr;
-  const Points* second = nullptr;
-  double angle = 0; ///< radians, positive; of a motion with `second`
+  struct Turn
+  {
+    const Points* first = nullptr;
+    const Points* second = nullptr;
+    double angle = 0; ///< radians at s = 1, of either sign, not 0
+  };
+  const Points* base = nullptr;     ///< at s = 0
+  const Points* straight = nullptr; ///< null: none
+  std::vector<Turn> turns;
 };
 
-/// The open interval of a parameter around 0 in which no cell gets inverted.
+/// The open interval of a factor around 0 in which no cell gets inverted. With turns, an end is
+/// infinite where none is up to one turn of the largest angle.
 struct ValidRange
 {
   double lowest = -std::numeric_limits<double>::infinity();
@@ -36,17 +43,20 @@ struct ValidRange
 /// polyhedron are taken with the centres of PolyhedronPlaces, which keep their weights at s = 0.
 /// The measure's own weights change on the way, so that its ends differ a little.
 ///
-/// Each determinant is a cubic in s or, for a rotation, a polynomial of degree 6 in tan(s angle /
-/// 2) over a positive denominator. The ends are roots of these (PolynomialRoot.h), on the safe side
-/// by at most 1e-12 of the root, and rounding. A quadratic cell also needs positive Bernstein
-/// coefficients of its determinant (CellMap.h), which are such polynomials, too. This is
-/// sufficient and not necessary: its ends are on the safe side by more, and 0 where a coefficient
-/// is not positive at s = 0.
+/// Each determinant is followed from 0 by steps in which it cannot reach 0. A step is the first
+/// root (PolynomialRoot.h) of a lower bound: the determinant of the edges' tangents, a cubic, less
+/// what the second derivatives can change. Without turns the cubic is the determinant, and one step
+/// is exact. Else each of the last steps gains two digits. The turn of the whole cell is taken off
+/// first where that lowers the second derivatives. So the ends are on the safe side, by at most
+/// 1e-11 of them, and rounding; by more only after 500 steps, of slivers that shear without
+/// end. A quadratic cell also needs positive Bernstein coefficients of its
+/// determinant (CellMap.h), which have such bounds, too. This is sufficient and not necessary: its
+/// ends are on the safe side by more, and 0 where a coefficient is not positive at s = 0.
 ///
 /// `orientation`: #cells of +1 / -1 (Topology.h), or empty. Left out is what was not positive in
 /// the undeformed mesh: the places of cells in `before`, and these between their corners. The
 /// result does not depend on the number of threads. Cost: one pass, about as much as ten measures
-/// of quality, for a rotation six times that.
+/// of quality, with turns some forty times that.
 ValidRange validRange(const Mesh& mesh, const NodeMotion& motion,
   const std::vector<std::int8_t>& orientation, const InvertedBefore& before, Monitor& monitor);
 }

@@ -200,6 +200,13 @@ void WriteSteps(const std::vector<MethodRun>& runs, vtkTable* output)
     boundary(output, "BoundaryInvertedCells");
   Numbers prepare(output, "PrepareSeconds"), evaluate(output, "EvaluateSeconds"),
     memory(output, "PeakMegabytes");
+  std::deque<Numbers> criteria;
+  const auto any =
+    std::find_if(runs.begin(), runs.end(), [](const MethodRun& run) { return !run.Steps.empty(); });
+  for (const auto& [name, value] : any->Steps.front().Criteria)
+  {
+    criteria.emplace_back(output, name.c_str());
+  }
   for (const MethodRun& run : runs)
   {
     for (std::size_t i = 0; i < run.Steps.size(); ++i)
@@ -218,6 +225,10 @@ void WriteSteps(const std::vector<MethodRun>& runs, vtkTable* output)
       prepare.Add(step.PrepareSeconds);
       evaluate.Add(step.EvaluateSeconds);
       memory.Add(run.PeakMegabytes);
+      for (std::size_t k = 0; k < criteria.size(); ++k)
+      {
+        criteria[k].Add(step.Criteria[k].second);
+      }
     }
   }
 }

@@ -4,6 +4,7 @@
 #include <vtkType.h>
 
 #include <string>
+#include <utility>
 #include <vector>
 
 class vtkMorphAlgorithm;
@@ -22,6 +23,7 @@ struct MethodRun
     double Minimum, Mean, Low; ///< scaled Jacobians; Low: the percentile
     vtkIdType Inverted, Degenerate, BoundaryInverted;
     double PrepareSeconds, EvaluateSeconds;
+    std::vector<std::pair<std::string, double>> Criteria; ///< names and values of columns
   };
   std::string Method;
   std::string Stepping;
@@ -51,7 +53,7 @@ MethodRun::Step Measure(
 /// them, to 0.01, then by seconds, then by order.
 void Rank(std::vector<MethodRun>& runs);
 
-/// A row for each run and step.
+/// A row for each run and step, one at least.
 void WriteSteps(const std::vector<MethodRun>& runs, vtkTable* output);
 /// A row for each of `times`, a column of minimum scaled Jacobians for each run.
 void WriteChart(

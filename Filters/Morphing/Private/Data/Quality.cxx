@@ -3,21 +3,28 @@
 
 #include "Private/Data/GridMesh.h"
 #include "Quality/ScaledJacobian.h"
+#include "Support/Error.h"
 
 #include <vtkCellData.h>
 #include <vtkDataSet.h>
 #include <vtkDataSetAttributes.h>
 #include <vtkDoubleArray.h>
 #include <vtkFieldData.h>
+#include <vtkIdTypeArray.h>
+#include <vtkMeshQuality.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkSignedCharArray.h>
+#include <vtkStringArray.h>
 #include <vtkUnsignedCharArray.h>
 #include <vtkUnstructuredGrid.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <sstream>
 #include <utility>
 
 namespace morph::filters
@@ -35,11 +42,53 @@ void skipGhosts(
     return;
   }
   skip.resize(mesh.numberOfCells(), 0);
-  for (morph::Index c = 0; c < mesh.numberOfCells(); ++c)
+  for (morph::Index c = 0; c < ghosts->GetNumberOfValues(); ++c)
   {
     skip[c] |= ghosts->GetValue(c) &
                (vtkDataSetAttributes::DUPLICATECELL | vtkDataSetAttributes::HIDDENCELL);
   }
+}
+
+/// Replaces the values of cells for which Verdict has the criterion.
+void takeVerdict(const char* criterion, vtkUnstructuredGrid* grid, std::vector<double>& values)
+{
+  const bool isTaper = std::strcmp(criterion, "Taper") == 0;
+  if (!isTaper && std::strcmp(criterion, "AspectRatio") != 0)
+  {
+    return;
+  }
+  vtkNew<vtkUnstructuredGrid> cells;
+  cells->CopyStructure(grid);
+  vtkNew<vtkMeshQuality> verdict;
+  verdict->SetInputData(cells);
+  verdict->SetTriangleQualityMeasureToAspectRatio();
+  verdict->SetTetQualityMeasureToAspectRatio();
+  isTaper ? verdict->SetQuadQualityMeasureToTaper() : verdict->SetQuadQualityMeasureToAspectRatio();
+  verdict->SetHexQualityMeasureToTaper();
+  verdict->Update();
+  vtkDataArray* found = verdict->GetOutput()->GetCellData()->GetArray("Quality");
+  for (vtkIdType c = 0; c < grid->GetNumberOfCells(); ++c)
+  {
+    const int type = grid->GetCellType(c);
+    if (type == VTK_QUAD ||
+        (isTaper ? type == VTK_HEXAHEDRON : type == VTK_TRIANGLE || type == VTK_TETRA))
+    {
+      values[c] = found->GetComponent(c, 0);
+    }
+  }
+}
+
+template <typename Array, typename Value>
+void addColumn(vtkUnstructuredGrid* output, const char* name,
+  const std::vector<Quality::OfCriterion>& rows, const Value& value)
+{
+  vtkNew<Array> column;
+  column->SetName(name);
+  for (const Quality::OfCriterion& row : rows)
+  {
+    column->InsertNextValue(value(row));
+  }
+  output->GetFieldData()->AddArray(column);
 }
 
 /// Calls body with the grid's points, copied only where they are not double.
@@ -165,11 +214,101 @@ void Write(const morph::CertificateReport& report, vtkUnstructuredGrid* output)
   output->GetCellData()->AddArray(values);
 }
 
+std::vector<OfCriterion> ReadCriteria(const std::string& text)
+{
+  std::vector<OfCriterion> result;
+  std::istringstream parts(text);
+  for (std::string part; std::getline(parts, part, ',');)
+  {
+    const auto isSpace = [](char c) { return c == ' '; };
+    part.erase(std::remove_if(part.begin(), part.end(), isSpace), part.end());
+    const std::string name = part.substr(0, part.find('='));
+    const std::string limit = name == part ? "" : part.substr(name.size() + 1);
+    const auto& all = morph::criteria();
+    const auto found = std::find_if(
+      all.begin(), all.end(), [&](const morph::Criterion& one) { return one.name == name; });
+    char* end = nullptr;
+    const double number = std::strtod(limit.c_str(), &end);
+    if (found == all.end() || *end != '\0' || (name != part && limit.empty()))
+    {
+      std::string names;
+      for (const morph::Criterion& one : all)
+      {
+        names += (names.empty() ? "" : ", ") + std::string(one.name);
+      }
+      throw morph::Error("'" + part +
+                         "' is not a criterion, or a criterion with a limit like "
+                         "NonOrthogonality=70. There are " +
+                         names + ".");
+    }
+    result.push_back({ &*found, limit.empty() ? found->limit : number });
+  }
+  return result;
+}
+
+void Measure(OfCriterion& criterion, const morph::Mesh& mesh, vtkUnstructuredGrid* output,
+  const std::vector<std::int8_t>& orientation, std::vector<std::uint8_t> skip,
+  const std::vector<std::int64_t>& cellIds, morph::Monitor& monitor)
+{
+  skip.resize(mesh.numberOfCells(), 0);
+  skipGhosts(mesh, output, skip);
+  const morph::Criterion& measure = *criterion.Criterion;
+  std::vector<double> values =
+    morph::measureCriterion(measure, mesh, mesh.points, orientation, skip, monitor);
+  takeVerdict(measure.name, output, values);
+  vtkNew<vtkDoubleArray> array;
+  array->SetName(measure.name);
+  for (vtkIdType c = 0; c < output->GetNumberOfCells(); ++c)
+  {
+    const double value = skip[c] ? std::numeric_limits<double>::quiet_NaN() : values[c];
+    array->InsertNextValue(value);
+    if (std::isnan(value))
+    {
+      continue;
+    }
+    const morph::Index id = cellIds.empty() ? c : cellIds[c];
+    const double worse = criterion.Sign() * (value - criterion.Worst);
+    criterion.Beyond += measure.isBeyond(value, criterion.Limit);
+    if (criterion.WorstCell < 0 || worse > 0 || (worse == 0 && id < criterion.WorstCell))
+    {
+      criterion.Worst = value;
+      criterion.WorstCell = id;
+    }
+  }
+  output->GetCellData()->AddArray(array);
+}
+
+void Write(const std::vector<OfCriterion>& criteria, vtkUnstructuredGrid* output)
+{
+  if (criteria.empty())
+  {
+    return;
+  }
+  addColumn<vtkStringArray>(
+    output, "Criterion", criteria, [](const OfCriterion& row) { return row.Criterion->name; });
+  addColumn<vtkDoubleArray>(
+    output, "CriterionLimit", criteria, [](const OfCriterion& row) { return row.Limit; });
+  addColumn<vtkDoubleArray>(
+    output, "CriterionWorst", criteria, [](const OfCriterion& row) { return row.Worst; });
+  addColumn<vtkIdTypeArray>(
+    output, "CriterionWorstCellId", criteria, [](const OfCriterion& row) { return row.WorstCell; });
+  addColumn<vtkIdTypeArray>(
+    output, "CriterionCellsBeyond", criteria, [](const OfCriterion& row) { return row.Beyond; });
+}
+
 void Remove(vtkDataSet* output)
 {
+  // A user's own array may have the name of a criterion.
+  auto* criteria =
+    vtkStringArray::SafeDownCast(output->GetFieldData()->GetAbstractArray("Criterion"));
+  for (vtkIdType i = 0; criteria && i < criteria->GetNumberOfValues(); ++i)
+  {
+    output->GetCellData()->RemoveArray(criteria->GetValue(i).c_str());
+  }
   output->GetCellData()->RemoveArray("ScaledJacobian");
   output->GetCellData()->RemoveArray("JacobianCertificate");
-  for (const char* name : { "CertifiedCells", "UncertifiedCells", "UndecidedCells" })
+  for (const char* name : { "CertifiedCells", "UncertifiedCells", "UndecidedCells", "Criterion",
+         "CriterionLimit", "CriterionWorst", "CriterionWorstCellId", "CriterionCellsBeyond" })
   {
     output->GetFieldData()->RemoveArray(name);
   }

@@ -3,10 +3,13 @@
 
 #include "Mesh/Topology.h"
 #include "Quality/Certificate.h"
+#include "Quality/Criteria.h"
 #include "Quality/InvertedBefore.h"
 #include "Quality/ScaledJacobian.h"
 
 #include <cstdint>
+#include <limits>
+#include <string>
 #include <vector>
 
 class vtkDataSet;
@@ -68,6 +71,32 @@ morph::CertificateReport Certify(const morph::Mesh& mesh, vtkUnstructuredGrid* o
 /// Adds to `output` the cell array `JacobianCertificate` (signed char: 1 certified, 0 undecided or
 /// not examined, -1 inverted).
 void Write(const morph::CertificateReport& report, vtkUnstructuredGrid* output);
+
+/// What a criterion says of a mesh.
+struct OfCriterion
+{
+  const morph::Criterion* Criterion;
+  double Limit;
+  double Worst = std::numeric_limits<double>::quiet_NaN();
+  morph::Index WorstCell = -1; ///< the lowest id of the cells at it
+  morph::Index Beyond = 0;     ///< cells beyond the limit
+
+  /// Times it, a larger value is worse.
+  double Sign() const { return this->Criterion->isAtMost ? 1 : -1; }
+};
+
+/// Reads "NonOrthogonality=70, AspectRatio". Without a number the limit is the usual one. Throws
+/// morph::Error.
+std::vector<OfCriterion> ReadCriteria(const std::string& text);
+
+/// Measures the leading cells, those of `output`, and adds a cell array of the criterion's name.
+/// `mesh`: has ghosts behind these, or none; `skip`: #cells; `cellIds`: #cells, or empty.
+void Measure(OfCriterion& criterion, const morph::Mesh& mesh, vtkUnstructuredGrid* output,
+  const std::vector<std::int8_t>& orientation, std::vector<std::uint8_t> skip,
+  const std::vector<std::int64_t>& cellIds, morph::Monitor& monitor);
+
+/// Adds to the field data one array for each column, with a row for each criterion.
+void Write(const std::vector<OfCriterion>& criteria, vtkUnstructuredGrid* output);
 
 /// Removes the scaled Jacobian, the certificate and its counts, so that those of an input do not
 /// pass for the output's.

@@ -53,7 +53,8 @@ void ExtractBoundary(vtkUnstructuredGrid*, vtkPolyData*, morph::Monitor&)
   refuse();
 }
 
-Measured Measure(vtkUnstructuredGrid*, bool, vtkUnstructuredGrid*, morph::Monitor&)
+Measured Measure(vtkUnstructuredGrid*, bool, std::vector<Quality::OfCriterion>&,
+  vtkUnstructuredGrid*, morph::Monitor&)
 {
   refuse();
 }

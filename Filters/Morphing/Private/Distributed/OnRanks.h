@@ -88,8 +88,10 @@ struct Measured
   morph::CertificateReport Certificates; ///< counts of the whole mesh
   morph::Index MirroredBodies = 0;
 };
-/// Measures the mesh and, if `certified`, examines it; `output` becomes the grid with the arrays.
-Measured Measure(
-  vtkUnstructuredGrid* grid, bool certified, vtkUnstructuredGrid* output, morph::Monitor& monitor);
+/// Measures the mesh, also by `criteria`, and, if `certified`, examines it; `output` becomes the
+/// grid with the arrays.
+Measured Measure(vtkUnstructuredGrid* grid, bool certified,
+  std::vector<Quality::OfCriterion>& criteria, vtkUnstructuredGrid* output,
+  morph::Monitor& monitor);
 }
 }

@@ -9,6 +9,9 @@
 #include <vtkPolyData.h>
 #include <vtkUnstructuredGrid.h>
 
+#include <cmath>
+#include <limits>
+
 namespace morph::filters::OnRanks
 {
 void ExtractBoundary(vtkUnstructuredGrid* grid, vtkPolyData* output, morph::Monitor& monitor)
@@ -26,8 +29,8 @@ void ExtractBoundary(vtkUnstructuredGrid* grid, vtkPolyData* output, morph::Moni
   mesh.WriteGlobalIds(output);
 }
 
-Measured Measure(
-  vtkUnstructuredGrid* grid, bool certified, vtkUnstructuredGrid* output, morph::Monitor& monitor)
+Measured Measure(vtkUnstructuredGrid* grid, bool certified,
+  std::vector<Quality::OfCriterion>& criteria, vtkUnstructuredGrid* output, morph::Monitor& monitor)
 {
   RankMesh mesh;
   mesh.Take(grid, 1, GridMesh::UnknownCells::Keep, monitor);
@@ -51,6 +54,26 @@ Measured Measure(
       mesh.HighestDimension() == 3 ? skip : std::vector<std::uint8_t>(skip.size(), 1), monitor);
     Quality::Write(result.Certificates, output);
   }
+  for (Quality::OfCriterion& criterion : criteria)
+  {
+    const morph::distributed::DistributedMesh& whole = mesh.Whole();
+    mesh.Ranks().together(
+      [&]
+      {
+        Quality::Measure(
+          criterion, whole.mesh(), output, whole.orientation(), skip, whole.cellIds(), monitor);
+      });
+    const double sign = criterion.Sign(), none = -std::numeric_limits<double>::infinity();
+    const bool isMeasured = criterion.WorstCell >= 0;
+    const double worst = mesh.Ranks().maximum(isMeasured ? sign * criterion.Worst : none);
+    const bool isWorst = isMeasured && sign * criterion.Worst == worst;
+    const morph::Index last = std::numeric_limits<morph::Index>::max();
+    criterion.WorstCell = mesh.Ranks().minimum(isWorst ? criterion.WorstCell : last);
+    criterion.WorstCell = criterion.WorstCell == last ? -1 : criterion.WorstCell;
+    criterion.Worst = criterion.WorstCell < 0 ? std::nan("") : sign * worst;
+    criterion.Beyond = mesh.Ranks().sum(criterion.Beyond);
+  }
+  Quality::Write(criteria, output);
   result.MirroredBodies = mesh.Whole().mirroredBodies();
   return result;
 }

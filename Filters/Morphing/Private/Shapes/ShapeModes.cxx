@@ -313,19 +313,18 @@ std::vector<morph::WeightedMode> ShapeModes::Weighted(const std::vector<double>&
 morph::NodeMotion ShapeModes::MotionOf(std::size_t shape, const morph::Points& base) const
 {
   const Solved& solved = this->Shapes[shape];
-  morph::NodeMotion motion = { &base, this->Modes[solved.Modes[0]].Field.get() };
-  if (solved.Angle > 0)
+  const Points* field = this->Modes[solved.Modes[0]].Field.get();
+  if (solved.Angle == 0)
   {
-    motion.second = this->Modes[solved.Modes[1]].Field.get();
-    motion.angle = solved.Angle;
+    return { &base, field, {} };
   }
-  return motion;
+  return { &base, nullptr, { { field, this->Modes[solved.Modes[1]].Field.get(), solved.Angle } } };
 }
 
-morph::CombinedMotion ShapeModes::Combined(
+morph::NodeMotion ShapeModes::Combined(
   const std::vector<double>& weights, Points& straight, morph::Monitor& monitor) const
 {
-  morph::CombinedMotion motion;
+  morph::NodeMotion motion;
   motion.base = &this->Mesh().points;
   std::vector<morph::WeightedMode> modes;
   for (std::size_t i = 0; i < this->Shapes.size(); ++i)

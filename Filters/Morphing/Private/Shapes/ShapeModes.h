@@ -9,7 +9,6 @@
 #include "Private/Morph/BoundaryMatch.h"
 #include "Private/Morph/ModeSolver.h"
 #include "Private/Pipeline/Ranks.h"
-#include "Quality/LargestFactor.h"
 #include "Quality/ValidRange.h"
 
 #include <cstdint>
@@ -92,7 +91,7 @@ public:
   morph::NodeMotion MotionOf(std::size_t shape, const morph::Points& base) const;
   /// The motion by a factor of all weights. `straight`: gets the displacements' sum; the result
   /// points to it.
-  morph::CombinedMotion Combined(
+  morph::NodeMotion Combined(
     const std::vector<double>& weights, morph::Points& straight, morph::Monitor& monitor) const;
 
 private:

@@ -13,41 +13,6 @@ namespace morph::filters
 {
 namespace
 {
-/// `ranges`: of the shapes' weights.
-double largestFactor(const ShapeModes& modes, const std::vector<double>& weights,
-  const std::vector<morph::ValidRange>& ranges, const morph::InvertedBefore& before,
-  morph::Monitor& monitor)
-{
-  const morph::Mesh& mesh = modes.Mesh();
-  const std::vector<std::int8_t>& orientation = modes.Orientation();
-  std::vector<std::size_t> weighted, turned;
-  for (std::size_t i = 0; i < weights.size(); ++i)
-  {
-    if (weights[i] != 0)
-    {
-      weighted.push_back(i);
-      if (modes.IsRotation(i))
-      {
-        turned.push_back(i);
-      }
-    }
-  }
-  if (weighted.size() == 1 && turned.size() == 1)
-  {
-    const double weight = weights[turned[0]];
-    const morph::ValidRange& range = ranges[turned[0]]; // the others are at 0
-    return (weight > 0 ? range.highest : range.lowest) / weight;
-  }
-  morph::Points straight;
-  const morph::CombinedMotion motion = modes.Combined(weights, straight, monitor);
-  if (turned.empty())
-  {
-    return morph::validRange(mesh, { &mesh.points, &straight }, orientation, before, monitor)
-      .highest;
-  }
-  return morph::largestFactor(mesh, motion, orientation, before, monitor).factor;
-}
-
 /// The range in which the cells of all processes are valid.
 void join(const RankGroup& processes, morph::ValidRange& range)
 {
@@ -94,7 +59,10 @@ WeightRanges WeightRanges::Find(
         result.Shapes.push_back(morph::validRange(
           modes.Mesh(), modes.MotionOf(i, base), modes.Orientation(), before, part));
       }
-      result.LargestFactor = largestFactor(modes, weights, result.Shapes, before, monitor);
+      morph::Points straight;
+      result.LargestFactor = morph::validRange(modes.Mesh(),
+        modes.Combined(weights, straight, monitor), modes.Orientation(), before, monitor)
+                               .highest;
     });
   for (morph::ValidRange& range : result.Shapes)
   {

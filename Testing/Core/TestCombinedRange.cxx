@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The largest factor of straight motions and turns together, against a search with the measure of
+// The valid range of straight motions and turns together, against a search with the measure of
 // quality on random motions.
 #include "Mesh/Topology.h"
 #include "Meshes.h"
-#include "Quality/LargestFactor.h"
 #include "Quality/ScaledJacobian.h"
 #include "Quality/ValidRange.h"
 #include "RandomMeshes.h"
 #include "Support/Error.h"
+#include "ValidRangeCases.h"
 #include "WatchingMonitor.h"
 
 #include <gtest/gtest.h>
@@ -25,42 +25,18 @@ struct Case
 {
   Mesh mesh;
   Points straight, first[2], second[2];
-  CombinedMotion motion;
+  NodeMotion motion;
   std::vector<std::int8_t> orientation;
 
-  Points at(double f) const
-  {
-    Points x = this->mesh.points + f * this->straight;
-    for (const CombinedMotion::Turn& turn : this->motion.turns)
-    {
-      x += std::sin(f * turn.angle) * *turn.first + (1 - std::cos(f * turn.angle)) * *turn.second;
-    }
-    return x;
-  }
+  Points at(double f) const { return pointsAt(this->motion, f); }
   bool isValid(double f) const
   {
     Monitor monitor;
     return invertedCells(this->mesh, this->at(f), this->orientation, monitor).empty();
   }
-  /// Found by steps up to `far`, and bisection.
   double searched(double far) const
   {
-    const double step = far / 2000;
-    for (double f = step; f < far; f += step)
-    {
-      if (this->isValid(f))
-      {
-        continue;
-      }
-      double low = f - step, high = f;
-      while (high - low > 1e-10)
-      {
-        const double middle = (low + high) / 2;
-        (this->isValid(middle) ? low : high) = middle;
-      }
-      return low;
-    }
-    return HUGE_VAL;
+    return bisectedEnd([this](double f) { return this->isValid(f); }, 1, far / 2000, far);
   }
 };
 
@@ -97,12 +73,12 @@ void turnAndShift(Case& problem)
   problem.motion = { &x, &problem.straight, { { &problem.first[0], &problem.second[0], .5 } } };
 }
 
-class LargestFactors : public testing::TestWithParam<std::string>
+class CombinedRanges : public testing::TestWithParam<std::string>
 {
 };
 }
 
-TEST_P(LargestFactors, AreThoseOfASearch)
+TEST_P(CombinedRanges, AreThoseOfASearch)
 {
   const bool isQuadratic = GetParam().find("quadratic") == 0;
   int finite = 0, tight = 0, made = 0;
@@ -117,38 +93,38 @@ TEST_P(LargestFactors, AreThoseOfASearch)
     }
     ++made;
     Monitor monitor;
-    const LargestFactor found =
-      largestFactor(problem.mesh, problem.motion, problem.orientation, {}, monitor);
-    EXPECT_EQ(found.cell >= 0, std::isfinite(found.factor));
+    const ValidRange found =
+      validRange(problem.mesh, problem.motion, problem.orientation, {}, monitor);
+    EXPECT_EQ(found.highestCell >= 0, std::isfinite(found.highest));
     if (isQuadratic)
     {
       // A bound on the safe side; a search by proofs would be slow.
       for (int part = 1; part <= 10; ++part)
       {
-        EXPECT_TRUE(problem.isValid(std::min(found.factor * (1 - 1e-9), 4.) * part / 10));
+        EXPECT_TRUE(problem.isValid(std::min(found.highest * (1 - 1e-9), 4.) * part / 10));
       }
-      finite += std::isfinite(found.factor);
-      tight += found.factor > 0 && !problem.isValid(2 * found.factor);
+      finite += std::isfinite(found.highest);
+      tight += found.highest > 0 && !problem.isValid(2 * found.highest);
     }
     else
     {
       const double expected = problem.searched(4);
-      EXPECT_LE(found.factor, expected + 1e-9);
-      if (found.factor < expected - 1e-6)
+      EXPECT_LE(found.highest, expected + 1e-9);
+      if (found.highest < expected - 1e-6)
       {
         // A step of the search may pass over a short interval of inversion.
-        EXPECT_FALSE(problem.isValid(found.factor + 1e-6)) << found.factor << " " << expected;
+        EXPECT_FALSE(problem.isValid(found.highest + 1e-6)) << found.highest << " " << expected;
       }
       finite += std::isfinite(expected);
-      tight += std::isfinite(expected) && found.factor > .5 * expected;
+      tight += std::isfinite(expected) && found.highest > .5 * expected;
     }
     for (int threads : isQuadratic ? std::vector<int>{ 3 } : std::vector<int>{ 2, 3 })
     {
       meshes::ThreadedMonitor threaded(threads);
-      const LargestFactor again =
-        largestFactor(problem.mesh, problem.motion, problem.orientation, {}, threaded);
-      EXPECT_EQ(again.factor, found.factor);
-      EXPECT_EQ(again.cell, found.cell);
+      const ValidRange again =
+        validRange(problem.mesh, problem.motion, problem.orientation, {}, threaded);
+      EXPECT_EQ(again.highest, found.highest);
+      EXPECT_EQ(again.highestCell, found.highestCell);
     }
   }
   EXPECT_EQ(made, Cases);
@@ -156,7 +132,7 @@ TEST_P(LargestFactors, AreThoseOfASearch)
   EXPECT_GE(tight, finite / 2) << "of " << finite << " within a factor of 2";
 }
 
-INSTANTIATE_TEST_SUITE_P(Kinds, LargestFactors,
+INSTANTIATE_TEST_SUITE_P(Kinds, CombinedRanges,
   testing::Values("hexes", "tets", "wedges", "pyramids", "quadratic hexes", "quadratic tets"),
   [](const auto& info)
   {
@@ -165,74 +141,45 @@ INSTANTIATE_TEST_SUITE_P(Kinds, LargestFactors,
     return name;
   });
 
-TEST(LargestFactor, OfOneTurnIsThatOfItsRange)
-{
-  for (int number = 1; number < 40; number += 2)
-  {
-    Case problem;
-    makeCase(problem, "hexes", number);
-    problem.motion.straight = nullptr;
-    problem.motion.turns.resize(1);
-    problem.motion.turns[0].angle = std::abs(problem.motion.turns[0].angle);
-    const CombinedMotion::Turn& turn = problem.motion.turns[0];
-    Monitor monitor;
-    const double range =
-      validRange(problem.mesh, { &problem.mesh.points, turn.first, turn.second, turn.angle },
-        problem.orientation, {}, monitor)
-        .highest;
-    const double found =
-      largestFactor(problem.mesh, problem.motion, problem.orientation, {}, monitor).factor;
-    if (std::isfinite(range))
-    {
-      EXPECT_NEAR(found, range, 1e-7) << "case " << number << ", seed " << meshes::seed();
-      EXPECT_LE(found, range + 1e-11);
-    }
-    else
-    {
-      EXPECT_EQ(found, range);
-    }
-  }
-}
-
-TEST(LargestFactor, OfARigidTurnWithAShiftHasNoEnd)
+TEST(CombinedRange, OfARigidTurnWithAShiftHasNoEnd)
 {
   Case problem;
   problem.mesh = meshes::hexes(3, 2, 2);
   turnAndShift(problem);
   Monitor monitor;
-  LargestFactor found = largestFactor(problem.mesh, problem.motion, {}, {}, monitor);
-  EXPECT_EQ(found.factor, HUGE_VAL);
-  EXPECT_EQ(found.cell, -1);
+  ValidRange found = validRange(problem.mesh, problem.motion, {}, {}, monitor);
+  EXPECT_EQ(found.highest, HUGE_VAL);
+  EXPECT_EQ(found.highestCell, -1);
 
   problem.mesh.points.row(0) << 5, 5, 5; // inverted at 0
-  found = largestFactor(problem.mesh, problem.motion, {}, {}, monitor);
-  EXPECT_TRUE(std::isnan(found.factor));
-  EXPECT_EQ(found.cell, 0);
+  found = validRange(problem.mesh, problem.motion, {}, {}, monitor);
+  EXPECT_TRUE(std::isnan(found.highest));
+  EXPECT_EQ(found.highestCell, 0);
 }
 
-TEST(LargestFactor, OfFlatCellsIsFoundInFewSteps)
+TEST(CombinedRange, OfFlatCellsIsFoundInFewSteps)
 {
   Case problem;
   problem.mesh = meshes::tets(2, 2, 2);
   problem.mesh.points.col(0) *= 1e-9; // as flat as that
   turnAndShift(problem);
   Monitor monitor;
-  EXPECT_EQ(largestFactor(problem.mesh, problem.motion, {}, {}, monitor).factor, HUGE_VAL);
+  EXPECT_EQ(validRange(problem.mesh, problem.motion, {}, {}, monitor).highest, HUGE_VAL);
 
   problem.straight.col(1) = problem.mesh.points.col(2); // they shear too, and stay valid
-  const double factor = largestFactor(problem.mesh, problem.motion, {}, {}, monitor).factor;
+  const double factor = validRange(problem.mesh, problem.motion, {}, {}, monitor).highest;
   EXPECT_GE(factor, 0); // on the safe side
   EXPECT_LT(factor, 1);
 }
 
-TEST(LargestFactor, AsksWhetherToStop)
+TEST(CombinedRange, AsksWhetherToStop)
 {
   Case problem;
-  problem.mesh = meshes::hexes(10, 10, 10);
+  problem.mesh = meshes::hexes(20, 10, 10);
   turnAndShift(problem);
   meshes::WatchingMonitor monitor;
-  largestFactor(problem.mesh, problem.motion, {}, {}, monitor);
+  validRange(problem.mesh, problem.motion, {}, {}, monitor);
   EXPECT_GE(monitor.questions, 3);
   monitor.cancelAfter = monitor.questions + 2;
-  EXPECT_THROW(largestFactor(problem.mesh, problem.motion, {}, {}, monitor), Error);
+  EXPECT_THROW(validRange(problem.mesh, problem.motion, {}, {}, monitor), Error);
 }
