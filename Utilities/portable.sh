@@ -66,6 +66,37 @@ system() {
   esac
 }
 
+# Deals the test suites out to processes, and counts what became of the tests.
+run_tests() {
+  local program=build/portable/$1/$program logs=build/portable/$1/logs all suites filter i k
+  all=$("${run[@]}" "$program" --gtest_list_tests | tr -d '\r')
+  readarray -t suites < <(sed -n 's/^\([A-Za-z0-9_/]*\.\).*/\1/p' <<<"$all")
+  rm -rf "$logs"
+  mkdir "$logs"
+  for ((i = 0; i < 4 * jobs; ++i)); do
+    filter=
+    for ((k = i; k < ${#suites[@]}; k += 4 * jobs)); do filter+=":${suites[k]}*"; done
+    if [ "$i" -ge "$jobs" ]; then wait -n || true; fi
+    "${run[@]}" "$program" --gtest_filter="$filter-$(IFS=:; echo "${left_out[*]}")" \
+      >"$logs/$i" 2>&1 &
+  done
+  wait
+  for i in "${left_out[@]}"; do echo "$1: left out: $i"; done
+  cat "$logs"/* | tr -d '\r' |
+    awk -v name="$1" -v all="$(grep -c '^  ' <<<"$all")" -v left_out=${#left_out[@]} '
+      function end_of_process() { if (runs != "") print name ": ended early: " runs }
+      /^\[ RUN      \]/ { end_of_process(); runs = $4 }
+      /\[       OK \].* ms\)$/ { ++passed; runs = "" }
+      /\[  SKIPPED \].* ms\)$/ { ++skipped; runs = "" }
+      /\[  FAILED  \].* ms\)$/ { print name ": failed: " runs; runs = "" }
+      END {
+        end_of_process()
+        printf "%s: of %d tests, %d pass, %d skip themselves, %d are left out\n",
+          name, all, passed, skipped, left_out
+        exit passed + skipped + left_out != all
+      }'
+}
+
 failed=0
 for name in "${systems[@]}"; do
   system "$name"
@@ -91,10 +122,6 @@ for name in "${systems[@]}"; do
     continue
   fi
   echo "$name: all are compiled"
-  filter="-$(IFS=:; echo "${left_out[*]}")"
-  "${run[@]}" "$build/$program" --gtest_filter="$filter" --gtest_brief=1 >"$build/tests.log" 2>&1 ||
-    failed=1
-  grep -aE 'tests? from|PASSED|FAILED' "$build/tests.log" | sed "s/^/$name: /" || failed=1
-  for test in "${left_out[@]}"; do echo "$name: left out: $test"; done
+  run_tests "$name" || failed=1
 done
 exit $failed

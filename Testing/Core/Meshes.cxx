@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Meshes.h"
 
+#include "InThreads.h"
+
 #include <array>
 #include <cmath>
 #include <cstdlib>
@@ -388,15 +390,6 @@ void ThreadedMonitor::parallelFor(
       body(r * grain, std::min(n, (r + 1) * grain));
     }
   };
-  std::vector<std::thread> crew;
-  for (int t = 1; t < std::min<Index>(this->threads, ranges); ++t)
-  {
-    crew.emplace_back(work, t);
-  }
-  work(0);
-  for (std::thread& member : crew)
-  {
-    member.join();
-  }
+  inThreads(static_cast<int>(std::min<Index>(this->threads, ranges)), work);
 }
 }

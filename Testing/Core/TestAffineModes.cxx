@@ -43,7 +43,7 @@ AffineFields fading(const Mesh& mesh, const NodePartition& partition)
   return fields;
 }
 
-Points targets(const Mesh& mesh, const NodePartition& partition, const AffineFields& fields,
+Points weightedTargets(const Mesh& mesh, const NodePartition& partition, const AffineFields& fields,
   const AffineMotion& motion)
 {
   return meshes::rows(mesh.points, partition.prescribed) + fields * motion.transpose();
@@ -68,7 +68,7 @@ TEST_P(AffineModesOf, GiveWhatEvaluateGives)
     for (int i = 0; i < 3; ++i)
     {
       const AffineMotion motion = randomMotion(random);
-      const Points to = targets(mesh, partition, fields, motion);
+      const Points to = weightedTargets(mesh, partition, fields, motion);
       Points direct, moved, again;
       method->evaluate(to, direct, monitor);
       modes.evaluate(*method, motion, to, moved, monitor);
@@ -113,7 +113,7 @@ TEST_P(AffineModesOf, AreTheAnswersToEachFieldInAnyUnit)
       modes.prepare(*method, fields, monitor);
       AffineMotion shift = AffineMotion::Zero();
       shift.col(0) << unit, -unit, unit; // the weight's answer alone
-      const Points to = targets(mesh, partition, fields, shift);
+      const Points to = weightedTargets(mesh, partition, fields, shift);
       Points direct, moved;
       method->evaluate(to, direct, monitor);
       modes.evaluate(*method, shift, to, moved, monitor);
@@ -153,7 +153,7 @@ TEST(AffineModes, RefuseFieldsAndPositionsOfAnotherBoundary)
   AffineModes modes;
   AffineFields fields = fading(mesh, partition);
   const AffineMotion motion = AffineMotion::Ones();
-  const Points to = targets(mesh, partition, fields, motion);
+  const Points to = weightedTargets(mesh, partition, fields, motion);
   Points moved;
   std::string message;
   motions::kindOf([&] { modes.evaluate(*method, motion, to, moved, monitor); }, message);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Several threads with one prepared object; for the linear methods see TestLinearMorphers.cxx.
+#include "InThreads.h"
 #include "LinearMethods/FemWarp.h"
 #include "Meshes.h"
 #include "Motions.h"
@@ -11,7 +12,6 @@
 #include <atomic>
 #include <functional>
 #include <memory>
-#include <thread>
 #include <vector>
 
 using namespace morph;
@@ -42,22 +42,14 @@ void expectSameBits(Morpher& method, const Motion& motion = twisted)
   }
   method.prepare(mesh, partition, monitor);
   std::atomic<int> different{ 0 };
-  std::vector<std::thread> threads;
-  for (int t = 0; t < Threads; ++t)
-  {
-    threads.emplace_back(
-      [&, t]
-      {
-        Monitor own;
-        Points moved;
-        method.evaluate(target[t], moved, own);
-        different += !motions::identical(moved, expected[t]);
-      });
-  }
-  for (std::thread& thread : threads)
-  {
-    thread.join();
-  }
+  meshes::inThreads(Threads,
+    [&](int t)
+    {
+      Monitor own;
+      Points moved;
+      method.evaluate(target[t], moved, own);
+      different += !motions::identical(moved, expected[t]);
+    });
   EXPECT_EQ(different, 0);
 }
 }

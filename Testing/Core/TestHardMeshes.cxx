@@ -18,7 +18,7 @@ using namespace morph;
 
 namespace
 {
-Eigen::RowVector3d affine(const Eigen::RowVector3d& x)
+Eigen::RowVector3d sheared(const Eigen::RowVector3d& x)
 {
   return { 1.1 * x[0] + .3 * x[1], 1.4 * x[1] - .1 * x[2], .9 * x[2] + .2 * x[0] };
 }
@@ -118,9 +118,9 @@ TEST(HardMeshes, CollapsedHexahedraAreWedges)
     boundaryFaces(collapsed, silent).cells.size(), boundaryFaces(wedges, silent).cells.size());
 
   meshes::ThreadedMonitor monitor;
-  const Outcome result = morphOuter(collapsed, affine, monitor);
+  const Outcome result = morphOuter(collapsed, sheared, monitor);
   Mesh expected = collapsed;
-  meshes::transform(expected, affine);
+  meshes::transform(expected, sheared);
   EXPECT_LT(
     (result.moved - expected.points).cwiseAbs().maxCoeff(), 1e-10 * meshes::size(collapsed.points));
   EXPECT_TRUE(monitor.warnings.empty());
@@ -161,9 +161,9 @@ TEST(HardMeshes, FarFromTheOriginAffineMotionsKeepTheirDigits)
     meshes::jitterInterior(mesh, .1, meshes::seed());
     mesh.points.rowwise() += Eigen::RowVector3d(1e6, -2e6, 3e6);
     meshes::ThreadedMonitor monitor;
-    const Outcome result = morphOuter(mesh, affine, monitor);
+    const Outcome result = morphOuter(mesh, sheared, monitor);
     Mesh expected = mesh;
-    meshes::transform(expected, affine);
+    meshes::transform(expected, sheared);
     // The coordinates themselves are rounded to 5e-10.
     EXPECT_LT((result.moved - expected.points).cwiseAbs().maxCoeff(), 1e-7) << name;
     EXPECT_TRUE(monitor.warnings.empty()) << name;

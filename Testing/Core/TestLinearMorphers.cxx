@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What every method with free = M prescribed has to do, for each of them.
+#include "InThreads.h"
 #include "LinearMethods.h"
 #include "Meshes.h"
 #include "Motions.h"
@@ -12,7 +13,6 @@
 #include <cmath>
 #include <limits>
 #include <random>
-#include <thread>
 
 using namespace morph;
 using motions::affine;
@@ -294,27 +294,19 @@ TEST_P(LinearMorphers, SeveralThreadsMayEvaluateAtOnce)
   }
   // As prepared before: what the first calls leave behind is not there yet.
   method->prepare(mesh, partition, monitor);
-  std::vector<std::thread> threads;
   std::atomic<int> different{ 0 };
-  for (int t = 0; t < Threads; ++t)
-  {
-    threads.emplace_back(
-      [&, t]
+  meshes::inThreads(Threads,
+    [&](int t)
+    {
+      meshes::ThreadedMonitor own(2);
+      for (int round = 0; round < Rounds; ++round)
       {
-        meshes::ThreadedMonitor own(2);
-        for (int round = 0; round < Rounds; ++round)
-        {
-          Points moved, adjoint;
-          method->evaluate(target[t], moved, own);
-          method->applyTranspose(gradient[t], adjoint, own);
-          different += !identical(moved, expected[t]) + !identical(adjoint, expectedAdjoint[t]);
-        }
-      });
-  }
-  for (std::thread& thread : threads)
-  {
-    thread.join();
-  }
+        Points moved, adjoint;
+        method->evaluate(target[t], moved, own);
+        method->applyTranspose(gradient[t], adjoint, own);
+        different += !identical(moved, expected[t]) + !identical(adjoint, expectedAdjoint[t]);
+      }
+    });
   EXPECT_EQ(different, 0);
 }
 

@@ -28,7 +28,7 @@ std::vector<std::int32_t> byAllDistances(const Points& nodes, const Eigen::RowVe
   const Eigen::VectorXd distances = (nodes.rowwise() - x).rowwise().norm();
   std::vector<double> sorted(distances.data(), distances.data() + distances.size());
   std::sort(sorted.begin(), sorted.end());
-  const double most = (1 + 1e-9) * sorted[std::min(k, nodes.rows()) - 1] +
+  const double most = (1 + 1e-9) * sorted[std::min<Index>(k, nodes.rows()) - 1] +
                       4 * std::numeric_limits<double>::epsilon() * nodes.cwiseAbs().maxCoeff();
   std::vector<std::int32_t> result;
   for (Index i = 0; i < nodes.rows(); ++i)

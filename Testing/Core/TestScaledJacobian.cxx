@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "InThreads.h"
 #include "Mesh/CellShape.h"
 #include "Meshes.h"
 #include "Quality/ScaledJacobian.h"
@@ -12,7 +13,6 @@
 #include <cmath>
 #include <limits>
 #include <random>
-#include <thread>
 #include <utility>
 #include <vector>
 
@@ -442,17 +442,13 @@ public:
   void parallelFor(
     Index n, Index, const std::function<void(Index first, Index last)>& body) override
   {
-    std::vector<std::thread> threads;
-    for (Index last = n; last > 0;)
+    std::vector<Index> ends{ n };
+    while (ends.back() > 0)
     {
-      const Index first = std::max<Index>(0, last - 1 - last / 3);
-      threads.emplace_back(body, first, last);
-      last = first;
+      ends.push_back(std::max<Index>(0, ends.back() - 1 - ends.back() / 3));
     }
-    for (std::thread& thread : threads)
-    {
-      thread.join();
-    }
+    meshes::inThreads(
+      static_cast<int>(ends.size()) - 1, [&](int t) { body(ends[t + 1], ends[t]); });
   }
 };
 

@@ -231,7 +231,7 @@ TEST(SurfaceResidual, AgreesWithTheEquationsWrittenOut)
         near.emplace_back((s.prescribed.row(k) - s.points.row(i)).squaredNorm(), k);
       }
       std::sort(near.begin(), near.end());
-      const Index last = std::min(neighbors, s.prescribed.rows());
+      const Index last = std::min<Index>(neighbors, s.prescribed.rows());
       if (last < s.prescribed.rows() && near[last].first - near[last - 1].first < 1e-12)
       {
         continue; // a tie that rounding decides

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Support/UnionFind.h"
 
+#include "InThreads.h"
 #include "Meshes.h"
 
 #include <gtest/gtest.h>
@@ -8,7 +9,6 @@
 #include <algorithm>
 #include <numeric>
 #include <random>
-#include <thread>
 #include <utility>
 #include <vector>
 
@@ -86,28 +86,20 @@ TEST(UnionFind, ThreadsMayJoinAtOnce)
   for (const int threads : { 2, 5 })
   {
     UnionFind<int> sets(Numbers);
-    std::vector<std::thread> crew;
-    for (int t = 0; t < threads; ++t)
-    {
-      crew.emplace_back(
-        [&sets, t, threads]
+    meshes::inThreads(threads,
+      [&](int t)
+      {
+        std::vector<int> mine;
+        for (int i = Sets + t; i < Numbers; i += threads)
         {
-          std::vector<int> mine;
-          for (int i = Sets + t; i < Numbers; i += threads)
-          {
-            mine.push_back(i);
-          }
-          std::shuffle(mine.begin(), mine.end(), std::mt19937(meshes::seed() + t));
-          for (const int i : mine)
-          {
-            sets.join(i, i - Sets);
-          }
-        });
-    }
-    for (std::thread& thread : crew)
-    {
-      thread.join();
-    }
+          mine.push_back(i);
+        }
+        std::shuffle(mine.begin(), mine.end(), std::mt19937(meshes::seed() + t));
+        for (const int i : mine)
+        {
+          sets.join(i, i - Sets);
+        }
+      });
     for (int i = 0; i < Numbers; ++i)
     {
       ASSERT_EQ(sets.root(i), i % Sets) << threads << " threads";

@@ -106,7 +106,7 @@ Eigen::RowVector3d byTheBook(
     near.emplace_back((rest.row(k) - x).squaredNorm(), k);
   }
   std::sort(near.begin(), near.end());
-  near.resize(std::min(neighbors, rest.rows()));
+  near.resize(std::min<Index>(neighbors, rest.rows()));
   double sum = 0;
   Eigen::RowVector3d result = Eigen::RowVector3d::Zero();
   for (const auto& [square, k] : near)

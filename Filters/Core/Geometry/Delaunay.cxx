@@ -6,8 +6,10 @@
 
 #include <CGAL/Delaunay_triangulation_3.h>
 #include <CGAL/Delaunay_triangulation_cell_base_3.h>
-#include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/MP_Float.h>
+#include <CGAL/Quotient.h>
+#include <CGAL/Simple_cartesian.h>
 #include <CGAL/Spatial_sort_traits_adapter_3.h>
 #include <CGAL/Triangulation_cell_base_with_info_3.h>
 #include <CGAL/Triangulation_data_structure_3.h>
@@ -125,11 +127,12 @@ bool isBeyond(const Eigen::RowVector3d& a, const Eigen::RowVector3d& b, const Ei
   return determinant > 1e-15 * absolute;
 }
 
-/// Computes a circumcentre in rational arithmetic: for a flat tetrahedron it is a quotient of two
-/// differences that nearly cancel.
+/// Computes a circumcentre in exact arithmetic: for a flat tetrahedron it is a quotient of two
+/// differences that nearly cancel. Quotients of long floats need no common divisors, and become
+/// doubles whatever their size.
 Eigen::RowVector3d exactCircumcentre(const Points& sites, const std::array<int, 4>& corners)
 {
-  using Exact = CGAL::Exact_predicates_exact_constructions_kernel::Exact_kernel;
+  using Exact = CGAL::Simple_cartesian<CGAL::Quotient<CGAL::MP_Float>>;
   Exact::Point_3 p[4];
   for (int k = 0; k < 4; ++k)
   {

@@ -101,7 +101,7 @@ std::vector<double> inBlocks(const Points& targets, Index blocks)
   std::vector<double> result(3 * Lanes * blocks);
   for (Index i = 0; i < blocks * Lanes; ++i)
   {
-    const Index target = std::min(i, targets.rows() - 1);
+    const Index target = std::min<Index>(i, targets.rows() - 1);
     for (int j = 0; j < 3; ++j)
     {
       result[3 * Lanes * (i / Lanes) + Lanes * j + i % Lanes] = targets(target, j);
