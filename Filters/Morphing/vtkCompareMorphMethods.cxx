@@ -138,8 +138,8 @@ std::vector<std::pair<std::string, double>> measureCriteria(
     {
       vtkDataArray* array = found->GetArray((std::string("Criterion") + column).c_str());
       const auto row = static_cast<vtkIdType>(result.size() / 4);
-      result.emplace_back(criterion.Criterion->name + std::string(column),
-        array ? array->GetComponent(row, 0) : vtkMath::Nan());
+      result.emplace_back(
+        criterion.Label + column, array ? array->GetComponent(row, 0) : vtkMath::Nan());
     }
   }
   return result;

@@ -132,12 +132,16 @@ public:
    * | FacePyramid | volume, the smallest pyramid of a face and the cell's centre | 0 |
    * | FirstHeight | mean distance of the other corners from a face on the boundary | 0 |
    *
+   * "FirstHeight:BLADE" takes the faces of one surface. Their corners are marked by the point array
+   * BLADE, or the surface's two-dimensional cells by the cell array BLADE, with values that are not
+   * 0.
+   *
    * Cells are beyond the limit above it; for JacobianRatio, FacePyramid and FirstHeight at it or
-   * below. Each criterion adds a cell array of its name, NaN where the cell has none. The field
-   * data Criterion, CriterionLimit, CriterionWorst, CriterionWorstCellId and CriterionCellsBeyond
-   * have a row for each. Quadratic cells are measured by their corners. The last four are of volume
-   * cells alone; with pieces on several MPI ranks they take the cells across. A name or a limit
-   * that is not valid is an error.
+   * below. Each criterion adds a cell array of its name, as given, NaN where the cell has none. The
+   * field data Criterion, CriterionLimit, CriterionWorst, CriterionWorstCellId and
+   * CriterionCellsBeyond have a row for each. Quadratic cells are measured by their corners. The
+   * last four are of volume cells alone; with pieces on several MPI ranks they take the cells
+   * across. A name or a limit that is not valid is an error.
    */
   void SetCriteria(const char* text);
   const char* GetCriteria() const { return this->Criteria.c_str(); }

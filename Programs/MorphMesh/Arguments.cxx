@@ -351,7 +351,7 @@ std::vector<Option> optionsOf(Arguments& result)
     { "--criteria", "<name>[=<limit>],...",
       "also report these, with the worst cell and how many are beyond the limit, before and after: "
       "AspectRatio,\nSkewness, Warpage, JacobianRatio, Taper, NonOrthogonality, FaceSkewness, "
-      "FacePyramid, FirstHeight",
+      "FacePyramid, FirstHeight;\nFirstHeight:BLADE is that of a surface that the file names",
       text(result.criteria) },
     { "--require-valid", nullptr, "exit status 3 if the motion inverts or collapses a cell",
       flag(result.requireValid) },

@@ -251,6 +251,21 @@ TEST(ScaledJacobianFilter, CriteriaOfTwoShearedCubes)
     EXPECT_EQ(found->GetArray("CriterionWorstCellId")->GetTuple1(i), 0) << i;
   }
 
+  // A wall that an array marks: the bottom, which the upper cell does not have.
+  vtkNew<vtkDoubleArray> wall;
+  wall->SetName("Bottom wall");
+  for (vtkIdType i = 0; i < grid->GetNumberOfPoints(); ++i)
+  {
+    wall->InsertNextValue(grid->GetPoint(i)[2] == 0 ? 1 : 0);
+  }
+  grid->GetPointData()->AddArray(wall);
+  filter->SetCriteria("FirstHeight:Bottom wall=1.5");
+  filter->Update();
+  vtkDataArray* height = filter->GetOutput()->GetCellData()->GetArray("FirstHeight:Bottom wall");
+  EXPECT_NEAR(height->GetTuple1(0), 1, 1e-12);
+  EXPECT_TRUE(std::isnan(height->GetTuple1(1)));
+  EXPECT_EQ(filter->GetOutput()->GetFieldData()->GetArray("CriterionCellsBeyond")->GetTuple1(0), 1);
+
   // Off again, neither the arrays of the input stay nor those of a user go.
   vtkNew<vtkUnstructuredGrid> measured;
   measured->ShallowCopy(filter->GetOutput());
@@ -270,7 +285,8 @@ TEST(ScaledJacobianFilter, RefusesCriteriaThatThereAreNot)
 {
   auto grid = emptyGrid();
   add(grid, VTK_HEXAHEDRON, Cube);
-  for (const char* text : { "Orthogonality", "Taper=", "Taper=much", "=3", "Taper,,Warpage" })
+  for (const char* text : { "Orthogonality", "Taper=", "Taper=much", "=3", "Taper,,Warpage",
+         "Taper:Wall", "FirstHeight:", "FirstHeight:Wall" })
   {
     vtkNew<vtkScaledJacobian> filter;
     filter->SetInputData(grid);
@@ -278,7 +294,9 @@ TEST(ScaledJacobianFilter, RefusesCriteriaThatThereAreNot)
     filter->SetCriteria(text);
     filter->Update();
     EXPECT_EQ(errors.Count, 1) << text;
-    EXPECT_NE(errors.Text.find("There are AspectRatio, "), std::string::npos) << errors.Text;
+    const bool lacksArray = std::string(text) == "FirstHeight:Wall";
+    const char* wayOut = lacksArray ? "no point or cell array 'Wall'" : "There are AspectRatio, ";
+    EXPECT_NE(errors.Text.find(wayOut), std::string::npos) << errors.Text;
     EXPECT_EQ(filter->GetInvertedCells(), -1);
   }
 }

@@ -28,6 +28,7 @@ struct Face
   std::vector<Vector> x;
   Vector center, area;
   Index neighbor = -1; ///< the cell behind it; -1: none
+  bool isWall = true;  ///< its corners are nodes of the walls
 
   const Vector& at(std::size_t k) const { return this->x[k % this->x.size()]; }
 };
@@ -68,12 +69,14 @@ void setCenterAndArea(Face& face)
 class CellGeometry
 {
 public:
-  /// `hasNeighbors`: whether faces know the cells behind them.
+  /// `isWall`: #nodes, or empty for all; `hasNeighbors`: whether faces know the cells behind them.
   CellGeometry(const Mesh& mesh, const ConstPoints& points,
-    const std::vector<std::int8_t>& orientation, bool hasNeighbors, Monitor& monitor)
+    const std::vector<std::int8_t>& orientation, const std::vector<std::uint8_t>& isWall,
+    bool hasNeighbors, Monitor& monitor)
     : mesh_(mesh)
     , points_(points)
     , orientation_(orientation)
+    , isWall_(isWall)
   {
     if (!hasNeighbors)
     {
@@ -113,25 +116,17 @@ public:
   {
     return this->orientation_.empty() ? 1 : this->orientation_[cell];
   }
-  std::vector<Vector> corners(Index cell) const
-  {
-    const CellShape& shape = *this->shape(cell);
-    std::vector<Vector> x;
-    for (Index k = 0; k < cornerCount(this->mesh_, cell, shape); ++k)
-    {
-      x.push_back(this->at(
-        this->mesh_.cell(cell)[shape.shape == Shape::Polyhedron ? k : shape.cornerNode[k]]));
-    }
-    return x;
-  }
+  std::vector<Vector> corners(Index cell) const { return this->at(this->cornerNodes(cell)); }
 
   std::vector<Face> faces(Index cell) const
   {
     const CellShape& shape = *this->shape(cell);
     std::vector<Face> result;
-    const auto add = [&](std::vector<Vector> x)
+    const auto add = [&](const std::vector<Index>& nodes)
     {
-      Face face{ std::move(x), {}, {} };
+      Face face{ this->at(nodes), {}, {} };
+      face.isWall = this->isWall_.empty() || std::all_of(nodes.begin(), nodes.end(),
+                                               [this](Index node) { return this->isWall_[node]; });
       if (shape.dimension == 3 && !this->neighbor_.empty())
       {
         face.neighbor = this->neighbor_[this->start_[cell] + static_cast<Index>(result.size())];
@@ -143,16 +138,10 @@ public:
     if (shape.shape == Shape::Polyhedron)
     {
       forEachFace(this->mesh_, cell,
-        [&](const Index* nodes, Index size)
-        {
-          std::vector<Vector> x;
-          std::transform(
-            nodes, nodes + size, std::back_inserter(x), [&](Index node) { return this->at(node); });
-          add(std::move(x));
-        });
+        [&](const Index* nodes, Index size) { add(std::vector<Index>(nodes, nodes + size)); });
       return result;
     }
-    const std::vector<Vector> corner = this->corners(cell);
+    const std::vector<Index> corner = this->cornerNodes(cell);
     if (shape.dimension == 2)
     {
       add(corner);
@@ -160,16 +149,34 @@ public:
     for (int f = 0; f < shape.numberOfFaces; ++f)
     {
       const FaceShape& face = shape.faces[f];
-      std::vector<Vector> x;
-      std::transform(face.corner, face.corner + face.size, std::back_inserter(x),
+      std::vector<Index> nodes;
+      std::transform(face.corner, face.corner + face.size, std::back_inserter(nodes),
         [&corner](int k) { return corner[k]; });
-      add(std::move(x));
+      add(nodes);
     }
     return result;
   }
 
 private:
-  Vector at(Index node) const { return this->points_.row(node).transpose(); }
+  std::vector<Index> cornerNodes(Index cell) const
+  {
+    const CellShape& shape = *this->shape(cell);
+    std::vector<Index> nodes;
+    for (Index k = 0; k < cornerCount(this->mesh_, cell, shape); ++k)
+    {
+      nodes.push_back(
+        this->mesh_.cell(cell)[shape.shape == Shape::Polyhedron ? k : shape.cornerNode[k]]);
+    }
+    return nodes;
+  }
+
+  std::vector<Vector> at(const std::vector<Index>& nodes) const
+  {
+    std::vector<Vector> x;
+    std::transform(nodes.begin(), nodes.end(), std::back_inserter(x),
+      [this](Index node) -> Vector { return this->points_.row(node).transpose(); });
+    return x;
+  }
 
   /// As OpenFOAM has it (primitiveMeshCellCentresAndVols.C).
   static Vector centerOf(const std::vector<Face>& faces)
@@ -192,6 +199,7 @@ private:
   const Mesh& mesh_;
   const ConstPoints& points_;
   const std::vector<std::int8_t>& orientation_;
+  const std::vector<std::uint8_t>& isWall_;
   std::vector<Index> start_, neighbor_; ///< as of FaceTable
   std::vector<Vector> centers_;
 };
@@ -334,7 +342,8 @@ double firstHeight(const CellGeometry& geometry, Index cell)
         const bool isOn = std::find(face.x.begin(), face.x.end(), corner) != face.x.end();
         sum += isOn ? 0 : direction(face.area).dot(corner - face.center);
       }
-      return face.neighbor < 0 ? sum / static_cast<double>(x.size() - face.x.size()) : NaN;
+      return face.neighbor < 0 && face.isWall ? sum / static_cast<double>(x.size() - face.x.size())
+                                              : NaN;
     });
 }
 }
@@ -357,7 +366,7 @@ const std::vector<Criterion>& criteria()
 
 std::vector<double> measureCriterion(const Criterion& criterion, const Mesh& mesh,
   const ConstPoints& points, const std::vector<std::int8_t>& orientation,
-  const std::vector<std::uint8_t>& skip, Monitor& monitor)
+  const std::vector<std::uint8_t>& skip, const std::vector<std::uint8_t>& isWall, Monitor& monitor)
 {
   constexpr Index Batch = 16384, Grain = 256;
   std::vector<double> values(mesh.numberOfCells(), NaN);
@@ -368,7 +377,7 @@ std::vector<double> measureCriterion(const Criterion& criterion, const Mesh& mes
   const bool ofVolumes = criterion.measure == nonOrthogonality ||
                          criterion.measure == faceSkewness || criterion.measure == facePyramid ||
                          criterion.measure == firstHeight;
-  const CellGeometry geometry(mesh, points, orientation, ofVolumes, monitor);
+  const CellGeometry geometry(mesh, points, orientation, isWall, ofVolumes, monitor);
   parallelBatches(monitor, mesh.numberOfCells(), Batch, Grain,
     [&](Index first, Index last)
     {

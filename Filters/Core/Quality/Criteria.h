@@ -41,7 +41,8 @@ struct Criterion
 ///                   its length and the face's extent along that distance; on the boundary the line
 ///                   is the normal through the cell's centre, and 0.4 of it counts
 ///   FacePyramid     volume of the pyramid of a face and the cell's centre, the minimum
-///   FirstHeight     mean distance of a cell's other corners from a boundary face, the minimum
+///   FirstHeight     mean distance of a cell's other corners from a boundary face of the walls, the
+///                   minimum
 ///
 /// The first five have the conventions of Verdict (Sandia report SAND2007-1751), applied to the
 /// faces of any cell; the next three are OpenFOAM's, with its centres (PolyhedronQuality.h). A cell
@@ -49,9 +50,10 @@ struct Criterion
 const std::vector<Criterion>& criteria();
 
 /// Returns a value for each cell, NaN where `skip` (#cells) is not zero. `points`: #nodes x 3;
-/// `orientation`: #cells of +1 / -1 (Topology.h). Cells that are skipped are neighbors still. Cost:
+/// `orientation`: #cells of +1 / -1 (Topology.h). Cells that are skipped are neighbors still.
+/// `isWall`: #nodes, not 0 at the corners of the walls; empty: the whole boundary is wall. Cost:
 /// about a microsecond a face, and for the last four a table of faces.
 std::vector<double> measureCriterion(const Criterion& criterion, const Mesh& mesh,
   const ConstPoints& points, const std::vector<std::int8_t>& orientation,
-  const std::vector<std::uint8_t>& skip, Monitor& monitor);
+  const std::vector<std::uint8_t>& skip, const std::vector<std::uint8_t>& isWall, Monitor& monitor);
 }

@@ -361,12 +361,21 @@ private:
   template <typename Act>
   void forEachCoefficient(const Act& act)
   {
+    // In units of the factor in which the cell moves by its size: a slow motion changes the values
+    // by no more than rounding.
+    double size = 0, speed = 0;
+    for (const Pair& x : this->now_)
+    {
+      size = std::max(size, (x.col(0) - this->now_[0].col(0)).norm());
+      speed = std::max(speed, (x.col(1) - this->now_[0].col(1)).norm());
+    }
+    const double unit = speed > 1e-90 * size ? size / speed : 1;
     constexpr double At[4] = { 0, -1, 1, 2 };
     BernsteinHalving::Coefficients values[4];
     for (int k = 0; k < 4; ++k)
     {
       values[k].fill(0);
-      this->map_->determinant(this->derivatives(this->now_, { 1, At[k] }), 0, values[k]);
+      this->map_->determinant(this->derivatives(this->now_, { 1, unit * At[k] }), 0, values[k]);
     }
     Polynomial least = {};
     if (!this->bends_.empty())
@@ -383,7 +392,8 @@ private:
                    after = this->sign_ * values[2][term], second = this->sign_ * values[3][term];
       const double even = (after + before) / 2 - v, odd = (after - before) / 2;
       const double cubed = (second - v - 4 * even - 2 * odd) / 6;
-      act({ v, odd - cubed, even, cubed }, least, false);
+      act({ v, (odd - cubed) / unit, even / (unit * unit), cubed / (unit * unit * unit) }, least,
+        false);
     }
   }
 

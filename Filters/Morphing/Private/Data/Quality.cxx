@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Private/Data/Quality.h"
 
+#include "Mesh/CellShape.h"
 #include "Private/Data/GridMesh.h"
 #include "Quality/ScaledJacobian.h"
 #include "Support/Error.h"
@@ -76,6 +77,42 @@ void takeVerdict(const char* criterion, vtkUnstructuredGrid* grid, std::vector<d
       values[c] = found->GetComponent(c, 0);
     }
   }
+}
+
+/// Marks the nodes of the walls, as the arrays of named sets do: the point array of that name, or
+/// the cell array on two-dimensional cells. Empty where all boundary is wall.
+std::vector<std::uint8_t> wallNodes(
+  const std::string& name, const morph::Mesh& mesh, vtkUnstructuredGrid* grid)
+{
+  std::vector<std::uint8_t> isWall;
+  if (name.empty())
+  {
+    return isWall;
+  }
+  isWall.resize(mesh.numberOfNodes(), 0);
+  if (vtkDataArray* marks = grid->GetPointData()->GetArray(name.c_str()))
+  {
+    for (vtkIdType i = 0; i < marks->GetNumberOfTuples(); ++i)
+    {
+      isWall[i] = marks->GetComponent(i, 0) != 0;
+    }
+    return isWall;
+  }
+  vtkDataArray* marks = grid->GetCellData()->GetArray(name.c_str());
+  if (!marks)
+  {
+    throw morph::Error("FirstHeight:" + name + ": the mesh has no point or cell array '" + name +
+                       "' that marks a surface.");
+  }
+  for (vtkIdType c = 0; c < marks->GetNumberOfTuples(); ++c)
+  {
+    const morph::CellShape* shape = morph::cellShape(mesh, c);
+    for (morph::Index i = 0; shape && shape->dimension == 2 && i < mesh.cellSize(c); ++i)
+    {
+      isWall[mesh.cell(c)[i]] |= marks->GetComponent(c, 0) != 0;
+    }
+  }
+  return isWall;
 }
 
 template <typename Array, typename Value>
@@ -220,16 +257,21 @@ std::vector<OfCriterion> ReadCriteria(const std::string& text)
   std::istringstream parts(text);
   for (std::string part; std::getline(parts, part, ',');)
   {
-    const auto isSpace = [](char c) { return c == ' '; };
-    part.erase(std::remove_if(part.begin(), part.end(), isSpace), part.end());
-    const std::string name = part.substr(0, part.find('='));
-    const std::string limit = name == part ? "" : part.substr(name.size() + 1);
+    // A name of walls may have spaces inside.
+    const std::size_t begin = part.find_first_not_of(' ');
+    part =
+      begin == std::string::npos ? "" : part.substr(begin, part.find_last_not_of(' ') + 1 - begin);
+    const std::string label = part.substr(0, part.find('='));
+    const std::string limit = label == part ? "" : part.substr(label.size() + 1);
+    const std::string name = label.substr(0, label.find(':'));
+    const std::string walls = name == label ? "" : label.substr(name.size() + 1);
     const auto& all = morph::criteria();
     const auto found = std::find_if(
       all.begin(), all.end(), [&](const morph::Criterion& one) { return one.name == name; });
     char* end = nullptr;
     const double number = std::strtod(limit.c_str(), &end);
-    if (found == all.end() || *end != '\0' || (name != part && limit.empty()))
+    if (found == all.end() || *end != '\0' || (label != part && limit.empty()) ||
+        (name != label && (walls.empty() || name != "FirstHeight")))
     {
       std::string names;
       for (const morph::Criterion& one : all)
@@ -238,10 +280,11 @@ std::vector<OfCriterion> ReadCriteria(const std::string& text)
       }
       throw morph::Error("'" + part +
                          "' is not a criterion, or a criterion with a limit like "
-                         "NonOrthogonality=70. There are " +
+                         "NonOrthogonality=70, or FirstHeight with the name of a surface like "
+                         "FirstHeight:BLADE=1e-5. There are " +
                          names + ".");
     }
-    result.push_back({ &*found, limit.empty() ? found->limit : number });
+    result.push_back({ &*found, limit.empty() ? found->limit : number, label, walls });
   }
   return result;
 }
@@ -253,11 +296,11 @@ void Measure(OfCriterion& criterion, const morph::Mesh& mesh, vtkUnstructuredGri
   skip.resize(mesh.numberOfCells(), 0);
   skipGhosts(mesh, output, skip);
   const morph::Criterion& measure = *criterion.Criterion;
-  std::vector<double> values =
-    morph::measureCriterion(measure, mesh, mesh.points, orientation, skip, monitor);
+  std::vector<double> values = morph::measureCriterion(measure, mesh, mesh.points, orientation,
+    skip, wallNodes(criterion.Walls, mesh, output), monitor);
   takeVerdict(measure.name, output, values);
   vtkNew<vtkDoubleArray> array;
-  array->SetName(measure.name);
+  array->SetName(criterion.Label.c_str());
   for (vtkIdType c = 0; c < output->GetNumberOfCells(); ++c)
   {
     const double value = skip[c] ? std::numeric_limits<double>::quiet_NaN() : values[c];
@@ -285,7 +328,7 @@ void Write(const std::vector<OfCriterion>& criteria, vtkUnstructuredGrid* output
     return;
   }
   addColumn<vtkStringArray>(
-    output, "Criterion", criteria, [](const OfCriterion& row) { return row.Criterion->name; });
+    output, "Criterion", criteria, [](const OfCriterion& row) { return row.Label; });
   addColumn<vtkDoubleArray>(
     output, "CriterionLimit", criteria, [](const OfCriterion& row) { return row.Limit; });
   addColumn<vtkDoubleArray>(

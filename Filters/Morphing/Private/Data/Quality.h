@@ -77,6 +77,8 @@ struct OfCriterion
 {
   const morph::Criterion* Criterion;
   double Limit;
+  std::string Label; ///< the name, with the walls if they are given
+  std::string Walls; ///< the name of an array that marks them; empty: the whole boundary
   double Worst = std::numeric_limits<double>::quiet_NaN();
   morph::Index WorstCell = -1; ///< the lowest id of the cells at it
   morph::Index Beyond = 0;     ///< cells beyond the limit
@@ -85,12 +87,13 @@ struct OfCriterion
   double Sign() const { return this->Criterion->isAtMost ? 1 : -1; }
 };
 
-/// Reads "NonOrthogonality=70, AspectRatio". Without a number the limit is the usual one. Throws
-/// morph::Error.
+/// Reads "NonOrthogonality=70, AspectRatio, FirstHeight:BLADE". Without a number the limit is the
+/// usual one. Throws morph::Error.
 std::vector<OfCriterion> ReadCriteria(const std::string& text);
 
-/// Measures the leading cells, those of `output`, and adds a cell array of the criterion's name.
-/// `mesh`: has ghosts behind these, or none; `skip`: #cells; `cellIds`: #cells, or empty.
+/// Measures the leading cells, those of `output`, and adds a cell array of the criterion's label.
+/// `mesh`: has ghosts behind these, or none; `skip`: #cells; `cellIds`: #cells, or empty. Throws
+/// morph::Error where there is no array of the walls' name.
 void Measure(OfCriterion& criterion, const morph::Mesh& mesh, vtkUnstructuredGrid* output,
   const std::vector<std::int8_t>& orientation, std::vector<std::uint8_t> skip,
   const std::vector<std::int64_t>& cellIds, morph::Monitor& monitor);
