@@ -11,7 +11,6 @@ namespace morph
 {
 namespace
 {
-constexpr double NearShare = 0.2; // of the squared distance: sqrt(5) times the nearest distance
 constexpr float LeastDiagonal = 0.25f; // of a filtered row, in units of the matrix's own
 
 double distance2(const Points& points, Index i, Index j)
@@ -24,7 +23,7 @@ double distance2(const Points& points, Index i, Index j)
 }
 
 std::vector<std::uint8_t> nearNeighbors(
-  const CsrRows<float>& A, const Points& coordinates, Monitor& monitor)
+  const CsrRows<float>& A, const Points& coordinates, double share, Monitor& monitor)
 {
   std::vector<std::uint8_t> near(A.entries());
   parallel(A.rows, monitor,
@@ -40,7 +39,7 @@ std::vector<std::uint8_t> nearNeighbors(
       for (int k = A.start[i]; k < A.start[i + 1]; ++k)
       {
         const double distance = distanceTo(k);
-        near[k] = distance < HUGE_VAL && distance * NearShare <= nearest;
+        near[k] = distance < HUGE_VAL && distance * share <= nearest;
       }
     });
   return near;

@@ -10,13 +10,13 @@
 
 namespace morph
 {
-/// Returns for each entry of A whether its column is a near neighbor of its row. Near means within
-/// sqrt(5) times the distance of the nearest one. `coordinates`: #rows x 3.
+/// Returns for each entry of A whether its column is a near neighbor of its row. Near means that
+/// `share` of its squared distance is not beyond that of the nearest one. `coordinates`: #rows x 3.
 ///
 /// Nearness replaces the size of the entries: a trilinear hexahedron has no entry between nodes
 /// that share an edge, and stretched cells must coarsen along their short side first.
 std::vector<std::uint8_t> nearNeighbors(
-  const CsrRows<float>& A, const Points& coordinates, Monitor& monitor);
+  const CsrRows<float>& A, const Points& coordinates, double share, Monitor& monitor);
 
 /// Groups the rows of A into aggregates of near neighbors. `near`: #entries, see nearNeighbors().
 /// `group` becomes the aggregate of each row. Returns their number. Cost: three serial passes.

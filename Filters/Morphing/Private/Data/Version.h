@@ -3,6 +3,7 @@
 
 #include <vtkAlgorithm.h>
 #include <vtkCellArray.h>
+#include <vtkGenericCell.h>
 #include <vtkIdList.h>
 #include <vtkIdTypeArray.h>
 #include <vtkNew.h>
@@ -60,6 +61,18 @@ inline const char* CellClass(int type)
   return vtkCellTypeUtilities::GetClassNameFromTypeId(type);
 #else
   return vtkCellTypes::GetClassNameFromTypeId(type);
+#endif
+}
+
+/// Finds the cells that a line from `a` to `b` meets, and perhaps others near it.
+template <typename Locator>
+void FindCellsAlongLine(Locator& locator, const double* a, const double* b, double tolerance,
+  vtkIdList* cells, [[maybe_unused]] vtkGenericCell* work)
+{
+#if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 2, 0)
+  locator.IntersectWithLine(a, b, tolerance, nullptr, cells, work);
+#else
+  locator.FindCellsAlongLine(a, b, tolerance, cells);
 #endif
 }
 

@@ -3,6 +3,7 @@
 
 #include "Private/Data/GridMesh.h"
 #include "Private/Data/Precision.h"
+#include "Private/Data/Version.h"
 #include "Support/Error.h"
 
 #include <vtkCellArray.h>
@@ -447,7 +448,7 @@ public:
     const Row from = x + inside - radius * direction, to = x + inside + radius * direction;
     vtkNew<vtkIdList> near;
     vtkNew<vtkGenericCell> cell;
-    this->Locator->IntersectWithLine(from.data(), to.data(), 4 * tolerance, nullptr, near, cell);
+    Version::FindCellsAlongLine(*this->Locator, from.data(), to.data(), 4 * tolerance, near, cell);
     near->Sort(); // of equally near triangles the first
     double least = radius;
     bool found = false;
@@ -462,9 +463,9 @@ public:
       }
       const double along = (this->Centers.row(triangle) - x).dot(triangleNormal) / across;
       const Row place = x + along * direction;
-      const bool isNear =
-        (place - this->Centers.row(triangle)).norm() <= this->Radii[triangle] + 4 * tolerance;
-      if (isNear && (std::abs(along) < least || (!found && std::abs(along) <= least)))
+      // A place in a steep triangle is the farther off, the steeper it is.
+      if (this->IsInside(triangle, place, 4 * tolerance / std::abs(across), cell) &&
+          (std::abs(along) < least || (!found && std::abs(along) <= least)))
       {
         least = std::abs(along);
         y = place;
@@ -475,6 +476,27 @@ public:
   }
 
 private:
+  /// Whether a place in the triangle's plane is inside of it, or no farther than the tolerance.
+  bool IsInside(vtkIdType triangle, const Row& place, double tolerance, vtkGenericCell* cell) const
+  {
+    this->Data->GetCell(triangle, cell);
+    Row corner[3];
+    for (int k = 0; k < 3; ++k)
+    {
+      cell->GetPoints()->GetPoint(k, corner[k].data());
+    }
+    const Row normal = this->Normal(triangle);
+    for (int k = 0; k < 3; ++k)
+    {
+      const Row edge = corner[(k + 1) % 3] - corner[k];
+      if (edge.cross(place - corner[k]).dot(normal) < -tolerance * edge.norm())
+      {
+        return false;
+      }
+    }
+    return true;
+  }
+
   vtkNew<vtkPolyData> Data;
   vtkNew<vtkStaticCellLocator> Locator;
   vtkNew<vtkPolyData> CenterData;
