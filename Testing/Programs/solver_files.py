@@ -213,6 +213,39 @@ class SolverFiles(unittest.TestCase):
             self.refuse(f"names '{name}', which the boundary does not have", "--move", name,
                         "--translate", "0,0,0.1", path, self.folder / "out.inp")
 
+    CUBE = "*NODE\n" + "".join(f"{i + 1}, {i & 1}., {i >> 1 & 1}., {i >> 2}.\n"
+                               for i in range(8))
+
+    def test_planar_elements_beside_volumes_are_faces(self):
+        """Mesh generators name faces by types of planar models."""
+        path, out = self.folder / "m.inp", self.folder / "out.inp"
+        for kind in ("CPS4", "CPE4R", "CAX4", "CPEG4", "DC2D4", "S4R", "M3D4"):
+            with self.subTest(kind=kind):
+                path.write_text(self.CUBE + f"*ELEMENT, TYPE={kind}, ELSET=Lid\n1, 5, 6, 8, 7\n"
+                                "*ELEMENT, TYPE=T3D2, ELSET=Edge\n3, 1, 2\n"
+                                "*ELEMENT, TYPE=C3D8, ELSET=Solid\n2, 1, 2, 4, 3, 5, 6, 8, 7\n"
+                                "*ELSET, ELSET=top\n1\n")
+                listed = run("--list-surfaces", path)
+                self.assertRegex(listed.stdout, r"top +1 +1 +0.5, 0.5, 1\n", listed.stderr)
+                self.morph(path, out, "--move", "top", "--translate", "0,0,0.25")
+                self.assertEqual(out.read_text(), re.sub(r"(?m)^(\d, .\., .\.), 1\.$", r"\1, 1.25",
+                                                         path.read_text()))
+
+    def test_a_free_line_of_nastran_has_any_number_of_fields(self):
+        """Its tenth field is the name of the next line, unless more follow."""
+        corners = "".join(f"GRID,{i + 1},,{i & 1}.,{i >> 1 & 1}.,{i >> 2}.\n" for i in range(8))
+        middles = "".join(f"GRID*,{i},,.5,.5,*A\n*A,.5\n" for i in range(9, 21))
+        path, rest = self.folder / "m.bdf", ",".join(map(str, range(9, 21)))
+        for line, faces in ((f"7,3,1,2,4,3,5,6,8,7,{rest}\n", 30),  # a face of 8 nodes is drawn as 5
+                            ("8,3,1,2,4,3,5,6,+B\n+B,8,7\n", 6)):
+            path.write_text("BEGIN BULK\n" + corners + middles + "CHEXA," + line)
+            listed = run("--list-surfaces", path)
+            self.assertRegex(listed.stdout, f"PID 3 +{faces} ", listed.stderr)
+        for more in (1, 11):  # of an element of 8 nodes, or of 20: one is missing
+            path.write_text("BEGIN BULK\n" + corners + middles +
+                            f"CHEXA,7,3,1,2,4,3,5,6,8,7,{rest}"[:-3 * more] + "\n")
+            self.refuse(f"CHEXA 7 has {20 - more} nodes", "--list-surfaces", path)
+
     def test_nodes_are_chosen_by_the_numbers_of_the_file(self):
         for extension in (".inp", ".su2", ".msh"):
             with self.subTest(extension=extension):
@@ -331,7 +364,8 @@ class SolverFiles(unittest.TestCase):
             ("m.inp", nodes.replace("*NODE", "*NODE, SYSTEM=C") + brick,
              "line 1: .*coordinate sys"),
             ("m.inp", "*SYSTEM\n1,2,3,4,5,6\n" + nodes + brick, "line 1: .*coordinate system"),
-            ("m.inp", nodes + "*ELEMENT, TYPE=CPE4\n1, 1, 2, 4, 3\n", "CPE4 make a planar model"),
+            ("m.inp", nodes + "*ELEMENT, TYPE=CPE4\n1, 1, 2, 4, 3\n",
+             "line 10: .*CPE4 make a planar model"),
             ("m.inp", "*NODE\n1, 0., 0.\n2, 1., 0.\n", "planar models are not morphed"),
             ("m.inp", "*INCLUDE, INPUT=none.inp\n", "none.inp: there is no such file"),
             ("m.inp", "*INCLUDE, INPUT=m.inp\n", "20 levels deep"),
@@ -530,6 +564,27 @@ class NastranIncludes(SolverFiles):
         self.morph(self.deck, self.deck)
         self.assertEqual(self.nodes.read_text(), self.changed)
         self.assertEqual(deck.st_ino, self.deck.stat().st_ino)
+
+    def test_a_name_is_sought_beside_its_file_and_from_the_root(self):
+        """A bare name beside its file first, one with a folder from the root's folder first."""
+        folder = self.folder / "in"
+        parts = self.nodes.read_text().splitlines(keepends=True)
+        self.nodes.write_text("".join(parts[:5]))
+        (folder / "lib").mkdir()
+        (folder / "lib" / "more.bdf").write_text("".join(parts[5:]))
+        (folder / "mesh" / "all.bdf").write_text(
+            "INCLUDE 'nodes.bdf'\nINCLUDE 'lib/\n     more.bdf'\n")
+        there = self.folder / "there"
+        there.mkdir()
+        self.morph(self.deck, there / "deck.bdf")
+        moved = [there / name for name in ("mesh/nodes.bdf", "lib/more.bdf")]
+        self.assertEqual("".join(path.read_text() for path in moved), self.changed)
+        (folder / "mesh" / "lib").mkdir()
+        (folder / "mesh" / "lib" / "more.bdf").write_text("")
+        self.assertIn("means lib/more.bdf, and not mesh/lib/more.bdf, which is there, too",
+                      run("--list-surfaces", self.deck).stderr)
+        (folder / "lib" / "more.bdf").rename(folder / "mesh" / "lib" / "more.bdf")
+        self.assertEqual(run("--list-surfaces", self.deck).stderr, "")
 
     def test_files_that_include_each_other(self):
         self.nodes.write_text("INCLUDE 'all.bdf'\n")

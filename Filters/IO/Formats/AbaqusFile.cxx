@@ -65,6 +65,11 @@ private:
   std::vector<std::uint8_t> elementTypes_;
   std::vector<Index> elementNumbers_;
   std::set<std::string> unknownTypes_;
+  struct
+  {
+    std::string type;
+    std::size_t part = 0, at = 0;
+  } planar_;              ///< the first keyword of elements of a planar model
   bool hasDepth_ = false; ///< a node has a third coordinate
   AbaqusSets sets_;
 };
@@ -188,10 +193,9 @@ void AbaqusFile::beginElements(std::size_t part, Span span, const AbaqusKeyword&
 {
   const std::string type = keyword.value("TYPE", true);
   this->element_ = abaqusElement(type);
-  if (this->element_.isPlanar)
+  if (this->element_.isPlanar && this->planar_.type.empty())
   {
-    this->failAt(part, span.begin,
-      "its elements " + type + " make a planar model; volume meshes alone are morphed.");
+    this->planar_ = { type, part, span.begin };
   }
   // A set of elements that are left out exists, too.
   this->entries_ = this->sets_.elementSet(keyword.value("ELSET"));
@@ -357,6 +361,15 @@ void AbaqusFile::finish()
   if (!this->hasDepth_)
   {
     this->fail("its nodes have two coordinates: planar models are not morphed.");
+  }
+  // Beside volume elements they are faces: mesh generators have no other name for these.
+  const bool hasVolume = std::any_of(this->elementTypes_.begin(), this->elementTypes_.end(),
+    [](std::uint8_t type) { return dimensionOf(type) == 3; });
+  if (!this->planar_.type.empty() && !hasVolume)
+  {
+    this->failAt(this->planar_.part, this->planar_.at,
+      "its elements " + this->planar_.type +
+        " make a planar model; volume meshes alone are morphed.");
   }
   const auto positions = positionsOf(this->mesh_.nodeNumbers, "node", this->path());
   positionsOf(this->elementNumbers_, "element", this->path());

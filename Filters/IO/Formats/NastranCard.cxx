@@ -92,7 +92,9 @@ void NastranCards::addFields(NastranCard& card, Span line) const
   std::vector<Span> parts;
   splitAtCommas(this->text_, line, parts);
   const std::size_t most = card.isLarge ? 4 : 8;
-  for (std::size_t i = 0; i < most; ++i)
+  // A name, the fields, the name of the next line. Where there are more, the line continues itself.
+  const std::size_t lines = parts.size() > most + 2 ? (parts.size() - 2) / most + 1 : 1;
+  for (std::size_t i = 0; i < most * lines; ++i)
   {
     NastranField field;
     const bool isThere = i + 1 < parts.size();

@@ -78,7 +78,7 @@ private:
   };
 
   void parse(std::size_t part, int depth);
-  void include(std::size_t part, std::size_t at, int depth);
+  std::size_t addIncluded(std::size_t part, const fs::path& name);
   void takeGrid(std::size_t part, const NastranCard& card);
   void takeElement(std::size_t part, const NastranCard& card, const Kind& kind);
   Index integerIn(std::size_t part, const NastranCard& card, std::size_t field) const;
@@ -105,20 +105,42 @@ std::string includedName(std::string_view text, std::size_t& at)
   }
   const std::size_t end = std::min(text.find(quote, begin + 1), text.size());
   std::string name;
-  for (const char c : text.substr(begin + 1, end - begin - 1))
+  Lines lines(text.substr(0, end), begin + 1);
+  while (lines.next())
   {
-    if (c != '\n' && c != '\r')
-    {
-      name += c;
-    }
+    name += trimmed(lines.line());
   }
   at = std::min(text.find('\n', end), text.size());
-  return std::string(trimmed(name));
+  return name;
 }
 
 bool startsWith(const std::string& text, const char* start)
 {
   return text.rfind(start, 0) == 0;
+}
+
+/// A bare name lies beside the including file, one with a folder begins at that of the root file.
+/// Solvers and their versions differ, so the other place is taken where the first has no file.
+std::size_t NastranFile::addIncluded(std::size_t part, const fs::path& name)
+{
+  const fs::path root = fs::path(this->path()).parent_path();
+  fs::path first = fs::path(this->parts_[part].name).parent_path() / name, second = name;
+  if (name.has_parent_path())
+  {
+    std::swap(first, second);
+  }
+  std::error_code error;
+  const bool isSecond = fs::exists(root / second, error);
+  if (isSecond && !fs::exists(root / first, error))
+  {
+    std::swap(first, second);
+  }
+  else if (isSecond && !fs::equivalent(root / first, root / second, error))
+  {
+    this->mesh_.warnings.push_back("INCLUDE '" + name.string() + "' means " + first.string() +
+                                   ", and not " + second.string() + ", which is there, too.");
+  }
+  return this->addPart((root / first).string(), first.string());
 }
 
 void NastranFile::parse(std::size_t part, int depth)
@@ -148,10 +170,7 @@ void NastranFile::parse(std::size_t part, int depth)
           name.empty() ? "the name of the included file is missing."
                        : "files include each other more than 20 levels deep.");
       }
-      // A relative name is that from the folder of the including file.
-      const fs::path relative = fs::path(this->parts_[part].name).parent_path() / name;
-      const fs::path folder = fs::path(this->parts_[part].path).parent_path();
-      this->parse(this->addPart((folder / name).string(), relative.string()), depth + 1);
+      this->parse(this->addIncluded(part, name), depth + 1);
       cards = NastranCards(text, after);
     }
     else if (startsWith(card.name, "ENDDATA"))
