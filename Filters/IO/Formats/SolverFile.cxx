@@ -164,39 +164,50 @@ double writeSolverFile(const std::string& original, const std::vector<Index>& nu
 }
 
 void requireOwnCoordinates(const std::string& original, const std::vector<Index>& numbers,
-  const std::vector<double>& coordinates, double precision)
+  const std::vector<double>& coordinates, double precision, bool isMorphed)
 {
   const std::unique_ptr<SolverFile> file = requireFormat(original).read(original);
-  const std::string displacements = file->displacements();
-  if (displacements.empty())
+  const SolverMesh& mesh = file->mesh();
+  if (mesh.displacementName.empty())
   {
     return;
   }
   const std::vector<double> given = inOrder(*file, numbers, coordinates);
-  const std::vector<double>& own = file->mesh().coordinates;
-  std::vector<Index> other;
-  for (std::size_t i = 0; i < own.size(); i += 3)
+  // The nodes that are not at the file's own coordinates plus these displacements.
+  const auto elsewhere = [&](const std::vector<double>& displacements)
   {
-    double difference = 0;
-    for (std::size_t j = i; j < i + 3; ++j)
+    std::vector<Index> nodes;
+    for (std::size_t i = 0; i < given.size(); ++i)
     {
-      difference = std::max(difference, std::abs(given[j] - own[j]));
+      const double expected = mesh.coordinates[i] + displacements[i];
+      if (!(std::abs(given[i] - expected) <= precision) &&
+          (nodes.empty() || nodes.back() != mesh.nodeNumbers[i / 3]))
+      {
+        nodes.push_back(mesh.nodeNumbers[i / 3]);
+      }
     }
-    if (difference > precision)
+    return nodes;
+  };
+  const std::vector<Index> other = elsewhere(std::vector<double>(given.size(), 0));
+  if (other.empty())
+  {
+    return;
+  }
+  std::vector<double> added;
+  for (Index step = 0; !isMorphed && !(added = file->displacementsAt(step)).empty(); ++step)
+  {
+    if (elsewhere(added).empty())
     {
-      other.push_back(file->mesh().nodeNumbers[i / 3]);
+      return;
     }
   }
-  if (!other.empty())
-  {
-    throw Error(printable(
-      "Cannot write the coordinates into a copy of " + original +
-      ": before the morph, nodes were not at the file's own coordinates: " + listIds(other) +
-      ". The displacements '" + displacements +
-      "' of the file were added, or filters moved the mesh more than once. If the reader has Apply "
-      "Displacements on, switch it off, or read the file with Solver File Reader, which takes its "
-      "own coordinates. To keep such displacements, morph the file by a table of them."));
-  }
+  throw Error(printable(
+    "Cannot write the coordinates into a copy of " + original +
+    ": before the morph, nodes were not at the file's own coordinates: " + listIds(other) +
+    ". The displacements '" + mesh.displacementName +
+    "' of the file were added, or filters moved the mesh more than once. If the reader has Apply "
+    "Displacements on, switch it off, or read the file with Solver File Reader, which takes its "
+    "own coordinates. To keep such displacements, first write them alone into a copy."));
 }
 
 void requireWritable(const std::string& original, const std::string& out)
