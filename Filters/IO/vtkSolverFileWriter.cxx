@@ -226,11 +226,12 @@ void vtkSolverFileWriter::WriteCopy(vtkDataObject* input)
   const std::vector<vtkPointSet*> parts = partsOf(input);
   const std::string original = originalOf(input, parts, this->OriginalFileName);
   morph::io::requireWritable(original, this->FileName);
-  const Nodes nodes = nodesOf(parts);
+  Nodes nodes = nodesOf(parts);
   if (nodes.AreOfAnotherReader)
   {
-    morph::io::requireOwnCoordinates(
+    const std::vector<double> displaced = morph::io::requireOwnCoordinates(
       original, nodes.Numbers, nodes.Undeformed, nodes.Precision, nodes.AreMorphed);
+    nodes.Coordinates = displaced.empty() ? nodes.Coordinates : displaced;
   }
   this->LargestRounding =
     morph::io::writeSolverFile(original, nodes.Numbers, nodes.Coordinates, this->FileName,

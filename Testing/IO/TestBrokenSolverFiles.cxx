@@ -2,6 +2,7 @@
 // Damaged files of the formats that are read here without a library: each is a mesh in range, or
 // one Error. MORPH_TEST_SEED sets another seed, MORPH_TEST_CASES the number of cases a format.
 #include "Files/ReadFile.h"
+#include "Formats/FoamList.h"
 #include "Formats/SolverFile.h"
 #include "Support/Error.h"
 
@@ -44,6 +45,7 @@ const char* const Abaqus =
   "*HEADING\nA tetrahedron\n*NODE, NSET=All\n"
   "1, 0., 0., 0.\n2, 1., 0., 0.\n3, 0., 1., 0.\n4, 0., 0., 1.\n5, 1., 1., 1.\n"
   "*ELEMENT, TYPE=C3D4, ELSET=Solid\n1, 1, 2, 3, 4\n2, 2, 5, 3, 4\n"
+  "*ELEMENT, TYPE=CPS3, ELSET=Wall\n3, 1, 2, 3\n"
   "*NSET, NSET=Some, GENERATE\n1, 3, 2\n*ELSET, ELSET=Both\nSolid, 2\n"
   "*SURFACE, NAME=Bottom\nSolid, S1\n*STEP\n*END STEP\n";
 const char* const Nastran =
@@ -52,6 +54,7 @@ const char* const Nastran =
   "GRID*                  2                              1.              0.\n"
   "*                     0.\nGRID,3,,0.,1.,0.\nGRID,4,,0.,0.,1.0+0\n"
   "CTETRA  1       7       1       2       3       4\nCTRIA3,2,8,1,2,3\n"
+  "CTETRA,3,9,1,2,3,4,,,,,,\n"
   "ENDDATA\n";
 const char* const Su2 = "NDIME= 3\nNELEM= 1\n10 0 1 2 3 0\nNPOIN= 4\n0 0 0 0\n1. 0 0 1\n0 1 0 2\n"
                         "0 0 1e0 3\nNMARK= 1\nMARKER_TAG= wall\nMARKER_ELEMS= 1\n5 0 1 2\n";
@@ -250,6 +253,40 @@ TEST_F(BrokenSolverFiles, OpenFoam)
   for (const char* name : { "points", "faces", "owner", "neighbour", "boundary" })
   {
     this->Break(mesh / name, mesh / "points", name);
+  }
+}
+
+TEST_F(BrokenSolverFiles, PointDisplacementOfOpenFoam)
+{
+  const std::string whole =
+    "FoamFile { version 2.0; format ascii; class pointVectorField; }\n"
+    "dimensions [0 1 0 0 0 0 0];\ninternalField uniform (0 0 0);\nboundaryField\n{\n"
+    "\"(in|out)let\" { type fixedValue; value nonuniform List<vector> 2((0 0 1) (1 0 0)); }\n"
+    "wall { type fixedValue; value uniform (0 0 0.5); list (1 (2)); a { b c; } }\n"
+    "rest { type slip; }\n}\n";
+  const std::string path = (this->Folder / "pointDisplacement").string();
+  this->Write(path, whole);
+  const auto field = morph::io::FoamList(path).boundaryField();
+  ASSERT_EQ(field.size(), 3U);
+  EXPECT_TRUE(field[0].isPattern && !field[0].isUniform);
+  EXPECT_EQ(field[0].values, (std::vector<double>{ 0, 0, 1, 1, 0, 0 }));
+  EXPECT_EQ(field[1].values, (std::vector<double>{ 0, 0, 0.5 }));
+  EXPECT_EQ(field[2].type, "slip");
+  for (int i = 0; i < setting("MORPH_TEST_CASES", 2000); ++i)
+  {
+    std::mt19937 engine(static_cast<std::mt19937::result_type>(1 + i));
+    this->Write(path, broken(whole, engine));
+    try
+    {
+      for (const auto& patch : morph::io::FoamList(path).boundaryField())
+      {
+        EXPECT_EQ(patch.values.size() % 3, 0U);
+      }
+    }
+    catch (const morph::Error& error)
+    {
+      EXPECT_FALSE(std::string(error.what()).empty());
+    }
   }
 }
 }

@@ -143,8 +143,8 @@ class OpenFoam(solver_files.SolverFiles):
             field.write_bytes(head.encode() + b"dimensions [0 1 0 0 0 0 0];\n"
                               b"internalField uniform (0 0 0);\nboundaryField\n{\n inlet { type "
                               b"fixedValue; value uniform (0 0 0); }\n" + kind.encode() +
-                              b" { a { b (1 2); } type fixedValue; value " + value + b"; }\n outlet "
-                              b"{ type zeroGradient; }\n}\n")
+                              b" { a { b (1 2); } type fixedValue; value " + value +
+                              b"; }\n outlet { type zeroGradient; }\n}\n")
             result = run("--displacements", field, "--validity", "None", case, out)
             self.assertEqual(result.returncode, 0, result.stderr)
             self.assertIn("no fixedValue for the patches outlet (zeroGradient), sides.",

@@ -17,6 +17,7 @@ from pathlib import Path
 
 import gmsh_models
 import solver_models as models
+from legacy_files import points_of
 
 try:
     import meshio
@@ -216,6 +217,120 @@ class SolverFiles(unittest.TestCase):
     CUBE = "*NODE\n" + "".join(f"{i + 1}, {i & 1}., {i >> 1 & 1}., {i >> 2}.\n"
                                for i in range(8))
 
+    BRICK = "*ELEMENT, TYPE=C3D8, ELSET=Solid\n1, 1, 2, 4, 3, 5, 6, 8, 7\n"
+
+    def check_by_reading(self, path, out, *move, delta=1e-13):
+        """What is written, read again, is the morphed mesh. Returns its points."""
+        exact, again = self.folder / "exact.vtk", self.folder / "again.vtk"
+        csv = self.folder / "still.csv"
+        csv.write_text("id,dx,dy,dz\n0,0,0,0\n")
+        for arguments in ((*move, path, out), (*move, path, exact),
+                          ("--displacements", csv, out, again)):
+            result = run(*arguments)
+            self.assertEqual(result.returncode, 0, result.stderr)
+        for a, b in zip(points_of(exact), points_of(again)):
+            self.assertAlmostEqual(a, b, delta=delta)
+        return points_of(exact)
+
+    def assembly(self, second="Other"):
+        """Two cubes: the second is turned by 90 degrees about a line beside the z axis, and moved
+        before that. It is another part, or another instance of the first."""
+        part = ("*PART, NAME=%s\n" + self.CUBE + self.BRICK +
+                "*NSET, NSET=Top\n5, 6, 7, 8\n*END PART\n")
+        path = self.folder / "cae.inp"
+        path.write_text(
+            "*HEADING\n" + part % "Block" + part % "Other" + "*ASSEMBLY, NAME=A\n"
+            "*INSTANCE, NAME=One-1, PART=block\n*END INSTANCE\n"
+            f"*INSTANCE, NAME=Two-1, PART={second}\n5., 0., 1.\n5., 1., 0., 5., 1., 1., 90.\n"
+            "*END INSTANCE\n*NODE\n1, 9., 9., 9.\n*NSET, NSET=Reference\n1\n"
+            "*NSET, NSET=Lid, INSTANCE=Two-1, GENERATE\n5, 8, 1\n"
+            "*NSET, NSET=Lids\nOne-1.Top, Two-1.5, Two-1.6, two-1.7, Two-1.8\n"
+            "*ELSET, ELSET=Both\nOne-1.1, Two-1.Solid\n*ELSET, ELSET=_S, INSTANCE=Two-1\n1\n"
+            "*SURFACE, NAME=Wall, TYPE=ELEMENT\n_S, S2\n*END ASSEMBLY\n*STEP\n*END STEP\n")
+        return path
+
+    def test_parts_and_instances_of_an_assembly(self):
+        path, out = self.assembly(), self.folder / "out.inp"
+        rows = dict(re.findall(r"(?m)^(\S+) +(\d+ .*)$", run("--list-surfaces", path).stdout))
+        self.assertRegex(rows["Lid"], r"^1 +1 +5.5, 1.5, 2$")
+        for name, faces in (("One-1.Top", 1), ("Two-1.Top", 1), ("Lids", 2), ("Both", 12),
+                            ("Two-1", 6), ("Wall", 1), ("One-1.Solid", 6)):
+            self.assertRegex(rows[name], f"^{faces} ", name)
+        self.check_by_reading(path, out, "--move", "Wall", "--translate", "0.25,0,0.5")
+        # In the part's own system, what is written is turned back.
+        old, new = path.read_text().split("*PART"), out.read_text().split("*PART")
+        self.assertEqual(new[:2], old[:2])
+        for i, x, y in ((5, "0.", "0."), (6, "1.", "0."), (7, "0.", "1."), (8, "1.", "1.")):
+            old[2] = old[2].replace(f"{i}, {x}, {y}, 1.", f"{i}, {x}, {float(y) - 0.25}, 1.5")
+        self.assertEqual(re.sub(r"\b(\d)\.0?(?=,)", r"\1.0", new[2]),
+                         re.sub(r"\b(\d)\.0?(?=,)", r"\1.0", old[2]))
+
+    def test_instances_of_one_part_share_its_nodes(self):
+        path, out = self.assembly("Block"), self.folder / "out.inp"
+        one, both = (("--move", name, "--translate", "0,0,0.5") for name in ("Lid", "Lids"))
+        result = run(*one, path, out)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("'Block' has several instances, which share its nodes", result.stderr)
+        moved = out.read_text()
+        self.assertEqual(moved.count(", 1.5\n"), 4)
+        self.check_by_reading(path, out, *both)
+        self.assertEqual(out.read_text(), moved)
+        self.refuse("instances of one part move differently at the nodes .*part of its own",
+                    "--move", "Lids", "--translate", "0.25,0,0.5", path, out)
+
+    def test_coordinate_systems_of_an_input_file(self):
+        """*SYSTEM, and cylindrical coordinates: radius, degrees, height."""
+        corners = [(1 + (i & 1), 30 * (i >> 1 & 1), i >> 2) for i in range(8)]
+        nodes = "".join(f"{i + 1}, {r}., {a}., {z}.\n" for i, (r, a, z) in enumerate(corners))
+        path, out = self.folder / "m.inp", self.folder / "out.inp"
+        for system, expected in (("", (3 ** 0.5 / 2, 0.5, 1.5)),
+                                 ("*SYSTEM\n1., 2., 3., 1., 3., 3.\n0., 2., 3.\n",
+                                  (1 - 0.5, 2 + 3 ** 0.5 / 2, 4.5))):
+            path.write_text(f"{system}*NODE, SYSTEM=C\n{nodes}*SYSTEM\n{self.BRICK}"
+                            "*NSET, NSET=Top\n5, 6, 7, 8\n")
+            points = self.check_by_reading(path, out, "--move", "Top", "--translate", "0,0,0.5")
+            for a, b in zip(points[3 * 6:3 * 6 + 3], expected):
+                self.assertAlmostEqual(a, b, delta=1e-13)
+            # Radius and angle keep their text.
+            self.assertIn("7, 1., 30., 1.5\n8, 2., 30., 1.5\n", out.read_text())
+            self.check_by_reading(path, out, "--move", "Top", "--translate", "0.1,0.2,0.5")
+
+    def test_coordinate_systems_of_nastran(self):
+        """By points and by nodes, each in another one; large and free fields; GRDSET."""
+        systems = ("CORD2R,1,,1.,2.,3.,1.,2.,4.\n,1.,3.,3.\n"  # its x axis is y
+                   "CORD2C,2,1,0.,0.,0.,0.,0.,1.\n,1.,0.,0.\n"
+                   "CORD2S*                3               1              0.              0.\n"
+                   "*                     0.              0.              0.              1.\n"
+                   "*                     1.              0.              0.\n"
+                   "CORD1C,4,91,92,93\nGRID,91,0,1.,2.,3.\nGRID,92,1,0.,0.,1.\n"
+                   "GRID,93,0,1.,3.,3.\n")
+        path, out = self.folder / "m.bdf", self.folder / "out.bdf"
+        corners = [(1 + (i & 1), 30 * (i >> 1 & 1), i >> 2) for i in range(8)]
+        shape = {1: lambda r, a, z: (r, a / 30, z), 2: lambda r, a, z: (r, a, z),
+                 3: lambda r, a, z: (r + 1, 60 + 30 * z, a), 4: lambda r, a, z: (r, a, z)}
+        for system, local in shape.items():
+            with self.subTest(system=system):
+                text = f"BEGIN BULK\nGRDSET,,{system}\n" + systems
+                for i, corner in enumerate(corners):
+                    own = "" if i % 2 else system
+                    text += "GRID*,{},{},{}.,{}.,*A\n*A,{}.\n".format(
+                        i + 1, own, *(int(x) for x in local(*corner)))
+                path.write_text(text + "CHEXA,1,7,1,2,4,3,5,6,+B\n+B,8,7\n")
+                points = self.check_by_reading(path, out, "--move", "Surface 1", "--translate",
+                                               "0.1,0.05,0.02", delta=1e-12)
+                old, new = (file.read_text().splitlines() for file in (path, out))
+                self.assertEqual(new[:12] + new[-2:], old[:12] + old[-2:])
+        self.assertEqual(len(points), 33)
+        for text, message in (("CORD2R,5,6,0.,0.,0.,0.,0.,1.\n,1.,0.,0.\n"
+                               "CORD2R,6,5,0.,0.,0.,0.,0.,1.\n,1.,0.,0.\nGRID,1,5,0.,0.,0.\n",
+                               "needs others that need it"),
+                              ("CORD2R,5,0,0.,0.,0.,0.,0.,1.\n,0.,0.,2.\nGRID,1,5,0.,0.,0.\n",
+                               "line 2: the three points of the coordinate system 5 are on a line"),
+                              ("CORD1R,5,7,8,9\nGRID,1,5,0.,0.,0.\n", "needs the node 7"),
+                              ("GRID,1,5,0.,0.,0.\n", "coordinate system 5, which no CORD1R")):
+            path.write_text("BEGIN BULK\n" + text)
+            self.refuse(message, "--list-surfaces", path)
+
     def test_planar_elements_beside_volumes_are_faces(self):
         """Mesh generators name faces by types of planar models."""
         path, out = self.folder / "m.inp", self.folder / "out.inp"
@@ -236,7 +351,8 @@ class SolverFiles(unittest.TestCase):
         corners = "".join(f"GRID,{i + 1},,{i & 1}.,{i >> 1 & 1}.,{i >> 2}.\n" for i in range(8))
         middles = "".join(f"GRID*,{i},,.5,.5,*A\n*A,.5\n" for i in range(9, 21))
         path, rest = self.folder / "m.bdf", ",".join(map(str, range(9, 21)))
-        for line, faces in ((f"7,3,1,2,4,3,5,6,8,7,{rest}\n", 30),  # a face of 8 nodes is drawn as 5
+        # A face of 8 nodes counts as 5.
+        for line, faces in ((f"7,3,1,2,4,3,5,6,8,7,{rest}\n", 30),
                             ("8,3,1,2,4,3,5,6,+B\n+B,8,7\n", 6)):
             path.write_text("BEGIN BULK\n" + corners + middles + "CHEXA," + line)
             listed = run("--list-surfaces", path)
@@ -359,20 +475,21 @@ class SolverFiles(unittest.TestCase):
             ("m.inp", nodes.replace("8, 1.", "7, 1.") + brick, "more than one node .* 7"),
             ("m.inp", nodes + brick.replace(" 8, 7", " 8, 99"), "element 1 has the node 99"),
             ("m.inp", nodes + brick.replace(", 8, 7", ""), "element 1 are not complete"),
-            ("m.inp", "*PART, NAME=P\n" + nodes + brick, "line 1: .*parts and instances .*PART"),
+            ("m.inp", "*PART, NAME=P\n" + nodes + brick, "no .INSTANCE has a .NODE"),
+            ("m.inp", "*ASSEMBLY\n*INSTANCE, NAME=I, PART=P\n", "line 2: .*the part 'P', which is"),
+            ("m.inp", "*NSET, NSET=N, INSTANCE=I\n", "line 1: there is no instance 'I'"),
             ("m.inp", nodes + "*NGEN\n1, 8, 1\n" + brick, "line 10: .*NGEN"),
-            ("m.inp", nodes.replace("*NODE", "*NODE, SYSTEM=C") + brick,
-             "line 1: .*coordinate sys"),
-            ("m.inp", "*SYSTEM\n1,2,3,4,5,6\n" + nodes + brick, "line 1: .*coordinate system"),
+            ("m.inp", nodes.replace("*NODE", "*NODE, SYSTEM=S") + brick,
+             "line 1: .*spherical coordinates"),
+            ("m.inp", "*SYSTEM\n1,2,3,1,2,3\n" + nodes + brick, "line 3: .*on a line"),
             ("m.inp", nodes + "*ELEMENT, TYPE=CPE4\n1, 1, 2, 4, 3\n",
              "line 10: .*CPE4 make a planar model"),
             ("m.inp", "*NODE\n1, 0., 0.\n2, 1., 0.\n", "planar models are not morphed"),
             ("m.inp", "*INCLUDE, INPUT=none.inp\n", "none.inp: there is no such file"),
             ("m.inp", "*INCLUDE, INPUT=m.inp\n", "20 levels deep"),
             ("m.inp", "*STEP\n", "has no .NODE"),
-            ("m.bdf", grids.replace("GRID,2,,", "GRID,2,5,") + tetra,
-             "line 3: node 2 is in another coordinate system .CP 5"),
-            ("m.bdf", "BEGIN BULK\nGRDSET,,9\n" + grids + tetra, "line 2: GRDSET"),
+            ("m.bdf", grids.replace("GRID,2,,", "GRID,2,5,") + tetra, "coordinate system 5, which"),
+            ("m.bdf", "BEGIN BULK\nGRDSET,,9\n" + grids + tetra, "coordinate system 9, which"),
             ("m.bdf", grids.replace("1.,0.,0.", "1.,x,0.") + tetra, "line 3: 'x' is no number"),
             ("m.bdf", grids + tetra.replace("3,4", "3,44"), "element 1 has the node 44"),
             ("m.bdf", grids + tetra.replace("3,4", "3"), "line 6: CTETRA 1 has 3 nodes"),

@@ -59,8 +59,8 @@ public:
 
 private:
   void readHeader();
-  /// Goes through a dictionary, from its '{' to behind its '}'. `take`: reads what follows a key, or
-  /// returns false to have it skipped.
+  /// Goes through a dictionary, from its '{' to behind its '}'. `take`: reads what follows a key,
+  /// or returns false to have it skipped.
   template <typename Take>
   void readDictionary(Take take);
   void skipEntry();

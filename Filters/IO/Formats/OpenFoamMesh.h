@@ -12,8 +12,8 @@ bool isOpenFoamMesh(const std::string& path);
 
 /// Reads points, faces, owner, neighbour and boundary, text or binary, packed (.gz) or not; nodes
 /// and cells are numbered from 0. A time's folder may have its points alone. Patches are sets of
-/// faces. Cells of other shapes are polyhedra. Throws Error for a case of several regions, which names
-/// them, and for a decomposed case or a piece of it.
+/// faces. Cells of other shapes are polyhedra. Throws Error for a case of several regions, which
+/// names them, and for a decomposed case or a piece of it.
 std::unique_ptr<SolverFile> readOpenFoamMesh(const std::string& path);
 
 /// The file of points that `out` means: itself, where it is called points or points.gz; or that of

@@ -163,14 +163,15 @@ double writeSolverFile(const std::string& original, const std::vector<Index>& nu
   return largestRounding;
 }
 
-void requireOwnCoordinates(const std::string& original, const std::vector<Index>& numbers,
-  const std::vector<double>& coordinates, double precision, bool isMorphed)
+std::vector<double> requireOwnCoordinates(const std::string& original,
+  const std::vector<Index>& numbers, const std::vector<double>& coordinates, double precision,
+  bool isMorphed)
 {
   const std::unique_ptr<SolverFile> file = requireFormat(original).read(original);
   const SolverMesh& mesh = file->mesh();
   if (mesh.displacementName.empty())
   {
-    return;
+    return {};
   }
   const std::vector<double> given = inOrder(*file, numbers, coordinates);
   // The nodes that are not at the file's own coordinates plus these displacements.
@@ -191,14 +192,24 @@ void requireOwnCoordinates(const std::string& original, const std::vector<Index>
   const std::vector<Index> other = elsewhere(std::vector<double>(given.size(), 0));
   if (other.empty())
   {
-    return;
+    return {};
   }
   std::vector<double> added;
   for (Index step = 0; !isMorphed && !(added = file->displacementsAt(step)).empty(); ++step)
   {
     if (elsewhere(added).empty())
     {
-      return;
+      const auto positions = positionsOf(mesh.nodeNumbers, "node", original);
+      std::vector<double> exact;
+      for (const Index number : numbers)
+      {
+        const auto first = static_cast<std::size_t>(3 * positions.at(number));
+        for (std::size_t i = first; i < first + 3; ++i)
+        {
+          exact.push_back(mesh.coordinates[i] + added[i]);
+        }
+      }
+      return exact;
     }
   }
   throw Error(printable(

@@ -57,9 +57,10 @@ double writeSolverFile(const std::string& original, const std::vector<Index>& nu
 /// Throws Error where `original` has displacements, and `coordinates`, which another reader gave,
 /// are not its own: that reader or a filter has added them. `precision`: what rounding may have
 /// changed. `isMorphed`: a morph follows. Without one, the displacements of a time step may have
-/// been added: they are what is to be written then.
-void requireOwnCoordinates(const std::string& original, const std::vector<Index>& numbers,
-  const std::vector<double>& coordinates, double precision, bool isMorphed);
+/// been added: returns the exact sums then, else nothing.
+std::vector<double> requireOwnCoordinates(const std::string& original,
+  const std::vector<Index>& numbers, const std::vector<double>& coordinates, double precision,
+  bool isMorphed);
 
 /// Throws Error unless a copy of `original` can be written to `out`, so that the error comes before
 /// the work.
