@@ -36,7 +36,7 @@ const char* const Usage =
   "\n"
   "Reads  .vtu .pvtu .vtm .vtk .inp (AVS UCD) .neu (Gambit); boundaries also\n"
   "       .vtp .pvtp .ply .stl .obj; solvers' files .inp (Abaqus, CalculiX)\n"
-  "       .bdf .nas .fem .dat (Nastran) .su2 .msh (Gmsh)\n"
+  "       .bdf .nas .fem .dat (Nastran) .k .key .dyn (LS-DYNA) .su2 .msh (Gmsh)\n"
   "       .e .exo .ex2 .exii .g .gen (Exodus II) .cgns, cases of OpenFOAM\n"
   "Writes .vtu .vtk, boundaries .vtp .vtk; with a .pvtu, .vtm or solver's file as grid, "
   "also a copy of it\n"

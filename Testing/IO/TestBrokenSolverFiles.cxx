@@ -48,14 +48,30 @@ const char* const Abaqus =
   "*ELEMENT, TYPE=CPS3, ELSET=Wall\n3, 1, 2, 3\n"
   "*NSET, NSET=Some, GENERATE\n1, 3, 2\n*ELSET, ELSET=Both\nSolid, 2\n"
   "*SURFACE, NAME=Bottom\nSolid, S1\n*STEP\n*END STEP\n";
+const char* const Assembly =
+  "*PART, NAME=P\n*SYSTEM\n1., 0., 0., 1., 1., 0.\n0., 0., 0.\n*NODE, SYSTEM=C\n"
+  "1, 0., 0., 0.\n2, 1., 0., 0.\n3, 1., 90., 0.\n4, 0., 0., 1.\n"
+  "*ELEMENT, TYPE=C3D4, ELSET=Solid\n1, 1, 2, 3, 4\n*NSET, NSET=Some\n1, 2\n*END PART\n"
+  "*ASSEMBLY, NAME=A\n*INSTANCE, NAME=I, PART=P\n1., 2., 3.\n0., 0., 0., 0., 0., 1., 30.\n"
+  "*END INSTANCE\n*INSTANCE, NAME=J, PART=P\n1., 2., 9.\n0., 0., 0., 0., 0., 1., 30.\n*END "
+  "INSTANCE\n*NODE\n1, 5., 5., 5.\n"
+  "*NSET, NSET=Lid, INSTANCE=J, GENERATE\n1, 3, 1\n*NSET, NSET=All\nI.1, J.Some\n"
+  "*ELSET, ELSET=S, INSTANCE=I\n1\n*SURFACE, NAME=W\nS, S1\n*END ASSEMBLY\n";
 const char* const Nastran =
   "SOL 101\nCEND\nBEGIN BULK\n"
   "GRID    1               0.0     0.0     0.0\n"
   "GRID*                  2                              1.              0.\n"
   "*                     0.\nGRID,3,,0.,1.,0.\nGRID,4,,0.,0.,1.0+0\n"
   "CTETRA  1       7       1       2       3       4\nCTRIA3,2,8,1,2,3\n"
-  "CTETRA,3,9,1,2,3,4,,,,,,\n"
+  "CTETRA,3,9,1,2,3,4,,,,,,\nGRDSET,,0\nCORD1C,5,1,4,2\nGRID,9,5,1.,30.,2.\nGRID,10,6,1.,2.,3.\n"
+  "CORD2S,6,5,0.,0.,0.,0.,0.,1.\n,1.,0.,0.\n"
   "ENDDATA\n";
+const char* const LsDyna =
+  "$ a deck\n*KEYWORD\n*NODE\n       1             0.0             0.0             0.0\n"
+  "2,1.,0.,0.\n3,0.,1.,0.\n4,0.,0.,1.\n*ELEMENT_SOLID\n1,7,1,2,3,4,4,4,4,4\n2,7\n1,2,3,4\n"
+  "*ELEMENT_SHELL_THICKNESS\n       1       8       1       2       3       3\n0.1,0.1\n*PART\n"
+  "A part\n8,1,1\n*SET_NODE_LIST_TITLE\nSome\n1,0.,0.\n1,2,3\n*SET_SEGMENT\n2\n1,2,3,3\n"
+  "*SET_PART_LIST\n3\n7,8\n*SET_SHELL\n4\n1\n*END\n";
 const char* const Su2 = "NDIME= 3\nNELEM= 1\n10 0 1 2 3 0\nNPOIN= 4\n0 0 0 0\n1. 0 0 1\n0 1 0 2\n"
                         "0 0 1e0 3\nNMARK= 1\nMARKER_TAG= wall\nMARKER_ELEMS= 1\n5 0 1 2\n";
 const char* const Gmsh2 =
@@ -228,8 +244,9 @@ protected:
 
 TEST_F(BrokenSolverFiles, OneFile)
 {
-  const std::pair<const char*, std::string> samples[] = { { "a.inp", Abaqus }, { "a.bdf", Nastran },
-    { "a.su2", Su2 }, { "a2.msh", Gmsh2 }, { "a4.msh", Gmsh4 }, { "b2.msh", binaryGmsh(false) },
+  const std::pair<const char*, std::string> samples[] = { { "a.inp", Abaqus },
+    { "b.inp", Assembly }, { "a.bdf", Nastran }, { "a.k", LsDyna }, { "a.su2", Su2 },
+    { "a2.msh", Gmsh2 }, { "a4.msh", Gmsh4 }, { "b2.msh", binaryGmsh(false) },
     { "b4.msh", binaryGmsh(true) } };
   for (const auto& [name, content] : samples)
   {

@@ -331,6 +331,94 @@ class SolverFiles(unittest.TestCase):
             path.write_text("BEGIN BULK\n" + text)
             self.refuse(message, "--list-surfaces", path)
 
+    CORNERS = [(i & 1, i >> 1 & 1, i >> 2) for i in range(8)]
+
+    def test_a_deck_of_ls_dyna_in_each_form_of_its_fields(self):
+        """Fixed, long and free fields; sets; nodes in an included file; text that stays."""
+        path, out = self.folder / "m.k", self.folder / "out.k"
+        for form, (number, real, join) in {
+                "fixed": ("{:8d}", "{:16.6f}", ""), "long": ("{:20d}", "{:20.9f}", ""),
+                "free": ("{}", "{}.", ",")}.items():
+            with self.subTest(form=form):
+                def card(*numbers, width=None):
+                    style = f"{{:{width}d}}" if width and form == "fixed" else number
+                    return join.join(style.format(n) for n in numbers) + "\n"
+
+                nodes = "".join(
+                    join.join([number.format(i + 1), *(real.format(x) for x in corner)]) + "\n"
+                    for i, corner in enumerate(self.CORNERS))
+                path.write_text(
+                    "$ a deck\n*KEYWORD" + (" LONG=Y" if form == "long" else "") + "\n*NODE\n" +
+                    nodes + "$ comment\n*ELEMENT_SOLID\n" + card(1, 7, 1, 2, 4, 3, 5, 6, 8, 7) +
+                    "*ELEMENT_SHELL\n" + card(1, 8, 5, 6, 8, 7) + "*PART\nThe lid\n" +
+                    card(8, 1, 1, width=10) + "*SET_NODE_LIST\n" + card(3, width=10) +
+                    card(5, 6, 7, 8, width=10) + "*SET_SEGMENT_TITLE\nFoot\n" +
+                    card(4, width=10) + card(1, 2, 4, 3, width=10) + "*SET_SHELL\n" +
+                    card(5, width=10) + card(1, width=10) + "*ELEMENT_BEAM\n" + card(9, 9, 1, 2) +
+                    "*MAT_ELASTIC\n" + card(1, width=10) + "*END\nno deck\n")
+                rows = run("--list-surfaces", path)
+                self.assertIn("elements of *ELEMENT_BEAM are left out", rows.stderr)
+                for name, faces in (("PID 7", 6), ("The lid", 1), ("Node set 3", 1), ("Foot", 1),
+                                    ("Shell set 5", 1)):
+                    self.assertRegex(rows.stdout, f"(?m)^{name} +{faces} ")
+                for name, z, shift in (("Foot", 0, -0.5), ("The lid", 1, 0.25)):
+                    self.check_by_reading(path, out, "--move", name, "--translate", f"0,0,{shift}")
+                    old, new = (file.read_text().splitlines() for file in (path, out))
+                    at = old.index("*NODE") + 1
+                    moved = [i for i in range(len(old)) if old[i] != new[i]]
+                    self.assertEqual(moved, [at + i for i in range(8) if i >> 2 == z])
+                    if form != "free":
+                        self.assertEqual([len(line) for line in new], [len(line) for line in old])
+
+    def test_collapsed_hexahedra_of_ls_dyna(self):
+        """Tetrahedra, pyramids and wedges are hexahedra with equal nodes, or have own cards."""
+        nodes = "".join(f"{i + 1},{x},{y},{z}\n" for i, (x, y, z) in enumerate(self.CORNERS))
+        nodes += "9,.5,0,0\n10,.5,.5,0\n11,0,.5,0\n12,0,0,.5\n13,.5,0,.5\n14,0,.5,.5\n"
+        path = self.folder / "m.key"
+        for text, faces in (("1,7,1,2,3,5,5,5,5,5\n", 4), ("1,7\n1,2,3,5\n", 4),
+                            ("1,7\n1,2,3,5,9,10,11,12,13,14\n", 16),
+                            ("1,7,1,2,4,3,5,5,5,5\n", 5), ("1,7,1,2,3,3,5,6,7,7\n", 5),
+                            ("1,7,1,2,4,3,5,5,7,7\n", 5), ("1,7,1,2,4,3,5,6,8,7\n", 6)):
+            path.write_text("*NODE\n" + nodes + "*ELEMENT_SOLID\n" + text)
+            result = run("--move", "PID 7", "--translate", "1,0,0", path, self.folder / "out.key")
+            self.assertEqual(result.returncode, 0, result.stderr)
+            self.assertRegex(result.stdout, r"inverted cells +0 +0\n")
+            self.assertRegex(run("--list-surfaces", path).stdout, f"(?m)^PID 7 +{faces} ")
+
+    def test_included_files_of_ls_dyna(self):
+        folder, there = self.folder / "in", self.folder / "there"
+        for parent in (folder, there):
+            parent.mkdir()
+        (folder / "thenodes.k").write_text("*NODE\n" + "".join(
+            f"{i + 1:8d}{x:16.3f}{y:16.3f}{z:16.3f}\n" for i, (x, y, z) in enumerate(self.CORNERS)))
+        text = ("*KEYWORD\n*INCLUDE\nthe +\nnodes.k\n*ELEMENT_SOLID\n" +
+                "".join(f"{n:8d}" for n in (1, 7, 1, 2, 4, 3, 5, 6, 8, 7)) + "\n*END\n")
+        (folder / "deck.k").write_text(text)
+        self.morph(folder / "deck.k", there / "deck.k", "--move", "PID 7", "--translate", "1,0,0")
+        self.assertEqual((there / "deck.k").read_text(), text)
+        lines = (there / "thenodes.k").read_text().splitlines()[1:]
+        for line, (x, y, z) in zip(lines, self.CORNERS):
+            written = [float(line[8 + 16 * a:24 + 16 * a]) for a in range(3)]
+            self.assertEqual(written, [x + 1, y, z])
+
+    @unittest.skipUnless(shutil.which("gmsh"), "Gmsh is not installed (gmsh)")
+    def test_decks_that_gmsh_writes(self):
+        """Its faces are planar elements of Abaqus, and its tetrahedra hexahedra of LS-DYNA."""
+        box = self.folder / "box.geo"
+        box.write_text('SetFactory("OpenCASCADE"); Box(1) = {0, 0, 0, 1, 1, 1};\n'
+                       'Physical Volume("body") = {1}; Physical Surface("wall") = {1};\n'
+                       "Mesh.MeshSizeMax = 0.5;\n")
+        for extension, wall in ((".inp", "wall"), (".key", "PID 2000001"), (".bdf", "PID 1")):
+            with self.subTest(extension=extension):
+                path, out = self.folder / ("box" + extension), self.folder / ("out" + extension)
+                subprocess.run(["gmsh", "-3", box, "-o", path], check=True, capture_output=True,
+                               timeout=120)
+                self.morph(path, out, "--move", wall, "--translate", "0,0,0")
+                self.assertEqual(out.read_bytes(), path.read_bytes())
+                self.check_by_reading(path, out, "--move", wall, "--translate", "-0.25,0,0",
+                                      delta=1e-6)
+                self.assertNotEqual(out.read_bytes(), path.read_bytes())
+
     def test_planar_elements_beside_volumes_are_faces(self):
         """Mesh generators name faces by types of planar models."""
         path, out = self.folder / "m.inp", self.folder / "out.inp"
@@ -465,6 +553,8 @@ class SolverFiles(unittest.TestCase):
         grids = "BEGIN BULK\n" + "".join(f"GRID,{i + 1},,{x}\n" for i, x in enumerate(
             ("0.,0.,0.", "1.,0.,0.", "0.,1.,0.", "0.,0.,1.")))
         tetra = "CTETRA,1,7,1,2,3,4\n"
+        dyna = ("*KEYWORD\n*NODE\n1,0.,0.,0.\n2,1.,0.,0.\n3,0.,1.,0.\n4,0.,0.,1.\n"
+                "*ELEMENT_SOLID\n1,7,1,2,3,4,4,4,4,4\n")
         su2 = "NDIME= 3\n" + points + "NELEM= 1\n10 0 1 2 3\n"
         msh = ("$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n1 4 1 9\n3 1 0 4\n1\n2\n3\n4\n"
                "0 0 0\n1 0 0\n0 0 1\n0 1 0\n$EndNodes\n$Elements\n1 1 9 9\n3 1 4 1\n9 1 2 3 4\n"
@@ -501,6 +591,12 @@ class SolverFiles(unittest.TestCase):
             ("m.bdf", grids + "CTRIA3,1,7,1,2,3\n", "m.bdf: None of .* is a volume cell"),
             ("m.inp", nodes + brick.replace("C3D8", "S4").replace(", 5, 6, 8, 7", ""),
              "m.inp: None of .* is a volume cell"),
+            ("m.k", dyna.replace("1.,0.,0.", "1.,x,0."), "line 4: 'x' is no number"),
+            ("m.k", dyna.replace("4,4,4,4", "44,44,44,44"), "element 1 has the node 44"),
+            ("m.k", dyna.replace("4,4,4,4", ""), "line 8: element 1 has 3 nodes"),
+            ("m.k", "*PARAMETER\nR X, 1.\n" + dyna, "line 1: it has .PARAMETER"),
+            ("m.k", "*INCLUDE_TRANSFORM\na.k\n" + dyna, "line 1: it has .INCLUDE_TRANSFORM"),
+            ("m.k", "*INCLUDE\nm.k\n", "20 levels deep"), ("m.k", "*KEYWORD\n", "no .NODE"),
             ("m.su2", su2.replace("3\nNPOIN", "2\nNPOIN", 1), "line 1: .*two-dimensional"),
             ("m.su2", "NZONE= 2\n" + su2, "line 1: .*several zones"),
             ("m.su2", su2.replace("1 0 0", "1 inf 0"), "line 4: 'inf' is no number"),
@@ -698,7 +794,7 @@ class NastranIncludes(SolverFiles):
         self.assertEqual("".join(path.read_text() for path in moved), self.changed)
         (folder / "mesh" / "lib").mkdir()
         (folder / "mesh" / "lib" / "more.bdf").write_text("")
-        self.assertIn("means lib/more.bdf, and not mesh/lib/more.bdf, which is there, too",
+        self.assertIn("is lib/more.bdf, and not mesh/lib/more.bdf, which is there, too",
                       run("--list-surfaces", self.deck).stderr)
         (folder / "lib" / "more.bdf").rename(folder / "mesh" / "lib" / "more.bdf")
         self.assertEqual(run("--list-surfaces", self.deck).stderr, "")

@@ -8,15 +8,12 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <filesystem>
 #include <map>
 
 namespace morph::io
 {
 namespace
 {
-namespace fs = std::filesystem;
-
 constexpr int DeepestInclude = 20;
 
 /// An entry of elements: the cells by the number of its nodes, the first field of its nodes.
@@ -78,7 +75,6 @@ private:
   };
 
   void parse(std::size_t part, int depth);
-  std::size_t addIncluded(std::size_t part, const fs::path& name);
   void takeGrid(std::size_t part, const NastranCard& card);
   void takeElement(std::size_t part, const NastranCard& card, const Kind& kind);
   void takeSystem(std::size_t part, const NastranCard& card);
@@ -136,30 +132,6 @@ std::string includedName(std::string_view text, std::size_t& at)
 bool startsWith(const std::string& text, const char* start)
 {
   return text.rfind(start, 0) == 0;
-}
-
-/// A bare name lies beside the including file, one with a folder begins at that of the root file.
-/// Solvers and their versions differ, so the other place is taken where the first has no file.
-std::size_t NastranFile::addIncluded(std::size_t part, const fs::path& name)
-{
-  const fs::path root = fs::path(this->path()).parent_path();
-  fs::path first = fs::path(this->parts_[part].name).parent_path() / name, second = name;
-  if (name.has_parent_path())
-  {
-    std::swap(first, second);
-  }
-  std::error_code error;
-  const bool isSecond = fs::exists(root / second, error);
-  if (isSecond && !fs::exists(root / first, error))
-  {
-    std::swap(first, second);
-  }
-  else if (isSecond && !fs::equivalent(root / first, root / second, error))
-  {
-    this->mesh_.warnings.push_back("INCLUDE '" + name.string() + "' means " + first.string() +
-                                   ", and not " + second.string() + ", which is there, too.");
-  }
-  return this->addPart((root / first).string(), first.string());
 }
 
 void NastranFile::parse(std::size_t part, int depth)
@@ -237,24 +209,10 @@ void NastranFile::takeGrid(std::size_t part, const NastranCard& card)
   const Index number = this->integerIn(part, card, 0);
   const bool hasSystem = card.fields[1].span.size() > 0;
   this->systemOf_.push_back(hasSystem ? this->integerIn(part, card, 1) : -1);
-  NodePlace place;
-  place.part = part;
-  place.rules = card.rules(2);
-  std::array<double, 3> x = { 0, 0, 0 };
-  for (std::size_t j = 0; j < 3; ++j)
-  {
-    const NastranField& field = card.fields[2 + j];
-    place.numbers[j] = field.place;
-    // A coordinate that its line ends in is written in full before the next one.
-    const bool hasNewLine = card.isLarge && j == 2;
-    if (field.width > 0 && j > 0 && !hasNewLine && card.fields[1 + j].place.length < field.width)
-    {
-      place.numbers[j].missing = 0;
-    }
-    x[j] = field.span.size() == 0 ? 0 : this->numberAt(part, field.span);
-  }
+  std::array<double, 3> x;
+  this->places_.push_back(
+    this->nodePlace(part, card.fields.data() + 2, card.rules(2), x, card.isLarge));
   this->mesh_.addNode(number, x[0], x[1], x[2]);
-  this->places_.push_back(place);
 }
 
 /// CORD1R, CORD1C, CORD1S: one or two systems by nodes; CORD2R, CORD2C, CORD2S: by points.

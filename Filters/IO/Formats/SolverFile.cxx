@@ -6,6 +6,7 @@
 #include "Formats/CgnsFile.h"
 #include "Formats/ExodusFile.h"
 #include "Formats/GmshFile.h"
+#include "Formats/LsDynaFile.h"
 #include "Formats/NastranFile.h"
 #include "Formats/OpenFoamMesh.h"
 #include "Formats/Su2File.h"
@@ -58,6 +59,7 @@ constexpr Format Formats[] = {
   { "CGNS", isCgnsFile, readCgnsFile, sameExtension, false, HasCgns },
   { "Exodus II", isExodusFile, readExodusFile, sameExtension, false, HasNetCdf },
   { "Gmsh", isGmshFile, readGmshFile, sameExtension },
+  { "LS-DYNA", isLsDynaFile, readLsDynaFile, sameExtension },
   { "Nastran", isNastranFile, readNastranFile, sameExtension },
   { "OpenFOAM", isOpenFoamMesh, readOpenFoamMesh, openFoamTarget, true },
   { "SU2", isSu2File, readSu2File, sameExtension },

@@ -40,6 +40,49 @@ std::size_t TextFile::addPart(const std::string& path, const std::string& name)
   return this->parts_.size() - 1;
 }
 
+std::size_t TextFile::addIncluded(std::size_t part, const std::string& name)
+{
+  const fs::path root = fs::path(this->path()).parent_path();
+  fs::path first = fs::path(this->parts_[part].name).parent_path() / name, second = name;
+  if (second.has_parent_path())
+  {
+    std::swap(first, second);
+  }
+  std::error_code error;
+  const bool isSecond = fs::exists(root / second, error);
+  if (isSecond && !fs::exists(root / first, error))
+  {
+    std::swap(first, second);
+  }
+  else if (isSecond && !fs::equivalent(root / first, root / second, error))
+  {
+    this->mesh_.warnings.push_back("The included file '" + name + "' is " + first.string() +
+                                   ", and not " + second.string() + ", which is there, too.");
+  }
+  return this->addPart((root / first).string(), first.string());
+}
+
+TextFile::NodePlace TextFile::nodePlace(std::size_t part, const NumberField* fields,
+  const NumberRules& rules, std::array<double, 3>& coordinates, bool isSplit) const
+{
+  NodePlace place;
+  place.part = part;
+  place.rules = rules;
+  for (std::size_t j = 0; j < 3; ++j)
+  {
+    const NumberField& field = fields[j];
+    place.numbers[j] = field.place;
+    // A coordinate that its line ends in is written in full before the next one.
+    const bool hasNewLine = isSplit && j == 2;
+    if (field.width > 0 && j > 0 && !hasNewLine && fields[j - 1].place.length < field.width)
+    {
+      place.numbers[j].missing = 0;
+    }
+    coordinates[j] = field.span.size() == 0 ? 0 : this->numberAt(part, field.span);
+  }
+  return place;
+}
+
 std::string TextFile::where(std::size_t part, std::size_t at) const
 {
   const std::string& text = this->parts_[part].text;

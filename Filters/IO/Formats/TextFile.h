@@ -41,6 +41,14 @@ protected:
   /// The number at a place; throws Error with its line where there is none.
   double numberAt(std::size_t part, Span span) const;
   long long integerAt(std::size_t part, Span span) const;
+  /// As addPart(), for a name that the file `part` includes. A bare name lies beside that file,
+  /// one with a folder begins at that of the root file. Solvers and their versions differ, so the
+  /// other place is taken where the first has no file.
+  std::size_t addIncluded(std::size_t part, const std::string& name);
+  /// The place of a node with its coordinates in these three fields. `isSplit`: the last is on
+  /// another line.
+  NodePlace nodePlace(std::size_t part, const NumberField* fields, const NumberRules& rules,
+    std::array<double, 3>& coordinates, bool isSplit = false) const;
   /// "FILE, line 7", for messages.
   std::string where(std::size_t part, std::size_t at) const;
   [[noreturn]] void failAt(std::size_t part, std::size_t at, const std::string& reason) const;
