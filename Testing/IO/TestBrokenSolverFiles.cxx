@@ -66,6 +66,15 @@ const char* const Nastran =
   "CTETRA,3,9,1,2,3,4,,,,,,\nGRDSET,,0\nCORD1C,5,1,4,2\nGRID,9,5,1.,30.,2.\nGRID,10,6,1.,2.,3.\n"
   "CORD2S,6,5,0.,0.,0.,0.,0.,1.\n,1.,0.,0.\n"
   "ENDDATA\n";
+const char* const Ansys =
+  "/PREP7\nET,1,185\nET,2,SHELL181\nNBLOCK,6,SOLID,4,4\n(3i8,6e16.9e3)\n"
+  "       1       0       0\n       2       0       0 1.000000000E+000\n"
+  "       3       0       0                 1.000000000E+000\n"
+  "       4       0       0                                 1.000000000E+000\n"
+  "N,R5.3,LOC,       -1,\nEBLOCK,19,SOLID,2,2\n(19i4)\n"
+  "   1   1   1   1   0   0   0   0   8   0   1   1   2   3   3   4   4   4   4\n"
+  "   2   2   1   1   0   0   0   0   4   0   2   1   2   3   3\n  -1\n"
+  "CMBLOCK,SOME,NODE,3\n(8i10)\n         1        -3         4\nFINISH\n";
 const char* const LsDyna =
   "$ a deck\n*KEYWORD\n*NODE\n       1             0.0             0.0             0.0\n"
   "2,1.,0.,0.\n3,0.,1.,0.\n4,0.,0.,1.\n*ELEMENT_SOLID\n1,7,1,2,3,4,4,4,4,4\n2,7\n1,2,3,4\n"
@@ -245,8 +254,8 @@ protected:
 TEST_F(BrokenSolverFiles, OneFile)
 {
   const std::pair<const char*, std::string> samples[] = { { "a.inp", Abaqus },
-    { "b.inp", Assembly }, { "a.bdf", Nastran }, { "a.k", LsDyna }, { "a.su2", Su2 },
-    { "a2.msh", Gmsh2 }, { "a4.msh", Gmsh4 }, { "b2.msh", binaryGmsh(false) },
+    { "b.inp", Assembly }, { "a.bdf", Nastran }, { "a.k", LsDyna }, { "a.cdb", Ansys },
+    { "a.su2", Su2 }, { "a2.msh", Gmsh2 }, { "a4.msh", Gmsh4 }, { "b2.msh", binaryGmsh(false) },
     { "b4.msh", binaryGmsh(true) } };
   for (const auto& [name, content] : samples)
   {

@@ -3,6 +3,7 @@
 
 #include "Files/ReadFile.h"
 #include "Formats/AbaqusKeyword.h"
+#include "Formats/SolidElements.h"
 #include "Formats/TextFile.h"
 
 #include <algorithm>
@@ -307,52 +308,12 @@ Index LsDynaFile::position(Index node, const std::string& what) const
   return found->second;
 }
 
-/// A hexahedron, or what one with some equal nodes is.
-std::pair<std::uint8_t, std::vector<Index>> solidOf(const std::vector<Index>& n)
-{
-  if (n.size() == 10)
-  {
-    return { QuadraticTetra, n };
-  }
-  if (n.size() == 4 || (n.size() == 8 && n[3] == n[4] && n[4] == n[5] && n[5] == n[6]))
-  {
-    return { Tetra, { n[0], n[1], n[2], n[3] } };
-  }
-  if (n.size() != 8)
-  {
-    return { EmptyCell, {} };
-  }
-  if (n[4] == n[5] && n[5] == n[6])
-  {
-    return { Pyramid, { n[0], n[1], n[2], n[3], n[4] } };
-  }
-  if (n[4] == n[5] && n[6] == n[7])
-  {
-    return { Wedge, { n[0], n[4], n[1], n[3], n[6], n[2] } };
-  }
-  if (n[2] == n[3] && n[6] == n[7])
-  {
-    return { Wedge, { n[0], n[1], n[2], n[4], n[5], n[6] } };
-  }
-  return { Hexahedron, n };
-}
-
-std::pair<std::uint8_t, std::vector<Index>> faceOf(std::vector<Index> n)
-{
-  if (n.size() == 4 && (n[2] == n[3] || n[3] == 0))
-  {
-    n.pop_back();
-  }
-  const bool isKnown = n.size() == 3 || n.size() == 4;
-  return { !isKnown ? EmptyCell : n.size() == 3 ? Triangle : Quad, n };
-}
-
 std::map<Index, Index> LsDynaFile::addElements(const std::vector<Element>& elements, bool isShell)
 {
   std::map<Index, Index> cells; // solids and shells have numbers of their own
   for (const Element& element : elements)
   {
-    auto [type, nodes] = isShell ? faceOf(element.nodes) : solidOf(element.nodes);
+    auto [type, nodes] = isShell ? shellElement(element.nodes) : solidElement(element.nodes);
     const std::string name = "element " + std::to_string(element.number);
     if (type == EmptyCell)
     {
@@ -404,7 +365,7 @@ void LsDynaFile::finish()
       else if (set.kind == Block::SegmentSet)
       {
         const auto first = members.begin() + static_cast<std::ptrdiff_t>(i);
-        auto [type, nodes] = faceOf({ first, first + 4 });
+        auto [type, nodes] = shellElement({ first, first + 4 });
         for (Index& node : nodes)
         {
           node = this->position(node, "the set " + set.name);

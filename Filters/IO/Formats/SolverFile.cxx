@@ -3,6 +3,7 @@
 
 #include "Files/ReadFile.h"
 #include "Formats/AbaqusFile.h"
+#include "Formats/AnsysFile.h"
 #include "Formats/CgnsFile.h"
 #include "Formats/ExodusFile.h"
 #include "Formats/GmshFile.h"
@@ -56,6 +57,7 @@ constexpr bool HasCgns = false;
 
 constexpr Format Formats[] = {
   { "Abaqus or CalculiX", isAbaqusFile, readAbaqusFile, sameExtension },
+  { "Ansys", isAnsysFile, readAnsysFile, sameExtension },
   { "CGNS", isCgnsFile, readCgnsFile, sameExtension, false, HasCgns },
   { "Exodus II", isExodusFile, readExodusFile, sameExtension, false, HasNetCdf },
   { "Gmsh", isGmshFile, readGmshFile, sameExtension },
