@@ -487,6 +487,12 @@ class SolverFiles(unittest.TestCase):
                 self.check_by_reading(path, out, "--move", wall, "--translate", "-0.25,0,0",
                                       delta=1e-6)
                 self.assertNotEqual(out.read_bytes(), path.read_bytes())
+        unv, msh = self.folder / "box.unv", self.folder / "box.msh"
+        subprocess.run(["gmsh", "-3", box, "-o", unv], check=True, capture_output=True, timeout=120)
+        self.refuse("Gmsh converts it: gmsh .*box.unv -save -o model.msh", "--list-surfaces", unv)
+        subprocess.run(["gmsh", unv, "-save", "-o", msh], check=True, capture_output=True,
+                       timeout=120)
+        self.assertRegex(run("--list-surfaces", msh).stdout, "(?m)^wall +[1-9]")
 
     def test_planar_elements_beside_volumes_are_faces(self):
         """Mesh generators name faces by types of planar models."""
