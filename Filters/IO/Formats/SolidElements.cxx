@@ -35,8 +35,10 @@ std::pair<std::uint8_t, std::vector<Index>> solidElement(const std::vector<Index
   static const std::vector<std::pair<std::size_t, std::uint8_t>> whole = { { 4, Tetra },
     { 8, Hexahedron }, { 10, QuadraticTetra }, { 20, QuadraticHexahedron } };
   const bool isHexahedron = nodes.size() == 8 || nodes.size() == 20;
-  for (const Collapsed& one : isHexahedron ? collapsedHexahedra() : std::vector<Collapsed>())
+  const std::vector<Collapsed>& table = collapsedHexahedra();
+  for (std::size_t row = 0; isHexahedron && row < table.size(); ++row)
   {
+    const Collapsed& one = table[row];
     const bool fits = std::all_of(one.equal.begin(), one.equal.end(),
       [&nodes](const auto& range)
       {
