@@ -57,15 +57,26 @@ vtkSmartPointer<vtkStringArray> stringArray(const char* name)
   return array;
 }
 
+/// `values`: 3 for each node.
+vtkSmartPointer<vtkDoubleArray> vectors(const std::string& name, const std::vector<double>& values)
+{
+  auto array = vtkSmartPointer<vtkDoubleArray>::New();
+  array->SetName(name.c_str());
+  array->SetNumberOfComponents(3);
+  array->SetNumberOfTuples(static_cast<vtkIdType>(values.size() / 3));
+  std::copy(values.begin(), values.end(), array->GetPointer(0));
+  return array;
+}
+
 void setPoints(const SolverMesh& mesh, vtkUnstructuredGrid* grid)
 {
-  vtkNew<vtkDoubleArray> coordinates;
-  coordinates->SetNumberOfComponents(3);
-  coordinates->SetNumberOfTuples(mesh.nodes());
-  std::copy(mesh.coordinates.begin(), mesh.coordinates.end(), coordinates->GetPointer(0));
   vtkNew<vtkPoints> points;
-  points->SetData(coordinates);
+  points->SetData(vectors("Points", mesh.coordinates));
   grid->SetPoints(points);
+  if (!mesh.displacementName.empty())
+  {
+    grid->GetPointData()->AddArray(vectors(mesh.displacementName, mesh.displacements));
+  }
 }
 
 /// One by one: a polyhedron is the list of its faces, in every VTK.

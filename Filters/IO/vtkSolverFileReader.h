@@ -13,6 +13,8 @@
  *   element, but belongs to a surface, a side set or a patch.
  * - For each named set of nodes a point array, and for each named set of elements or faces a cell
  *   array, of its name: 1 (unsigned char) in the set, 0 elsewhere.
+ * - Point vectors of their name (`disp_`): the displacements of the last time step, if an Exodus II
+ *   file has any. The points are undeformed.
  * - Field data `SurfaceNames`: the names of these sets. Boundary Displacement and Morph Mesh offer
  *   them as surfaces.
  * - Field data `SolverFile`: the path of the file, for vtkSolverFileWriter.

@@ -96,6 +96,7 @@ struct Nodes
   std::vector<morph::Index> Numbers;
   std::vector<double> Coordinates; ///< 3 x #nodes
   bool AreOfAnotherReader = false; ///< which may have added displacements
+  bool AreMorphed = false;
   /// 3 x #nodes, before the last morph; empty where our reader gave them.
   std::vector<double> Undeformed;
   double Precision = 0; ///< what rounding may have changed of Undeformed
@@ -122,6 +123,7 @@ Nodes nodesOf(const std::vector<vtkPointSet*>& parts)
   {
     vtkDataArray* numbers = numbersOf(part);
     vtkDataArray* moved = displacementOf(part);
+    nodes.AreMorphed = nodes.AreMorphed || moved;
     // A point and its displacement are rounded each.
     const double rounding = part->GetPoints()->GetDataType() == VTK_FLOAT
                               ? double(std::numeric_limits<float>::epsilon())
@@ -224,10 +226,12 @@ void vtkSolverFileWriter::WriteCopy(vtkDataObject* input)
   const std::vector<vtkPointSet*> parts = partsOf(input);
   const std::string original = originalOf(input, parts, this->OriginalFileName);
   morph::io::requireWritable(original, this->FileName);
-  const Nodes nodes = nodesOf(parts);
+  Nodes nodes = nodesOf(parts);
   if (nodes.AreOfAnotherReader)
   {
-    morph::io::requireOwnCoordinates(original, nodes.Numbers, nodes.Undeformed, nodes.Precision);
+    const std::vector<double> displaced = morph::io::requireOwnCoordinates(
+      original, nodes.Numbers, nodes.Undeformed, nodes.Precision, nodes.AreMorphed);
+    nodes.Coordinates = displaced.empty() ? nodes.Coordinates : displaced;
   }
   this->LargestRounding =
     morph::io::writeSolverFile(original, nodes.Numbers, nodes.Coordinates, this->FileName,

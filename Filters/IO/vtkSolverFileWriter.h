@@ -22,7 +22,8 @@
  *
  * A mesh of another reader has global ids in place of `NodeNumber`. It is refused where that reader
  * has added the displacements of an Exodus II file: its points less `MorphDisplacement` are not
- * those of the file.
+ * those of the file. If no filter has morphed it, and its points are those of the file plus the
+ * displacements of a time step, these become the coordinates.
  *
  * @sa vtkSolverFileReader
  */

@@ -23,7 +23,7 @@ namespace
 {
 const char* const Formats =
   "Solvers' files (*.e *.ex2 *.exo *.exii *.g *.gen *.cgns *.msh *.inp *.bdf *.nas *.fem *.dat "
-  "*.su2 *.foam);;All files (*)";
+  "*.k *.key *.dyn *.cdb *.su2 *.foam);;All files (*)";
 
 /// The file that the data were read from; empty where none is known.
 QString fileOf(pqPipelineSource* source)

@@ -36,7 +36,8 @@ const char* const Usage =
   "\n"
   "Reads  .vtu .pvtu .vtm .vtk .inp (AVS UCD) .neu (Gambit); boundaries also\n"
   "       .vtp .pvtp .ply .stl .obj; solvers' files .inp (Abaqus, CalculiX)\n"
-  "       .bdf .nas .fem .dat (Nastran) .su2 .msh (Gmsh)\n"
+  "       .bdf .nas .fem .dat (Nastran) .k .key .dyn (LS-DYNA) .cdb (Ansys)\n"
+  "       .su2 .msh (Gmsh)\n"
   "       .e .exo .ex2 .exii .g .gen (Exodus II) .cgns, cases of OpenFOAM\n"
   "Writes .vtu .vtk, boundaries .vtp .vtk; with a .pvtu, .vtm or solver's file as grid, "
   "also a copy of it\n"
@@ -62,6 +63,18 @@ double number(const std::string& option, const std::string& text)
   if (text.empty() || *end != '\0' || errno == ERANGE || !std::isfinite(value))
   {
     throw UsageError(option + " needs a number, not '" + text + "'.");
+  }
+  return value;
+}
+
+/// From 0 on.
+double numberUpTo(const std::string& option, const std::string& text, double most)
+{
+  const double value = number(option, text);
+  if (!(value >= 0 && value <= most))
+  {
+    throw UsageError(
+      option + " needs a number from 0 to " + std::to_string(int(most)) + ", not '" + text + "'.");
   }
   return value;
 }
@@ -213,9 +226,10 @@ void checkMotion(const Arguments& arguments)
   {
     throw UsageError("--align needs --target.");
   }
-  if (motion.projectAlong != 0 && motion.target.empty())
+  if ((motion.projectAlong != 0 || motion.targetReach || motion.targetAngle) &&
+      motion.target.empty())
   {
-    throw UsageError("--project-along needs --target.");
+    throw UsageError("--project-along, --target-reach and --target-angle need --target.");
   }
   if (motion.isPlaced() && motion.radius)
   {
@@ -410,6 +424,14 @@ std::vector<Option> optionsOf(Arguments& result)
     { "--project-along", "<direction>",
       "x, y, z, normal or dx,dy,dz: how nodes go to the target; by default to the closest point",
       [&](const std::string& value) { setProjection(value, result.motion); } },
+    { "--target-reach", "<number>",
+      "how far nodes may go to the target, in diagonals of the boundary's box; by default 0.2",
+      [&](const std::string& value)
+      { result.motion.targetReach = numberUpTo("--target-reach", value, 10); } },
+    { "--target-angle", "<degrees>",
+      "the largest angle between the normals of target and surface; by default 60",
+      [&](const std::string& value)
+      { result.motion.targetAngle = numberUpTo("--target-angle", value, 180); } },
     { "--handles", "<csv>",
       "points that take what moves along smoothly (without --move, everything): columns x, y, z, "
       "dx, "
@@ -430,7 +452,9 @@ std::vector<Option> optionsOf(Arguments& result)
       } },
     { "--b-splines", nullptr, "cubic B-splines of the lattice, in place of Bernstein's polynomials",
       flag(result.motion.bSplines) },
-    { "--displacements", "<csv>", "nodes that move: columns id (0-based point id), dx, dy, dz",
+    { "--displacements", "<csv>",
+      "nodes that move: columns id (0-based point id), dx, dy, dz; or pointDisplacement of "
+      "OpenFOAM",
       text(result.motion.displacements) },
     { "--node-numbers", nullptr, "ids of --displacements are the node numbers of the grid's file",
       flag(result.motion.nodeNumbers) },

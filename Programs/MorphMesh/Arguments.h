@@ -22,11 +22,12 @@ struct Motion
   std::optional<std::array<double, 3>> translation, scale;
   std::optional<std::array<double, 3>> rotation; ///< degrees about x, y and z
   std::array<double, 3> center = { 0, 0, 0 };
-  bool hasCenter = false;            ///< else the centre of what moves
-  std::optional<double> radius;      ///< change of the radius of cylinders
-  std::string target, displacements; ///< files; empty: none
-  bool align = false;                ///< the target first
-  int projectAlong = 0;              ///< as of vtkDisplacementAlgorithm
+  bool hasCenter = false;                         ///< else the centre of what moves
+  std::optional<double> radius;                   ///< change of the radius of cylinders
+  std::string target, displacements;              ///< files; empty: none
+  bool align = false;                             ///< the target first
+  std::optional<double> targetReach, targetAngle; ///< as of vtkDisplacementAlgorithm
+  int projectAlong = 0;                           ///< as of vtkDisplacementAlgorithm
   std::array<double, 3> projectVector = { 0, 0, 1 };
   std::string handles, lattice; ///< files of control points; empty: none
   std::array<int, 3> latticeSize = { 3, 3, 3 };

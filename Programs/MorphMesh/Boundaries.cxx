@@ -6,10 +6,14 @@
 #include "Messages.h"
 #include "NumberColumns.h"
 
+#include "Files/ReadFile.h"
+#include "Formats/FoamList.h"
+
 #include <vtkBoundaryDisplacement.h>
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
 #include <vtkDoubleArray.h>
+#include <vtkExtractMorphBoundary.h>
 #include <vtkFieldData.h>
 #include <vtkIdList.h>
 #include <vtkIdTypeArray.h>
@@ -23,10 +27,13 @@
 #include <vtkUnstructuredGrid.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iomanip>
 #include <iostream>
 #include <map>
+#include <regex>
+#include <set>
 #include <sstream>
 #include <vector>
 
@@ -34,21 +41,24 @@ namespace morph_mesh
 {
 namespace
 {
-/// The point of each of the file's node numbers.
-std::map<vtkIdType, vtkIdType> pointOfNumber(vtkUnstructuredGrid* grid)
+namespace io = morph::io;
+
+/// The numbers of the nodes in the file that a grid was read from; null where there are none.
+vtkDataArray* numbersOf(vtkPointSet* grid)
 {
   vtkDataArray* numbers = grid->GetPointData()->GetGlobalIds();
-  if (!numbers)
+  for (const char* name : { "NodeNumber", "GlobalNodeId" }) // of our reader, of VTK's of Exodus II
   {
-    numbers = grid->GetPointData()->GetArray("GlobalNodeId"); // Exodus II, by VTK's reader
+    numbers = numbers ? numbers : grid->GetPointData()->GetArray(name);
   }
-  if (!numbers)
-  {
-    throw Failure("The grid's file has no node numbers: leave --node-numbers out, and give 0-based "
-                  "point ids.");
-  }
+  return numbers;
+}
+
+/// The point of each of the file's node numbers.
+std::map<vtkIdType, vtkIdType> pointOfNumber(vtkDataArray* numbers)
+{
   std::map<vtkIdType, vtkIdType> points;
-  for (vtkIdType i = 0; i < grid->GetNumberOfPoints(); ++i)
+  for (vtkIdType i = 0; i < numbers->GetNumberOfTuples(); ++i)
   {
     points.emplace(static_cast<vtkIdType>(numbers->GetComponent(i, 0)), i);
   }
@@ -91,6 +101,151 @@ void setControlPoints(vtkBoundaryDisplacement* filter, const Motion& motion)
   {
     filter->AddLatticeDisplacement(line.numbers.data());
   }
+}
+
+using Displacements = std::vector<std::pair<vtkIdType, std::array<double, 3>>>; ///< of point ids
+
+Displacements displacementsOfTable(
+  vtkUnstructuredGrid* grid, const std::string& path, bool nodeNumbers)
+{
+  if (nodeNumbers && !numbersOf(grid))
+  {
+    throw Failure("The grid's file has no node numbers: leave --node-numbers out, and give 0-based "
+                  "point ids.");
+  }
+  const auto points =
+    nodeNumbers ? pointOfNumber(numbersOf(grid)) : std::map<vtkIdType, vtkIdType>();
+  Displacements result;
+  for (const NumberLine& line : readNumbers(path, { "id", "dx", "dy", "dz" }))
+  {
+    const std::vector<double>& values = line.numbers;
+    const auto given = static_cast<vtkIdType>(values[0]);
+    const auto found = points.find(given);
+    const vtkIdType id = !nodeNumbers ? given : found == points.end() ? -1 : found->second;
+    if (id < 0 || id >= grid->GetNumberOfPoints() || values[0] != std::floor(values[0]))
+    {
+      std::ostringstream number;
+      number << values[0];
+      throw Failure(line.where + "the grid has no node '" + number.str() + "'.");
+    }
+    result.push_back({ id, { values[1], values[2], values[3] } });
+  }
+  return result;
+}
+
+/// The points of a patch in OpenFOAM's order: as its faces name them first.
+std::vector<vtkIdType> pointsOfPatch(vtkUnstructuredGrid* grid, vtkDataArray* faces)
+{
+  std::vector<vtkIdType> points;
+  std::set<vtkIdType> known;
+  vtkNew<vtkIdList> corners;
+  for (vtkIdType cell = 0; cell < faces->GetNumberOfTuples(); ++cell)
+  {
+    if (faces->GetComponent(cell, 0) == 0)
+    {
+      continue;
+    }
+    grid->GetCellPoints(cell, corners);
+    for (const vtkIdType point : *corners)
+    {
+      if (known.insert(point).second)
+      {
+        points.push_back(point);
+      }
+    }
+  }
+  return points;
+}
+
+/// The entry that OpenFOAM takes for a patch: that of its name, or else the last pattern that fits.
+const io::FoamList::PatchVectors* entryOf(
+  const std::vector<io::FoamList::PatchVectors>& entries, const std::string& patch)
+{
+  const io::FoamList::PatchVectors* result = nullptr;
+  for (const io::FoamList::PatchVectors& entry : entries)
+  {
+    if (entry.name == patch)
+    {
+      return &entry;
+    }
+    try
+    {
+      result = entry.isPattern && std::regex_match(patch, std::regex(entry.name)) ? &entry : result;
+    }
+    catch (const std::regex_error&)
+    {
+      throw Failure(
+        "The boundaryField has the pattern '" + entry.name + "', which is no regular expression.");
+    }
+  }
+  return result;
+}
+
+/// Of a field such as 0/pointDisplacement. A point of several patches moves as the first of them
+/// that moves it.
+Displacements displacementsOfField(vtkUnstructuredGrid* grid, const std::string& path)
+{
+  io::FoamList file(path);
+  const auto entries = file.boundaryField();
+  // A velocity has a negative exponent.
+  if (file.type() != "pointVectorField" || file.dimensions().find('-') != std::string::npos)
+  {
+    throw Failure(path + " is a field of OpenFOAM of the class " + file.type() +
+                  " and the dimensions " + file.dimensions() +
+                  ". --displacements needs a pointVectorField of lengths, as pointDisplacement is, "
+                  "or a table with the columns id, dx, dy and dz.");
+  }
+  auto* names =
+    vtkStringArray::SafeDownCast(grid->GetFieldData()->GetAbstractArray("SurfaceNames"));
+  std::map<vtkIdType, std::array<double, 3>> found;
+  std::set<vtkIdType> apart;
+  std::string without;
+  for (vtkIdType i = 0; names && i < names->GetNumberOfValues(); ++i)
+  {
+    const std::string patch = names->GetValue(i);
+    vtkDataArray* faces = grid->GetCellData()->GetArray(patch.c_str());
+    const auto* entry = entryOf(entries, patch);
+    if (!faces || !entry || entry->type != "fixedValue" || entry->values.empty())
+    {
+      without += (without.empty() ? "" : ", ") + patch + (entry ? " (" + entry->type + ")" : "");
+      continue;
+    }
+    const std::vector<vtkIdType> points = pointsOfPatch(grid, faces);
+    const std::vector<double>& values = entry->values;
+    if (!entry->isUniform && values.size() != 3 * points.size())
+    {
+      throw Failure(path + ": the patch " + patch + " has " + std::to_string(points.size()) +
+                    " points in the mesh, and " + std::to_string(values.size() / 3) +
+                    " values in the field.");
+    }
+    for (std::size_t k = 0; k < points.size(); ++k)
+    {
+      const double* value = values.data() + (entry->isUniform ? 0 : 3 * k);
+      std::array<double, 3>& old = found[points[k]];
+      const double size = vtkMath::Norm(old.data());
+      if (size == 0)
+      {
+        std::copy(value, value + 3, old.begin());
+      }
+      else if (vtkMath::Norm(value) > 0 &&
+               vtkMath::Distance2BetweenPoints(value, old.data()) > 1e-12 * size * size)
+      {
+        apart.insert(points[k]);
+      }
+    }
+  }
+  if (!without.empty())
+  {
+    std::cerr << "morph-mesh: warning: " << path << " has no fixedValue for the patches " << without
+              << ". Their nodes stay, or move with the interior with --free-unnamed-boundary.\n";
+  }
+  if (!apart.empty())
+  {
+    std::cerr << "morph-mesh: warning: " << path << ": patches move " << apart.size()
+              << " nodes that they share differently, the first of them node " << *apart.begin()
+              << ". The first patch of the mesh is followed.\n";
+  }
+  return { found.begin(), found.end() };
 }
 
 struct SurfaceSums
@@ -172,6 +327,8 @@ vtkSmartPointer<vtkAlgorithm> makeDisplacement(
     filter->SetMotionToTarget();
     filter->SetTargetData(readTarget(motion.target));
     filter->SetAlignTarget(motion.align);
+    filter->SetTargetReach(motion.targetReach.value_or(filter->GetTargetReach()));
+    filter->SetTargetAngle(motion.targetAngle.value_or(filter->GetTargetAngle()));
     filter->SetProjectAlong(motion.projectAlong);
     filter->SetProjectVector(motion.projectVector.data());
   }
@@ -207,11 +364,72 @@ vtkSmartPointer<vtkAlgorithm> makeDisplacement(
   return filter;
 }
 
+vtkSmartPointer<vtkPointSet> readBoundary(
+  vtkUnstructuredGrid* grid, const std::string& path, bool isDisplacement)
+{
+  vtkSmartPointer<vtkPointSet> boundary = readPoints(path);
+  vtkDataArray* numbers = numbersOf(boundary);
+  if (!numbers || !numbersOf(grid) || boundary->GetPointData()->HasArray("MorphPointId") ||
+      boundary->GetNumberOfPoints() != grid->GetNumberOfPoints())
+  {
+    return boundary;
+  }
+  // A copy of the mesh, whose points another program may have brought into another order.
+  const auto points = pointOfNumber(numbersOf(grid));
+  vtkNew<vtkIdTypeArray> ids;
+  ids->SetName("MorphPointId");
+  for (vtkIdType i = 0; i < numbers->GetNumberOfTuples(); ++i)
+  {
+    const auto found = points.find(static_cast<vtkIdType>(numbers->GetComponent(i, 0)));
+    if (found == points.end())
+    {
+      std::ostringstream number;
+      number << numbers->GetComponent(i, 0);
+      throw Failure(path + " has as many points as the grid, but other node numbers, such as " +
+                    number.str() + ". Give a copy of the grid, or remove the array " +
+                    numbers->GetName() + ".");
+    }
+    ids->InsertNextValue(found->second);
+  }
+  const vtkIdType* first = ids->GetPointer(0);
+  if (!std::is_sorted(first, first + ids->GetNumberOfTuples()))
+  {
+    std::cerr << "morph-mesh: warning: the points of " << path
+              << " are in another order than those of the grid. They are matched by the array "
+              << numbers->GetName() << (isDisplacement ? "" : ", the outer nodes alone") << ".\n";
+  }
+  if (isDisplacement) // of each node, of the inner ones too
+  {
+    boundary->GetPointData()->AddArray(ids);
+    return boundary;
+  }
+  std::vector<vtkIdType> pointOf(points.size()); // the inner nodes' places are arbitrary
+  for (vtkIdType i = 0; i < ids->GetNumberOfTuples(); ++i)
+  {
+    pointOf[ids->GetValue(i)] = i;
+  }
+  vtkNew<vtkExtractMorphBoundary> outer;
+  outer->SetInputData(grid);
+  outer->Update();
+  vtkPolyData* surface = outer->GetOutput();
+  vtkDataArray* nodes = surface->GetPointData()->GetArray("MorphPointId");
+  vtkNew<vtkPoints> moved;
+  moved->SetDataType(boundary->GetPoints()->GetDataType());
+  for (vtkIdType i = 0; i < surface->GetNumberOfPoints(); ++i)
+  {
+    moved->InsertNextPoint(
+      boundary->GetPoint(pointOf[static_cast<vtkIdType>(nodes->GetComponent(i, 0))]));
+  }
+  surface->SetPoints(moved);
+  return surface;
+}
+
 vtkSmartPointer<vtkAlgorithm> readDisplacements(
   vtkUnstructuredGrid* grid, const std::string& path, bool nodeNumbers)
 {
-  const std::map<vtkIdType, vtkIdType> points =
-    nodeNumbers ? pointOfNumber(grid) : std::map<vtkIdType, vtkIdType>();
+  const std::string head = io::readHead(path, 4096);
+  const bool isField =
+    head.find("FoamFile") != std::string::npos || head.rfind("\x1f\x8b", 0) == 0; // packed
   vtkNew<vtkPoints> places;
   places->SetDataTypeToDouble();
   vtkNew<vtkIdTypeArray> ids;
@@ -219,21 +437,12 @@ vtkSmartPointer<vtkAlgorithm> readDisplacements(
   vtkNew<vtkDoubleArray> vectors;
   vectors->SetName(DisplacementName);
   vectors->SetNumberOfComponents(3);
-  for (const NumberLine& line : readNumbers(path, { "id", "dx", "dy", "dz" }))
+  for (const auto& [id, vector] :
+    isField ? displacementsOfField(grid, path) : displacementsOfTable(grid, path, nodeNumbers))
   {
-    const std::vector<double>& values = line.numbers;
-    const auto given = static_cast<vtkIdType>(values[0]);
-    const auto found = points.find(given);
-    const vtkIdType id = !nodeNumbers ? given : found == points.end() ? -1 : found->second;
-    if (id < 0 || id >= grid->GetNumberOfPoints() || values[0] != std::floor(values[0]))
-    {
-      std::ostringstream number;
-      number << values[0];
-      throw Failure(line.where + "the grid has no node '" + number.str() + "'.");
-    }
     ids->InsertNextValue(id);
     places->InsertNextPoint(grid->GetPoint(id));
-    vectors->InsertNextTuple3(values[1], values[2], values[3]);
+    vectors->InsertNextTuple(vector.data());
   }
   if (ids->GetNumberOfTuples() == 0)
   {

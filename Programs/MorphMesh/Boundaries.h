@@ -7,12 +7,20 @@
 
 class vtkAlgorithm;
 class vtkDataObject;
+class vtkPointSet;
 class vtkUnstructuredGrid;
 
 /// Displaced boundaries that are made from the command line instead of being read.
 namespace morph_mesh
 {
 struct Motion;
+
+/// The boundary that a file holds. Where it is a copy of the grid with node numbers (`NodeNumber`,
+/// `GlobalNodeId` or global ids), points are matched by these: outer nodes alone, or, where
+/// `isDisplacement`, all. Throws Failure for a file that cannot be read, and for a copy with other
+/// numbers.
+vtkSmartPointer<vtkPointSet> readBoundary(
+  vtkUnstructuredGrid* grid, const std::string& path, bool isDisplacement);
 
 /// The filter whose output is the grid's displaced boundary: by numbers, or onto a target. It has
 /// not been executed. Throws Failure for a target that cannot be read.
@@ -26,10 +34,11 @@ void printTargetDistances(vtkDataObject* boundary);
 /// The name of the point vectors of readDisplacements().
 inline constexpr const char* DisplacementName = "Displacement";
 
-/// A source of the points that a CSV file names, at their undeformed positions, with their ids and
+/// A source of the points that a table names, at their undeformed positions, with their ids and
 /// DisplacementName. Its columns are id, dx, dy and dz, in any order. `nodeNumbers`: ids are the
-/// numbers of the file that the grid was read from, not the 0-based point ids. Throws Failure with
-/// the line of what is wrong.
+/// numbers of the file that the grid was read from, not the 0-based point ids. The file may also be
+/// a field of OpenFOAM, pointDisplacement: points move on the patches with a fixedValue. Throws
+/// Failure with the line of what is wrong.
 vtkSmartPointer<vtkAlgorithm> readDisplacements(
   vtkUnstructuredGrid* grid, const std::string& path, bool nodeNumbers);
 

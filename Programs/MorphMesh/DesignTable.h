@@ -13,11 +13,7 @@ struct DesignTable
   std::vector<std::string> ignored;      ///< columns that are no shape's
 };
 
-/// Reads a CSV file: a line of column names, then a line a design. Columns are found by their
-/// names, which may be quoted. Throws Failure where the file cannot be read, a shape has no column
-/// or two, a line has another number of columns, or a weight is no finite number.
+/// Reads a table: a line of column names, then a line a design. Throws Failure where the file
+/// cannot be read, a shape has no column or two, or a weight is no finite number.
 DesignTable readTable(const std::string& path, const std::vector<std::string>& shapes);
-
-/// Splits a line of a CSV file at its commas; fields may be quoted, and lose blanks around them.
-std::vector<std::string> splitLine(const std::string& line);
 }

@@ -6,6 +6,7 @@
 #include "Files.h"
 #include "Messages.h"
 #include "Methods.h"
+#include "NumberColumns.h"
 #include "ProgressBar.h"
 
 #include "Files/ReplaceFile.h"

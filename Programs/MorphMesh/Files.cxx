@@ -96,7 +96,8 @@ vtkSmartPointer<vtkAlgorithm> makeReader(const std::string& path)
   {
     return readerFor<vtkOBJReader>(path);
   }
-  throw Failure("Cannot read " + path + ": its extension is none of those that --help lists.");
+  throw Failure("Cannot read " + path + ": its extension is none of those that --help lists." +
+                (kind == ".unv" ? " Gmsh converts it: gmsh " + path + " -save -o model.msh" : ""));
 }
 
 vtkSmartPointer<vtkUnstructuredGrid> merged(vtkCompositeDataSet* blocks)

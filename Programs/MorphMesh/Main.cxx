@@ -80,7 +80,10 @@ void setBoundary(vtkMorphAlgorithm* filter, vtkUnstructuredGrid* grid, const Arg
   const Motion& motion = arguments.motion;
   if (!motion.any())
   {
-    filter->SetBoundaryData(readPoints(arguments.boundary));
+    filter->SetBoundaryData(
+      arguments.boundaryIdArray.empty()
+        ? readBoundary(grid, arguments.boundary, !arguments.displacementArray.empty())
+        : readPoints(arguments.boundary));
     return;
   }
   if (!motion.displacements.empty())

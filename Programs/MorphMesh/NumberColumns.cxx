@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "NumberColumns.h"
 
-#include "DesignTable.h"
 #include "Messages.h"
+
+#include <vtksys/SystemTools.hxx>
 
 #include <algorithm>
 #include <cmath>
@@ -27,10 +28,27 @@ std::string listOf(const std::vector<std::string>& names)
   return list;
 }
 
-std::vector<std::size_t> placesOf(
-  const std::vector<std::string>& names, const std::string& header, const std::string& path)
+std::string trimmed(const std::string& text)
 {
-  const std::vector<std::string> found = splitLine(header);
+  const std::size_t first = text.find_first_not_of(" \t\r");
+  return first == std::string::npos
+           ? std::string()
+           : text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
+}
+
+/// A line for a message, which may be long.
+std::string cited(const std::string& line)
+{
+  return "'" + trimmed(line.size() > 80 ? line.substr(0, 80) + "..." : line) + "'";
+}
+
+std::vector<std::size_t> placesOf(const std::vector<std::string>& names, const TableLine& header)
+{
+  std::vector<std::string> found = header.fields;
+  for (std::string& name : found)
+  {
+    name = vtksys::SystemTools::LowerCase(name);
+  }
   std::vector<std::size_t> places;
   for (const std::string& name : names)
   {
@@ -38,52 +56,117 @@ std::vector<std::size_t> placesOf(
     const auto at = std::find(found.begin(), found.end(), isOptional ? name.substr(1) : name);
     if (at == found.end() && !isOptional)
     {
-      throw Failure(path + ", line 1: there is no column " + name + ". The columns " +
-                    listOf(names) + " are needed.");
+      throw Failure(header.where + "there is no column " + name + " in " + cited(header.text) +
+                    ". The columns " + listOf(names) +
+                    " are needed, with commas, semicolons or tabs between them.");
     }
     places.push_back(at == found.end() ? Missing : static_cast<std::size_t>(at - found.begin()));
   }
   return places;
 }
+}
 
-double numberOf(const std::string& text, const std::string& where)
+std::vector<std::string> splitLine(const std::string& line, char separator)
 {
+  std::vector<std::string> fields(1);
+  bool quoted = false;
+  for (const char c : line)
+  {
+    if (c == '"')
+    {
+      quoted = !quoted;
+    }
+    else if (c == separator && !quoted)
+    {
+      fields.emplace_back();
+    }
+    else
+    {
+      fields.back() += c;
+    }
+  }
+  std::transform(fields.begin(), fields.end(), fields.begin(), trimmed);
+  return fields;
+}
+
+std::vector<TableLine> readLines(const std::string& path)
+{
+  std::ifstream file(path);
+  std::vector<TableLine> lines;
+  char separator = ',';
+  std::string text;
+  for (int number = 1; std::getline(file, text); ++number)
+  {
+    if (number == 1 && text.rfind("\xef\xbb\xbf", 0) == 0) // byte order mark of UTF-8
+    {
+      text.erase(0, 3);
+    }
+    if (lines.empty())
+    {
+      separator = text.find(';') != std::string::npos   ? ';'
+                  : text.find(',') != std::string::npos ? ','
+                                                        : '\t';
+    }
+    TableLine line{ path + ", line " + std::to_string(number) + ": ", text,
+      splitLine(text, separator) };
+    if (std::all_of(line.fields.begin(), line.fields.end(),
+          [](const std::string& field) { return field.empty(); }))
+    {
+      continue;
+    }
+    const std::size_t columns = lines.empty() ? line.fields.size() : lines.front().fields.size();
+    while (line.fields.size() > columns && line.fields.back().empty())
+    {
+      line.fields.pop_back();
+    }
+    if (line.fields.size() != columns)
+    {
+      throw Failure(line.where + cited(text) + " has " + std::to_string(line.fields.size()) +
+                    " columns; the first line has " + std::to_string(columns) + ".");
+    }
+    if (separator != ',' && !lines.empty())
+    {
+      for (std::string& field : line.fields)
+      {
+        std::replace(field.begin(), field.end(), ',', '.'); // decimal signs
+      }
+    }
+    lines.push_back(std::move(line));
+  }
+  if (lines.empty())
+  {
+    throw Failure("Cannot read " + path + ": it does not exist, or is empty.");
+  }
+  return lines;
+}
+
+double numberIn(const TableLine& line, std::size_t field)
+{
+  const std::string& text = line.fields[field];
   char* end = nullptr;
   const double number = std::strtod(text.c_str(), &end);
   if (text.empty() || *end != '\0' || !std::isfinite(number))
   {
-    throw Failure(where + "'" + text + "' is no number.");
+    throw Failure(line.where + "'" + text + "' is no finite number, in " + cited(line.text) + ".");
   }
   return number;
-}
 }
 
 std::vector<NumberLine> readNumbers(
   const std::string& path, const std::vector<std::string>& columns)
 {
-  std::ifstream file(path);
-  std::string line;
-  if (!std::getline(file, line))
+  const std::vector<TableLine> lines = readLines(path);
+  const std::vector<std::size_t> places = placesOf(columns, lines.front());
+  std::vector<NumberLine> result;
+  for (auto line = lines.begin() + 1; line != lines.end(); ++line)
   {
-    throw Failure("Cannot read " + path + ", or it is empty.");
-  }
-  const std::vector<std::size_t> places = placesOf(columns, line, path);
-  std::vector<NumberLine> lines;
-  for (int number = 2; std::getline(file, line); ++number)
-  {
-    if (line.find_first_not_of(" \t\r") == std::string::npos)
-    {
-      continue;
-    }
-    NumberLine next{ path + ", line " + std::to_string(number) + ": ", {} };
-    const std::vector<std::string> fields = splitLine(line);
+    NumberLine& next = result.emplace_back();
+    next.where = line->where;
     for (const std::size_t place : places)
     {
-      next.numbers.push_back(
-        place == Missing ? 0 : numberOf(place < fields.size() ? fields[place] : "", next.where));
+      next.numbers.push_back(place == Missing ? 0 : numberIn(*line, place));
     }
-    lines.push_back(next);
   }
-  return lines;
+  return result;
 }
 }

@@ -2,6 +2,7 @@
 // Damaged files of the formats that are read here without a library: each is a mesh in range, or
 // one Error. MORPH_TEST_SEED sets another seed, MORPH_TEST_CASES the number of cases a format.
 #include "Files/ReadFile.h"
+#include "Formats/FoamList.h"
 #include "Formats/SolverFile.h"
 #include "Support/Error.h"
 
@@ -44,15 +45,42 @@ const char* const Abaqus =
   "*HEADING\nA tetrahedron\n*NODE, NSET=All\n"
   "1, 0., 0., 0.\n2, 1., 0., 0.\n3, 0., 1., 0.\n4, 0., 0., 1.\n5, 1., 1., 1.\n"
   "*ELEMENT, TYPE=C3D4, ELSET=Solid\n1, 1, 2, 3, 4\n2, 2, 5, 3, 4\n"
+  "*ELEMENT, TYPE=CPS3, ELSET=Wall\n3, 1, 2, 3\n"
   "*NSET, NSET=Some, GENERATE\n1, 3, 2\n*ELSET, ELSET=Both\nSolid, 2\n"
   "*SURFACE, NAME=Bottom\nSolid, S1\n*STEP\n*END STEP\n";
+const char* const Assembly =
+  "*PART, NAME=P\n*SYSTEM\n1., 0., 0., 1., 1., 0.\n0., 0., 0.\n*NODE, SYSTEM=C\n"
+  "1, 0., 0., 0.\n2, 1., 0., 0.\n3, 1., 90., 0.\n4, 0., 0., 1.\n"
+  "*ELEMENT, TYPE=C3D4, ELSET=Solid\n1, 1, 2, 3, 4\n*NSET, NSET=Some\n1, 2\n*END PART\n"
+  "*ASSEMBLY, NAME=A\n*INSTANCE, NAME=I, PART=P\n1., 2., 3.\n0., 0., 0., 0., 0., 1., 30.\n"
+  "*END INSTANCE\n*INSTANCE, NAME=J, PART=P\n1., 2., 9.\n0., 0., 0., 0., 0., 1., 30.\n*END "
+  "INSTANCE\n*NODE\n1, 5., 5., 5.\n"
+  "*NSET, NSET=Lid, INSTANCE=J, GENERATE\n1, 3, 1\n*NSET, NSET=All\nI.1, J.Some\n"
+  "*ELSET, ELSET=S, INSTANCE=I\n1\n*SURFACE, NAME=W\nS, S1\n*END ASSEMBLY\n";
 const char* const Nastran =
   "SOL 101\nCEND\nBEGIN BULK\n"
   "GRID    1               0.0     0.0     0.0\n"
   "GRID*                  2                              1.              0.\n"
   "*                     0.\nGRID,3,,0.,1.,0.\nGRID,4,,0.,0.,1.0+0\n"
   "CTETRA  1       7       1       2       3       4\nCTRIA3,2,8,1,2,3\n"
+  "CTETRA,3,9,1,2,3,4,,,,,,\nGRDSET,,0\nCORD1C,5,1,4,2\nGRID,9,5,1.,30.,2.\nGRID,10,6,1.,2.,3.\n"
+  "CORD2S,6,5,0.,0.,0.,0.,0.,1.\n,1.,0.,0.\n"
   "ENDDATA\n";
+const char* const Ansys =
+  "/PREP7\nET,1,185\nET,2,SHELL181\nNBLOCK,6,SOLID,4,4\n(3i8,6e16.9e3)\n"
+  "       1       0       0\n       2       0       0 1.000000000E+000\n"
+  "       3       0       0                 1.000000000E+000\n"
+  "       4       0       0                                 1.000000000E+000\n"
+  "N,R5.3,LOC,       -1,\nEBLOCK,19,SOLID,2,2\n(19i4)\n"
+  "   1   1   1   1   0   0   0   0   8   0   1   1   2   3   3   4   4   4   4\n"
+  "   2   2   1   1   0   0   0   0   4   0   2   1   2   3   3\n  -1\n"
+  "CMBLOCK,SOME,NODE,3\n(8i10)\n         1        -3         4\nFINISH\n";
+const char* const LsDyna =
+  "$ a deck\n*KEYWORD\n*NODE\n       1             0.0             0.0             0.0\n"
+  "2,1.,0.,0.\n3,0.,1.,0.\n4,0.,0.,1.\n*ELEMENT_SOLID\n1,7,1,2,3,4,4,4,4,4\n2,7\n1,2,3,4\n"
+  "*ELEMENT_SHELL_THICKNESS\n       1       8       1       2       3       3\n0.1,0.1\n*PART\n"
+  "A part\n8,1,1\n*SET_NODE_LIST_TITLE\nSome\n1,0.,0.\n1,2,3\n*SET_SEGMENT\n2\n1,2,3,3\n"
+  "*SET_PART_LIST\n3\n7,8\n*SET_SHELL\n4\n1\n*END\n";
 const char* const Su2 = "NDIME= 3\nNELEM= 1\n10 0 1 2 3 0\nNPOIN= 4\n0 0 0 0\n1. 0 0 1\n0 1 0 2\n"
                         "0 0 1e0 3\nNMARK= 1\nMARKER_TAG= wall\nMARKER_ELEMS= 1\n5 0 1 2\n";
 const char* const Gmsh2 =
@@ -225,7 +253,8 @@ protected:
 
 TEST_F(BrokenSolverFiles, OneFile)
 {
-  const std::pair<const char*, std::string> samples[] = { { "a.inp", Abaqus }, { "a.bdf", Nastran },
+  const std::pair<const char*, std::string> samples[] = { { "a.inp", Abaqus },
+    { "b.inp", Assembly }, { "a.bdf", Nastran }, { "a.k", LsDyna }, { "a.cdb", Ansys },
     { "a.su2", Su2 }, { "a2.msh", Gmsh2 }, { "a4.msh", Gmsh4 }, { "b2.msh", binaryGmsh(false) },
     { "b4.msh", binaryGmsh(true) } };
   for (const auto& [name, content] : samples)
@@ -250,6 +279,40 @@ TEST_F(BrokenSolverFiles, OpenFoam)
   for (const char* name : { "points", "faces", "owner", "neighbour", "boundary" })
   {
     this->Break(mesh / name, mesh / "points", name);
+  }
+}
+
+TEST_F(BrokenSolverFiles, PointDisplacementOfOpenFoam)
+{
+  const std::string whole =
+    "FoamFile { version 2.0; format ascii; class pointVectorField; }\n"
+    "dimensions [0 1 0 0 0 0 0];\ninternalField uniform (0 0 0);\nboundaryField\n{\n"
+    "\"(in|out)let\" { type fixedValue; value nonuniform List<vector> 2((0 0 1) (1 0 0)); }\n"
+    "wall { type fixedValue; value uniform (0 0 0.5); list (1 (2)); a { b c; } }\n"
+    "rest { type slip; }\n}\n";
+  const std::string path = (this->Folder / "pointDisplacement").string();
+  this->Write(path, whole);
+  const auto field = morph::io::FoamList(path).boundaryField();
+  ASSERT_EQ(field.size(), 3U);
+  EXPECT_TRUE(field[0].isPattern && !field[0].isUniform);
+  EXPECT_EQ(field[0].values, (std::vector<double>{ 0, 0, 1, 1, 0, 0 }));
+  EXPECT_EQ(field[1].values, (std::vector<double>{ 0, 0, 0.5 }));
+  EXPECT_EQ(field[2].type, "slip");
+  for (int i = 0; i < setting("MORPH_TEST_CASES", 2000); ++i)
+  {
+    std::mt19937 engine(static_cast<std::mt19937::result_type>(1 + i));
+    this->Write(path, broken(whole, engine));
+    try
+    {
+      for (const auto& patch : morph::io::FoamList(path).boundaryField())
+      {
+        EXPECT_EQ(patch.values.size() % 3, 0U);
+      }
+    }
+    catch (const morph::Error& error)
+    {
+      EXPECT_FALSE(std::string(error.what()).empty());
+    }
   }
 }
 }

@@ -178,7 +178,7 @@ TEST_F(SolverFiles, WrongGridsAreRefused)
   reset();
   expectError(grid, "the file has 7 nodes, and the mesh 6");
   std::ofstream(this->Path("a.inp")) << "*PART\n" << Deck;
-  expectError(grid, "parts and instances");
+  expectError(grid, "no *INSTANCE has a *NODE");
   fs::remove(this->Path("a.inp"));
   expectError(grid, "there is no such file");
 }

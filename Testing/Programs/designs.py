@@ -108,8 +108,9 @@ class Designs(unittest.TestCase):
         for content, message in [("whole\n1\n", "no column 'again'"), ("", "empty"),
                                  ("whole,again\n", "no design"),
                                  ("whole,again,whole\n1,2,3\n", "two columns 'whole'"),
-                                 ("whole,again\n1\n", "line 2 has 1 columns"),
-                                 ("whole,again\n1,x\n", "column again: 'x' is no finite number"),
+                                 ("whole,again\n1\n", "line 2: '1' has 1 columns"),
+                                 ("whole,again\n1,x\n",
+                                  "line 2: 'x' is no finite number, in '1,x'"),
                                  ("whole,again\n1,nan\n", "'nan' is no finite number")]:
             with self.subTest(content=content):
                 self.table.write_text(content)

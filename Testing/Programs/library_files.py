@@ -330,6 +330,23 @@ class Exodus(Files):
             self.assertAlmostEqual(written[at + axis], model.points[node][axis] + shift,
                                    delta=1e-14)
 
+    def test_displacements_of_the_last_step_become_coordinates(self):
+        """All nodes move by them, inner ones too; time steps stay."""
+        for kind, together in (("classic", False), ("netCDF-4", True)):
+            model, path = self.write(kind, together=together)
+            out = self.folder / "out.exo"
+            self.morph(path, out, "--displacement-array", "displ_", "--validity", "None", path)
+            self.assertEqual(self.dump(out), self.dump(path))
+            written, count = self.still(out), len(model.order)
+            for i, node in enumerate(model.order):
+                for axis in range(3):
+                    step = 1e-3 * (axis + 1) + 1e-5 * (count + i)
+                    self.assertAlmostEqual(written[3 * i + axis], model.points[node][axis] + step,
+                                           delta=1e-14)
+        _, path = self.write("classic", nodal=("disp_z", "velocity", "disp_x"))
+        result = run("--displacement-array", "disp_", path, path, self.folder / "out2.exo")
+        self.assertEqual(result.returncode, 1)
+
     def test_damaged_files_are_refused(self):
         _, path = self.write("classic")
         whole = path.read_bytes()

@@ -103,6 +103,10 @@ class MorphMesh(unittest.TestCase):
                  BORE, moved),
                 (2, "--align needs --target", "--move", "Surface 1", "--scale", "2", "--align",
                  BORE, moved),
+                (2, "--target-reach and --target-angle need --target", "--move", "Surface 1",
+                 "--scale", "2", "--target-reach", "1", BORE, moved),
+                (2, "--target-angle needs a number from 0 to 180, not '200'", "--target", "x.stl",
+                 "--target-angle", "200", BORE, moved),
                 (2, "2 files are needed (grid, output), 1 is given", "--target", "x.stl", BORE),
                 (2, "1 file is needed (grid), 2 are given", "--list-surfaces", BORE, moved)):
             self.fails(status, message, *arguments)
@@ -169,8 +173,12 @@ class MorphMesh(unittest.TestCase):
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertLess(row(result.stdout, "mean scaled Jacobian")[1], 1)
         for text, message in (("id,dx,dy\n", "line 1: there is no column dz"),
-                              ("id,dx,dy,dz\n0,1,2,x\n", "line 2: 'x' is no number"),
-                              ("id,dx,dy,dz\n0,1,2\n", "line 2: '' is no number"),
+                              ("id,dx,dy,dz\n0,1,2,x\n",
+                               "line 2: 'x' is no finite number, in '0,1,2,x'"),
+                              ("id,dx,dy,dz\n0,1,2\n", "line 2: '0,1,2' has 3 columns; the first"),
+                              ("id,dx,dy,dz\n0,1,5,2,0\n", "line 2: '0,1,5,2,0' has 5 columns"),
+                              ("id;dx;dy;dz\n0;1.234,5;2;0\n", "'1.234.5' is no finite number"),
+                              ("id dx dy dz\n0 1 2 0\n", "no column id in 'id dx dy dz'"),
                               ("id,dx,dy,dz\n\n999999,1,2,3\n", "line 3: the grid has no node"),
                               ("id,dx,dy,dz\n0.5,1,2,3\n", "line 2: the grid has no node '0.5'"),
                               ("id,dx,dy,dz\n", "has no node that moves"),
@@ -181,37 +189,73 @@ class MorphMesh(unittest.TestCase):
         self.fails(1, "has no node numbers", "--displacements", nodes, "--node-numbers", BORE,
                    self.folder / "x.vtu")
 
-    def test_displacements_by_the_numbers_of_the_file(self):
-        corners = [(x, y, z) for z in (0, 1) for x, y in ((0, 0), (1, 0), (1, 1), (0, 1))]
+    def test_tables_as_spreadsheets_write_them(self):
+        """Byte order mark, separators, decimal commas, empty lines and columns, large letters."""
+        nodes, moved = self.folder / "nodes.csv", self.folder / "moved.vtk"
+        results = set()
+        for text in ("id,dx,dy,dz\n3,0.25,0,-1.5e-3\n7,0,0.125,0\n",
+                     "\ufeffid,dx,dy,dz\r\n3,0.25,0,-1.5e-3,\r\n,,,\r\n7,0,0.125,0\r\n",
+                     "ID;DX;DY;DZ\n3;0,25;0;-1,5e-3\n7;0;0,125;0\n",
+                     "\ufeffid\tdx\tname\tdy\tdz\n3\t0,25\t\t0\t-1.5e-3\n7\t0\tx,y\t,125\t0\n",
+                     '"id","dy","dz","dx"\n"3","0","-1.5e-3","0.25"\n"7","0.125","0","0"\n'):
+            nodes.write_bytes(text.encode())
+            result = run("--displacements", nodes, BORE, moved)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            results.add(moved.read_bytes())
+        self.assertEqual(len(results), 1)
 
+    CORNERS = [(x, y, z) for z in (0, 1) for x, y in ((0, 0), (1, 0), (1, 1), (0, 1))]
+
+    def numbered_cube(self, name, order=range(8), first=18, lift=0.0):
+        """A cube whose corners have the numbers 18, 17, ... The points come in `order`; that of
+        number 12 is lifted."""
         def values(kind, name, numbers, components=1):
             return (f'<DataArray type="{kind}" Name="{name}" NumberOfComponents="{components}" '
                     f'format="ascii">{" ".join(map(str, numbers))}</DataArray>')
 
-        grid = self.folder / "cube.vtu"
+        order = list(order)
+        corners = [(x, y, z + lift * (i == 6)) for i, (x, y, z) in enumerate(self.CORNERS)]
+        grid = self.folder / name
         grid.write_text(
             '<VTKFile type="UnstructuredGrid" version="1.0"><UnstructuredGrid>'
             '<Piece NumberOfPoints="8" NumberOfCells="1"><PointData GlobalIds="GlobalNodeId">'
-            + values("Int64", "GlobalNodeId", range(18, 10, -1)) + "</PointData><Points>"
-            + values("Float64", "Points", (x for corner in corners for x in corner), 3)
-            + "</Points><Cells>" + values("Int64", "connectivity", range(8))
+            + values("Int64", "GlobalNodeId", (first - i for i in order)) + "</PointData><Points>"
+            + values("Float64", "Points", (x for i in order for x in corners[i]), 3)
+            + "</Points><Cells>" + values("Int64", "connectivity", map(order.index, range(8)))
             + values("Int64", "offsets", [8]) + values("UInt8", "types", [12])
             + "</Cells></Piece></UnstructuredGrid></VTKFile>", encoding="utf-8")
+        return grid
+
+    def check_lifted(self, moved, lift):
+        content = moved.read_bytes()
+        start = content.index(b"\n", content.index(b"\nPOINTS 8 double") + 1) + 1
+        found = struct.unpack(">24d", content[start:start + 24 * 8])
+        for i, (x, y, z) in enumerate(self.CORNERS):
+            self.assertEqual(found[3 * i:3 * i + 3], (x, y, z + lift * (i == 6)))
+
+    def test_displacements_by_the_numbers_of_the_file(self):
+        grid = self.numbered_cube("cube.vtu")
         nodes = self.folder / "nodes.csv"
         nodes.write_text("id,dx,dy,dz\n12,0,0,0.25\n", encoding="utf-8")
         moved = self.folder / "moved.vtk"
-        for options, point in ((("--node-numbers",), 6), ((), None)):
-            result = run("--displacements", nodes, *options, grid, moved)
-            if point is None:  # the mesh has points 0 to 7
-                self.assertIn("no node '12'", result.stderr)
-                continue
-            self.assertEqual((result.returncode, result.stderr), (0, ""))
-            content = moved.read_bytes()
-            start = content.index(b"\n", content.index(b"\nPOINTS 8 double") + 1) + 1
-            found = struct.unpack(">24d", content[start:start + 24 * 8])
-            for i, corner in enumerate(corners):
-                expected = (*corner[:2], corner[2] + 0.25 * (i == point))
-                self.assertEqual(found[3 * i:3 * i + 3], expected)
+        result = run("--displacements", nodes, "--node-numbers", grid, moved)
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+        self.check_lifted(moved, 0.25)
+        self.fails(1, "no node '12'", "--displacements", nodes, grid, moved)  # it has 0 to 7
+
+    def test_a_copy_in_another_order_is_matched_by_its_numbers(self):
+        grid, moved = self.numbered_cube("cube.vtu"), self.folder / "moved.vtk"
+        result = run(grid, self.numbered_cube("same.vtu", lift=0.25), moved)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.check_lifted(moved, 0.25)
+        copy = self.numbered_cube("copy.vtu", (3, 7, 1, 0, 6, 2, 5, 4), lift=0.5)
+        result = run(grid, copy, moved)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("another order than those of the grid. They are matched by the array "
+                      "GlobalNodeId, the outer nodes alone.", result.stderr)
+        self.check_lifted(moved, 0.5)
+        self.fails(1, "other node numbers, such as 21.", grid,
+                   self.numbered_cube("other.vtu", first=21), moved)
 
     def test_a_chosen_surface_is_fitted_to_a_target(self):
         listed = run("--list-surfaces", BORE).stdout.splitlines()[1:]

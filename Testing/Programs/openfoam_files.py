@@ -98,6 +98,75 @@ class OpenFoam(solver_files.SolverFiles):
         (mesh / "points.gz").write_bytes(b"\x1f\x8b damaged")
         self.refuse("points.gz: it is damaged", "--list-surfaces", mesh)
 
+    def test_a_case_of_several_meshes_names_them(self):
+        """Regions, and the pieces of a decomposed case. One of several regions is read."""
+        foam, case = self.case()
+        foam.write(case)
+        mesh = case / "constant" / "polyMesh"
+        for places, message in ((("constant/fluid", "constant/solid"),
+                                 "one for each region. .*constant/fluid, .*constant/solid\\."),
+                                (("processor0/constant", "processor1/constant"),
+                                 "decomposed case, .*processor0 .*reconstructParMesh")):
+            several = self.folder / places[0].split("/")[0]
+            for place in places:
+                shutil.copytree(mesh, several / place / "polyMesh")
+            (several / "case.foam").write_text("")
+            for path in (several, several / "case.foam"):
+                self.refuse(message, "--list-surfaces", path)
+                self.refuse(message, *self.MOVE, path, self.folder / "points")
+            self.assertEqual(run("--list-surfaces", several / places[1]).returncode, 0)
+        self.refuse("one for each region", "--list-surfaces", self.folder / "constant/constant")
+
+    def test_point_displacement_of_a_case(self):
+        """Uniform and nonuniform values, text and binary, in the order in which faces name points;
+        a pattern of names; the patch that moves wins where one shares points with one that stays.
+        """
+        foam, case = self.case()
+        foam.write(case)
+        still = self.folder / "still.vtk"
+        self.morph(case, still, "--move", "wall", "--translate", "0,0,0")
+        rest = points_of(still)
+        patches = {m[1]: foam.faces[int(m[3]):int(m[3]) + int(m[2])] for m in re.finditer(
+            r"(\w+)\s*\{[^}]*nFaces (\d+);\s*startFace (\d+)", foam.boundary)}
+        wall = list(dict.fromkeys(n for face in patches["wall"] for n in face))
+        vectors = [(0.001 * i, 0, -0.002) for i in range(len(wall))]
+        packed = b"".join(struct.pack("<3d", *v) for v in vectors)
+        lists = " ".join("({} {} {})".format(*v) for v in vectors).encode()
+        field, out = self.folder / "pointDisplacement", self.folder / "out.vtk"
+        for style, kind, value, expected in (
+                ("ascii", '"(wall|none)"', b"uniform (0 0.01 0)", [(0, 0.01, 0)] * len(wall)),
+                ("ascii", "wall", b"nonuniform List<vector> %d (%b)" % (len(wall), lists), vectors),
+                ("binary", "wall", b"nonuniform List<vector> %d(%b)" % (len(wall), packed),
+                 vectors)):
+            head = models.foam_header("pointVectorField", "pointDisplacement").replace(
+                "ascii", style)
+            field.write_bytes(head.encode() + b"dimensions [0 1 0 0 0 0 0];\n"
+                              b"internalField uniform (0 0 0);\nboundaryField\n{\n inlet { type "
+                              b"fixedValue; value uniform (0 0 0); }\n" + kind.encode() +
+                              b" { a { b (1 2); } type fixedValue; value " + value +
+                              b"; }\n outlet { type zeroGradient; }\n}\n")
+            result = run("--displacements", field, "--validity", "None", case, out)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            self.assertIn("no fixedValue for the patches outlet (zeroGradient), sides.",
+                          result.stderr)
+            moved = points_of(out)
+            for node, vector in zip(wall, expected):
+                for axis in range(3):
+                    self.assertAlmostEqual(moved[3 * node + axis] - rest[3 * node + axis],
+                                           vector[axis], delta=1e-12)
+        whole = field.read_bytes()
+        for old, new, message in (
+                (b"[0 1 0", b"[0 1 -1", "pointVectorField of lengths"),
+                (b"pointVectorField", b"volVectorField", "of the class volVectorField"),
+                (b"List<vector> %d(" % len(wall), b"List<vector> 1(", "is missing"),
+                (b"uniform (0 0 0); }", b"$here; }", "'uniform' or 'nonuniform'")):
+            field.write_bytes(whole.replace(old, new))
+            self.refuse(message, "--displacements", field, case, self.folder / "x.vtk")
+        field.write_bytes(whole.replace(packed, packed[:24]).replace(
+            b"List<vector> %d(" % len(wall), b"List<vector> 1("))
+        self.refuse("wall has %d points in the mesh, and 1 value" % len(wall), "--displacements",
+                    field, case, self.folder / "x.vtk")
+
     def test_what_is_refused(self):
         foam, case = self.case()
         mesh = foam.write(case)

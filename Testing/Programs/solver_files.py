@@ -17,6 +17,7 @@ from pathlib import Path
 
 import gmsh_models
 import solver_models as models
+from legacy_files import points_of
 
 try:
     import meshio
@@ -213,6 +214,317 @@ class SolverFiles(unittest.TestCase):
             self.refuse(f"names '{name}', which the boundary does not have", "--move", name,
                         "--translate", "0,0,0.1", path, self.folder / "out.inp")
 
+    CUBE = "*NODE\n" + "".join(f"{i + 1}, {i & 1}., {i >> 1 & 1}., {i >> 2}.\n"
+                               for i in range(8))
+
+    BRICK = "*ELEMENT, TYPE=C3D8, ELSET=Solid\n1, 1, 2, 4, 3, 5, 6, 8, 7\n"
+
+    def check_by_reading(self, path, out, *move, delta=1e-13):
+        """What is written, read again, is the morphed mesh. Returns its points."""
+        exact, again = self.folder / "exact.vtk", self.folder / "again.vtk"
+        csv = self.folder / "still.csv"
+        csv.write_text("id,dx,dy,dz\n0,0,0,0\n")
+        for arguments in ((*move, path, out), (*move, path, exact),
+                          ("--displacements", csv, out, again)):
+            result = run(*arguments)
+            self.assertEqual(result.returncode, 0, result.stderr)
+        for a, b in zip(points_of(exact), points_of(again)):
+            self.assertAlmostEqual(a, b, delta=delta)
+        return points_of(exact)
+
+    def assembly(self, second="Other"):
+        """Two cubes: the second is turned by 90 degrees about a line beside the z axis, and moved
+        before that. It is another part, or another instance of the first."""
+        part = ("*PART, NAME=%s\n" + self.CUBE + self.BRICK +
+                "*NSET, NSET=Top\n5, 6, 7, 8\n*END PART\n")
+        path = self.folder / "cae.inp"
+        path.write_text(
+            "*HEADING\n" + part % "Block" + part % "Other" + "*ASSEMBLY, NAME=A\n"
+            "*INSTANCE, NAME=One-1, PART=block\n*END INSTANCE\n"
+            f"*INSTANCE, NAME=Two-1, PART={second}\n5., 0., 1.\n5., 1., 0., 5., 1., 1., 90.\n"
+            "*END INSTANCE\n*NODE\n1, 9., 9., 9.\n*NSET, NSET=Reference\n1\n"
+            "*NSET, NSET=Lid, INSTANCE=Two-1, GENERATE\n5, 8, 1\n"
+            "*NSET, NSET=Lids\nOne-1.Top, Two-1.5, Two-1.6, two-1.7, Two-1.8\n"
+            "*ELSET, ELSET=Both\nOne-1.1, Two-1.Solid\n*ELSET, ELSET=_S, INSTANCE=Two-1\n1\n"
+            "*SURFACE, NAME=Wall, TYPE=ELEMENT\n_S, S2\n*END ASSEMBLY\n*STEP\n*END STEP\n")
+        return path
+
+    def test_parts_and_instances_of_an_assembly(self):
+        path, out = self.assembly(), self.folder / "out.inp"
+        rows = dict(re.findall(r"(?m)^(\S+) +(\d+ .*)$", run("--list-surfaces", path).stdout))
+        self.assertRegex(rows["Lid"], r"^1 +1 +5.5, 1.5, 2$")
+        for name, faces in (("One-1.Top", 1), ("Two-1.Top", 1), ("Lids", 2), ("Both", 12),
+                            ("Two-1", 6), ("Wall", 1), ("One-1.Solid", 6)):
+            self.assertRegex(rows[name], f"^{faces} ", name)
+        self.check_by_reading(path, out, "--move", "Wall", "--translate", "0.25,0,0.5")
+        # In the part's own system, what is written is turned back.
+        old, new = path.read_text().split("*PART"), out.read_text().split("*PART")
+        self.assertEqual(new[:2], old[:2])
+        for i, x, y in ((5, "0.", "0."), (6, "1.", "0."), (7, "0.", "1."), (8, "1.", "1.")):
+            old[2] = old[2].replace(f"{i}, {x}, {y}, 1.", f"{i}, {x}, {float(y) - 0.25}, 1.5")
+        self.assertEqual(re.sub(r"\b(\d)\.0?(?=,)", r"\1.0", new[2]),
+                         re.sub(r"\b(\d)\.0?(?=,)", r"\1.0", old[2]))
+
+    def test_instances_of_one_part_share_its_nodes(self):
+        path, out = self.assembly("Block"), self.folder / "out.inp"
+        one, both = (("--move", name, "--translate", "0,0,0.5") for name in ("Lid", "Lids"))
+        result = run(*one, path, out)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("'Block' has several instances, which share its nodes", result.stderr)
+        moved = out.read_text()
+        self.assertEqual(moved.count(", 1.5\n"), 4)
+        self.check_by_reading(path, out, *both)
+        self.assertEqual(out.read_text(), moved)
+        self.refuse("instances of one part move differently at the nodes .*part of its own",
+                    "--move", "Lids", "--translate", "0.25,0,0.5", path, out)
+
+    def test_coordinate_systems_of_an_input_file(self):
+        """*SYSTEM, and cylindrical coordinates: radius, degrees, height."""
+        corners = [(1 + (i & 1), 30 * (i >> 1 & 1), i >> 2) for i in range(8)]
+        nodes = "".join(f"{i + 1}, {r}., {a}., {z}.\n" for i, (r, a, z) in enumerate(corners))
+        path, out = self.folder / "m.inp", self.folder / "out.inp"
+        for system, expected in (("", (3 ** 0.5 / 2, 0.5, 1.5)),
+                                 ("*SYSTEM\n1., 2., 3., 1., 3., 3.\n0., 2., 3.\n",
+                                  (1 - 0.5, 2 + 3 ** 0.5 / 2, 4.5))):
+            path.write_text(f"{system}*NODE, SYSTEM=C\n{nodes}*SYSTEM\n{self.BRICK}"
+                            "*NSET, NSET=Top\n5, 6, 7, 8\n")
+            points = self.check_by_reading(path, out, "--move", "Top", "--translate", "0,0,0.5")
+            for a, b in zip(points[3 * 6:3 * 6 + 3], expected):
+                self.assertAlmostEqual(a, b, delta=1e-13)
+            # Radius and angle keep their text.
+            self.assertIn("7, 1., 30., 1.5\n8, 2., 30., 1.5\n", out.read_text())
+            self.check_by_reading(path, out, "--move", "Top", "--translate", "0.1,0.2,0.5")
+
+    def test_coordinate_systems_of_nastran(self):
+        """By points and by nodes, each in another one; large and free fields; GRDSET."""
+        systems = ("CORD2R,1,,1.,2.,3.,1.,2.,4.\n,1.,3.,3.\n"  # its x axis is y
+                   "CORD2C,2,1,0.,0.,0.,0.,0.,1.\n,1.,0.,0.\n"
+                   "CORD2S*                3               1              0.              0.\n"
+                   "*                     0.              0.              0.              1.\n"
+                   "*                     1.              0.              0.\n"
+                   "CORD1C,4,91,92,93\nGRID,91,0,1.,2.,3.\nGRID,92,1,0.,0.,1.\n"
+                   "GRID,93,0,1.,3.,3.\n")
+        path, out = self.folder / "m.bdf", self.folder / "out.bdf"
+        corners = [(1 + (i & 1), 30 * (i >> 1 & 1), i >> 2) for i in range(8)]
+        shape = {1: lambda r, a, z: (r, a / 30, z), 2: lambda r, a, z: (r, a, z),
+                 3: lambda r, a, z: (r + 1, 60 + 30 * z, a), 4: lambda r, a, z: (r, a, z)}
+        for system, local in shape.items():
+            with self.subTest(system=system):
+                text = f"BEGIN BULK\nGRDSET,,{system}\n" + systems
+                for i, corner in enumerate(corners):
+                    own = "" if i % 2 else system
+                    text += "GRID*,{},{},{}.,{}.,*A\n*A,{}.\n".format(
+                        i + 1, own, *(int(x) for x in local(*corner)))
+                path.write_text(text + "CHEXA,1,7,1,2,4,3,5,6,+B\n+B,8,7\n")
+                points = self.check_by_reading(path, out, "--move", "Surface 1", "--translate",
+                                               "0.1,0.05,0.02", delta=1e-12)
+                old, new = (file.read_text().splitlines() for file in (path, out))
+                self.assertEqual(new[:12] + new[-2:], old[:12] + old[-2:])
+        self.assertEqual(len(points), 33)
+        for text, message in (("CORD2R,5,6,0.,0.,0.,0.,0.,1.\n,1.,0.,0.\n"
+                               "CORD2R,6,5,0.,0.,0.,0.,0.,1.\n,1.,0.,0.\nGRID,1,5,0.,0.,0.\n",
+                               "needs others that need it"),
+                              ("CORD2R,5,0,0.,0.,0.,0.,0.,1.\n,0.,0.,2.\nGRID,1,5,0.,0.,0.\n",
+                               "line 2: the three points of the coordinate system 5 are on a line"),
+                              ("CORD1R,5,7,8,9\nGRID,1,5,0.,0.,0.\n", "needs the node 7"),
+                              ("GRID,1,5,0.,0.,0.\n", "coordinate system 5, which no CORD1R")):
+            path.write_text("BEGIN BULK\n" + text)
+            self.refuse(message, "--list-surfaces", path)
+
+    CORNERS = [(i & 1, i >> 1 & 1, i >> 2) for i in range(8)]
+
+    def test_a_deck_of_ls_dyna_in_each_form_of_its_fields(self):
+        """Fixed, long and free fields; sets; nodes in an included file; text that stays."""
+        path, out = self.folder / "m.k", self.folder / "out.k"
+        for form, (number, real, join) in {
+                "fixed": ("{:8d}", "{:16.6f}", ""), "long": ("{:20d}", "{:20.9f}", ""),
+                "free": ("{}", "{}.", ",")}.items():
+            with self.subTest(form=form):
+                def card(*numbers, width=None):
+                    style = f"{{:{width}d}}" if width and form == "fixed" else number
+                    return join.join(style.format(n) for n in numbers) + "\n"
+
+                nodes = "".join(
+                    join.join([number.format(i + 1), *(real.format(x) for x in corner)]) + "\n"
+                    for i, corner in enumerate(self.CORNERS))
+                path.write_text(
+                    "$ a deck\n*KEYWORD" + (" LONG=Y" if form == "long" else "") + "\n*NODE\n" +
+                    nodes + "$ comment\n*ELEMENT_SOLID\n" + card(1, 7, 1, 2, 4, 3, 5, 6, 8, 7) +
+                    "*ELEMENT_SHELL\n" + card(1, 8, 5, 6, 8, 7) + "*PART\nThe lid\n" +
+                    card(8, 1, 1, width=10) + "*SET_NODE_LIST\n" + card(3, width=10) +
+                    card(5, 6, 7, 8, width=10) + "*SET_SEGMENT_TITLE\nFoot\n" +
+                    card(4, width=10) + card(1, 2, 4, 3, width=10) + "*SET_SHELL\n" +
+                    card(5, width=10) + card(1, width=10) + "*ELEMENT_BEAM\n" + card(9, 9, 1, 2) +
+                    "*MAT_ELASTIC\n" + card(1, width=10) + "*END\nno deck\n")
+                rows = run("--list-surfaces", path)
+                self.assertIn("elements of *ELEMENT_BEAM are left out", rows.stderr)
+                for name, faces in (("PID 7", 6), ("The lid", 1), ("Node set 3", 1), ("Foot", 1),
+                                    ("Shell set 5", 1)):
+                    self.assertRegex(rows.stdout, f"(?m)^{name} +{faces} ")
+                for name, z, shift in (("Foot", 0, -0.5), ("The lid", 1, 0.25)):
+                    self.check_by_reading(path, out, "--move", name, "--translate", f"0,0,{shift}")
+                    old, new = (file.read_text().splitlines() for file in (path, out))
+                    at = old.index("*NODE") + 1
+                    moved = [i for i in range(len(old)) if old[i] != new[i]]
+                    self.assertEqual(moved, [at + i for i in range(8) if i >> 2 == z])
+                    if form != "free":
+                        self.assertEqual([len(line) for line in new], [len(line) for line in old])
+
+    def cdb(self, corners, elements, ints=9, real=(21, 13, 3), rest=""):
+        """An archive by the layout that CDWRITE documents. Elements: type, nodes."""
+        width, digits, exponent = real
+        def number(x):
+            mantissa, power = f"{x:.{digits}E}".split("E")
+            return f"{mantissa}E{int(power):+0{exponent + 1}d}".rjust(width)
+        integer = lambda values: "".join(f"{v:{ints}d}" for v in values)
+        text = ("/COM, typed by the published layout\n/PREP7\nET,1,185\nET,2,SOLID186\n"
+                f"ET,        3,181\nET,4,170\nNBLOCK,6,SOLID,{len(corners)},{len(corners)}\n"
+                f"(3i{ints},6e{width}.{digits}e{exponent})\n")
+        for i, corner in enumerate(corners):  # zeros at the end are left out
+            while corner and corner[-1] == 0:
+                corner = corner[:-1]
+            text += integer((i + 1, 0, 0)) + "".join(map(number, corner)) + "\n"
+        text += (f"N,R5.3,LOC,       -1,\nEBLOCK,19,SOLID,{len(elements)},{len(elements)}\n"
+                 f"(19i{ints})\n")
+        for i, (kind, nodes) in enumerate(elements):
+            head = (kind, kind, 1, 1, 0, 0, 0, 0, len(nodes), 0, i + 11)
+            text += integer((*head, *nodes[:8])) + "\n"
+            text += integer(nodes[8:]) + "\n" if nodes[8:] else ""
+        return text + f"{-1:{ints}d}\n{rest}MPDATA,EX,1,1, 2.1E11\nFINISH\n"
+
+    def test_archives_of_ansys(self):
+        """Two widths of fields, components with ranges, elements that are left out; text stays."""
+        path, out = self.folder / "m.cdb", self.folder / "out.cdb"
+        brick, lid = (1, 2, 4, 3, 5, 6, 8, 7), (5, 6, 8, 7)
+        rest = ("CMBLOCK,TOP     ,NODE,       2  ! users node component definition\n(8i10)\n"
+                "         5        -8\nCMBLOCK,LID,ELEM,       1\n(8i10)\n        12\n")
+        for options in ({}, {"ints": 8, "real": (16, 9, 2)}):
+            with self.subTest(**options):
+                path.write_text(self.cdb(self.CORNERS, ((1, brick), (3, lid), (4, lid)), rest=rest,
+                                         **options))
+                listed = run("--list-surfaces", path)
+                self.assertIn("Elements of the type 170 are left out", listed.stderr)
+                for name, faces in (("Material 1", 6), ("TOP", 1), ("LID", 1)):
+                    self.assertRegex(listed.stdout, f"(?m)^{name} +{faces} ")
+                for name, move, rounding in (("LID", "0,0,0.25", 1e-13), ("TOP", "0.1,0,0", 1e-9)):
+                    self.check_by_reading(path, out, "--move", name, "--translate", move,
+                                          delta=rounding)
+                    old, new = (file.read_text().splitlines() for file in (path, out))
+                    self.assertEqual([i for i in range(len(old)) if old[i] != new[i]],
+                                     [12, 13, 14, 15])
+
+    def test_collapsed_hexahedra_of_ansys(self):
+        """With their middle nodes, each halfway between two of its corners."""
+        edges = ((0, 1), (1, 2), (2, 3), (3, 0), (4, 5), (5, 6), (6, 7), (7, 4), (0, 4), (1, 5),
+                 (2, 6), (3, 7))
+        path = self.folder / "m.cdb"
+        for nodes, faces in (((1, 2, 3, 3, 5, 5, 5, 5), 4), ((1, 2, 4, 3, 5, 5, 5, 5), 5),
+                             ((1, 2, 3, 3, 5, 6, 7, 7), 5), ((1, 2, 4, 3, 5, 6, 8, 7), 6)):
+            corners, places = list(self.CORNERS), {}
+            for a, b in edges:
+                ends = sorted((nodes[a], nodes[b]))
+                if ends[0] != ends[1] and tuple(ends) not in places:
+                    x, y = (self.CORNERS[n - 1] for n in ends)
+                    corners.append(tuple((p + q) / 2 for p, q in zip(x, y)))
+                    places[tuple(ends)] = len(corners)
+            middles = tuple(places.get(tuple(sorted((nodes[a], nodes[b]))), nodes[a])
+                            for a, b in edges)
+            for kind, given in ((1, nodes), (2, nodes + middles)):
+                path.write_text(self.cdb(corners, ((kind, given),)))
+                still = run("--move", f"Material {kind}", "--translate", "1,0,0", path,
+                            self.folder / "out.cdb")
+                self.assertEqual(still.returncode, 0, still.stderr)
+                self.assertRegex(still.stdout, r"inverted cells +0 +0\n")
+                self.assertRegex(still.stdout, r"collapsed cells +0 +0\n")
+                if kind == 1:
+                    self.assertRegex(run("--list-surfaces", path).stdout, f"Material 1 +{faces} ")
+
+    def test_collapsed_hexahedra_of_ls_dyna(self):
+        """Tetrahedra, pyramids and wedges are hexahedra with equal nodes, or have own cards."""
+        nodes = "".join(f"{i + 1},{x},{y},{z}\n" for i, (x, y, z) in enumerate(self.CORNERS))
+        nodes += "9,.5,0,0\n10,.5,.5,0\n11,0,.5,0\n12,0,0,.5\n13,.5,0,.5\n14,0,.5,.5\n"
+        path = self.folder / "m.key"
+        for text, faces in (("1,7,1,2,3,5,5,5,5,5\n", 4), ("1,7\n1,2,3,5\n", 4),
+                            ("1,7\n1,2,3,5,9,10,11,12,13,14\n", 16),
+                            ("1,7,1,2,4,3,5,5,5,5\n", 5), ("1,7,1,2,3,3,5,6,7,7\n", 5),
+                            ("1,7,1,2,4,3,5,5,7,7\n", 5), ("1,7,1,2,4,3,5,6,8,7\n", 6)):
+            path.write_text("*NODE\n" + nodes + "*ELEMENT_SOLID\n" + text)
+            result = run("--move", "PID 7", "--translate", "1,0,0", path, self.folder / "out.key")
+            self.assertEqual(result.returncode, 0, result.stderr)
+            self.assertRegex(result.stdout, r"inverted cells +0 +0\n")
+            self.assertRegex(run("--list-surfaces", path).stdout, f"(?m)^PID 7 +{faces} ")
+
+    def test_included_files_of_ls_dyna(self):
+        folder, there = self.folder / "in", self.folder / "there"
+        for parent in (folder, there):
+            parent.mkdir()
+        (folder / "thenodes.k").write_text("*NODE\n" + "".join(
+            f"{i + 1:8d}{x:16.3f}{y:16.3f}{z:16.3f}\n" for i, (x, y, z) in enumerate(self.CORNERS)))
+        text = ("*KEYWORD\n*INCLUDE\nthe +\nnodes.k\n*ELEMENT_SOLID\n" +
+                "".join(f"{n:8d}" for n in (1, 7, 1, 2, 4, 3, 5, 6, 8, 7)) + "\n*END\n")
+        (folder / "deck.k").write_text(text)
+        self.morph(folder / "deck.k", there / "deck.k", "--move", "PID 7", "--translate", "1,0,0")
+        self.assertEqual((there / "deck.k").read_text(), text)
+        lines = (there / "thenodes.k").read_text().splitlines()[1:]
+        for line, (x, y, z) in zip(lines, self.CORNERS):
+            written = [float(line[8 + 16 * a:24 + 16 * a]) for a in range(3)]
+            self.assertEqual(written, [x + 1, y, z])
+
+    @unittest.skipUnless(shutil.which("gmsh"), "Gmsh is not installed (gmsh)")
+    def test_decks_that_gmsh_writes(self):
+        """Its faces are planar elements of Abaqus, and its tetrahedra hexahedra of LS-DYNA."""
+        box = self.folder / "box.geo"
+        box.write_text('SetFactory("OpenCASCADE"); Box(1) = {0, 0, 0, 1, 1, 1};\n'
+                       'Physical Volume("body") = {1}; Physical Surface("wall") = {1};\n'
+                       "Mesh.MeshSizeMax = 0.5;\n")
+        for extension, wall in ((".inp", "wall"), (".key", "PID 2000001"), (".bdf", "PID 1")):
+            with self.subTest(extension=extension):
+                path, out = self.folder / ("box" + extension), self.folder / ("out" + extension)
+                subprocess.run(["gmsh", "-3", box, "-o", path], check=True, capture_output=True,
+                               timeout=120)
+                self.morph(path, out, "--move", wall, "--translate", "0,0,0")
+                self.assertEqual(out.read_bytes(), path.read_bytes())
+                self.check_by_reading(path, out, "--move", wall, "--translate", "-0.25,0,0",
+                                      delta=1e-6)
+                self.assertNotEqual(out.read_bytes(), path.read_bytes())
+        unv, msh = self.folder / "box.unv", self.folder / "box.msh"
+        subprocess.run(["gmsh", "-3", box, "-o", unv], check=True, capture_output=True, timeout=120)
+        self.refuse("Gmsh converts it: gmsh .*box.unv -save -o model.msh", "--list-surfaces", unv)
+        subprocess.run(["gmsh", unv, "-save", "-o", msh], check=True, capture_output=True,
+                       timeout=120)
+        self.assertRegex(run("--list-surfaces", msh).stdout, "(?m)^wall +[1-9]")
+
+    def test_planar_elements_beside_volumes_are_faces(self):
+        """Mesh generators name faces by types of planar models."""
+        path, out = self.folder / "m.inp", self.folder / "out.inp"
+        for kind in ("CPS4", "CPE4R", "CAX4", "CPEG4", "DC2D4", "S4R", "M3D4"):
+            with self.subTest(kind=kind):
+                path.write_text(self.CUBE + f"*ELEMENT, TYPE={kind}, ELSET=Lid\n1, 5, 6, 8, 7\n"
+                                "*ELEMENT, TYPE=T3D2, ELSET=Edge\n3, 1, 2\n"
+                                "*ELEMENT, TYPE=C3D8, ELSET=Solid\n2, 1, 2, 4, 3, 5, 6, 8, 7\n"
+                                "*ELSET, ELSET=top\n1\n")
+                listed = run("--list-surfaces", path)
+                self.assertRegex(listed.stdout, r"top +1 +1 +0.5, 0.5, 1\n", listed.stderr)
+                self.morph(path, out, "--move", "top", "--translate", "0,0,0.25")
+                self.assertEqual(out.read_text(), re.sub(r"(?m)^(\d, .\., .\.), 1\.$", r"\1, 1.25",
+                                                         path.read_text()))
+
+    def test_a_free_line_of_nastran_has_any_number_of_fields(self):
+        """Its tenth field is the name of the next line, unless more follow."""
+        corners = "".join(f"GRID,{i + 1},,{i & 1}.,{i >> 1 & 1}.,{i >> 2}.\n" for i in range(8))
+        middles = "".join(f"GRID*,{i},,.5,.5,*A\n*A,.5\n" for i in range(9, 21))
+        path, rest = self.folder / "m.bdf", ",".join(map(str, range(9, 21)))
+        # A face of 8 nodes counts as 5.
+        for line, faces in ((f"7,3,1,2,4,3,5,6,8,7,{rest}\n", 30),
+                            ("8,3,1,2,4,3,5,6,+B\n+B,8,7\n", 6)):
+            path.write_text("BEGIN BULK\n" + corners + middles + "CHEXA," + line)
+            listed = run("--list-surfaces", path)
+            self.assertRegex(listed.stdout, f"PID 3 +{faces} ", listed.stderr)
+        for more in (1, 11):  # of an element of 8 nodes, or of 20: one is missing
+            path.write_text("BEGIN BULK\n" + corners + middles +
+                            f"CHEXA,7,3,1,2,4,3,5,6,8,7,{rest}"[:-3 * more] + "\n")
+            self.refuse(f"CHEXA 7 has {20 - more} nodes", "--list-surfaces", path)
+
     def test_nodes_are_chosen_by_the_numbers_of_the_file(self):
         for extension in (".inp", ".su2", ".msh"):
             with self.subTest(extension=extension):
@@ -316,6 +628,10 @@ class SolverFiles(unittest.TestCase):
         grids = "BEGIN BULK\n" + "".join(f"GRID,{i + 1},,{x}\n" for i, x in enumerate(
             ("0.,0.,0.", "1.,0.,0.", "0.,1.,0.", "0.,0.,1.")))
         tetra = "CTETRA,1,7,1,2,3,4\n"
+        cdb = self.cdb([(1., 0., 0.), (2., 0., 0.), (1., 1., 0.), (1., 0., 1.)],
+                       [(1, (1, 2, 3, 4))])
+        dyna = ("*KEYWORD\n*NODE\n1,0.,0.,0.\n2,1.,0.,0.\n3,0.,1.,0.\n4,0.,0.,1.\n"
+                "*ELEMENT_SOLID\n1,7,1,2,3,4,4,4,4,4\n")
         su2 = "NDIME= 3\n" + points + "NELEM= 1\n10 0 1 2 3\n"
         msh = ("$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n1 4 1 9\n3 1 0 4\n1\n2\n3\n4\n"
                "0 0 0\n1 0 0\n0 0 1\n0 1 0\n$EndNodes\n$Elements\n1 1 9 9\n3 1 4 1\n9 1 2 3 4\n"
@@ -326,19 +642,21 @@ class SolverFiles(unittest.TestCase):
             ("m.inp", nodes.replace("8, 1.", "7, 1.") + brick, "more than one node .* 7"),
             ("m.inp", nodes + brick.replace(" 8, 7", " 8, 99"), "element 1 has the node 99"),
             ("m.inp", nodes + brick.replace(", 8, 7", ""), "element 1 are not complete"),
-            ("m.inp", "*PART, NAME=P\n" + nodes + brick, "line 1: .*parts and instances .*PART"),
+            ("m.inp", "*PART, NAME=P\n" + nodes + brick, "no .INSTANCE has a .NODE"),
+            ("m.inp", "*ASSEMBLY\n*INSTANCE, NAME=I, PART=P\n", "line 2: .*the part 'P', which is"),
+            ("m.inp", "*NSET, NSET=N, INSTANCE=I\n", "line 1: there is no instance 'I'"),
             ("m.inp", nodes + "*NGEN\n1, 8, 1\n" + brick, "line 10: .*NGEN"),
-            ("m.inp", nodes.replace("*NODE", "*NODE, SYSTEM=C") + brick,
-             "line 1: .*coordinate sys"),
-            ("m.inp", "*SYSTEM\n1,2,3,4,5,6\n" + nodes + brick, "line 1: .*coordinate system"),
-            ("m.inp", nodes + "*ELEMENT, TYPE=CPE4\n1, 1, 2, 4, 3\n", "CPE4 make a planar model"),
+            ("m.inp", nodes.replace("*NODE", "*NODE, SYSTEM=S") + brick,
+             "line 1: .*spherical coordinates"),
+            ("m.inp", "*SYSTEM\n1,2,3,1,2,3\n" + nodes + brick, "line 3: .*on a line"),
+            ("m.inp", nodes + "*ELEMENT, TYPE=CPE4\n1, 1, 2, 4, 3\n",
+             "line 10: .*CPE4 make a planar model"),
             ("m.inp", "*NODE\n1, 0., 0.\n2, 1., 0.\n", "planar models are not morphed"),
             ("m.inp", "*INCLUDE, INPUT=none.inp\n", "none.inp: there is no such file"),
             ("m.inp", "*INCLUDE, INPUT=m.inp\n", "20 levels deep"),
             ("m.inp", "*STEP\n", "has no .NODE"),
-            ("m.bdf", grids.replace("GRID,2,,", "GRID,2,5,") + tetra,
-             "line 3: node 2 is in another coordinate system .CP 5"),
-            ("m.bdf", "BEGIN BULK\nGRDSET,,9\n" + grids + tetra, "line 2: GRDSET"),
+            ("m.bdf", grids.replace("GRID,2,,", "GRID,2,5,") + tetra, "coordinate system 5, which"),
+            ("m.bdf", "BEGIN BULK\nGRDSET,,9\n" + grids + tetra, "coordinate system 9, which"),
             ("m.bdf", grids.replace("1.,0.,0.", "1.,x,0.") + tetra, "line 3: 'x' is no number"),
             ("m.bdf", grids + tetra.replace("3,4", "3,44"), "element 1 has the node 44"),
             ("m.bdf", grids + tetra.replace("3,4", "3"), "line 6: CTETRA 1 has 3 nodes"),
@@ -350,6 +668,21 @@ class SolverFiles(unittest.TestCase):
             ("m.bdf", grids + "CTRIA3,1,7,1,2,3\n", "m.bdf: None of .* is a volume cell"),
             ("m.inp", nodes + brick.replace("C3D8", "S4").replace(", 5, 6, 8, 7", ""),
              "m.inp: None of .* is a volume cell"),
+            ("m.cdb", cdb.replace("0E+000", "0E+xyz", 1), "line 9: .* is no number"),
+            ("m.cdb", cdb.replace("(3i9", "(3z9"), "line 8: the format of the block is missing"),
+            ("m.cdb", cdb.replace("        3        4\n", "        3       44\n"),
+             "element 11 has the node 44"),
+            ("m.cdb", cdb.replace("        3        4\n", "        3\n"),
+             "line 16: element 11 should have 4 nodes, and has 3"),
+            ("m.cdb", cdb[:cdb.index("       -1,") - 30], "line 12: .*is no|ends inside of NBLOCK"),
+            ("m.cdb", "N,1,0.,0.,0.\n", "line 1: .*Write a blocked archive"),
+            ("m.cdb", "/PREP7\n", "no nodes in NBLOCK"),
+            ("m.k", dyna.replace("1.,0.,0.", "1.,x,0."), "line 4: 'x' is no number"),
+            ("m.k", dyna.replace("4,4,4,4", "44,44,44,44"), "element 1 has the node 44"),
+            ("m.k", dyna.replace("4,4,4,4", ""), "line 8: element 1 has 3 nodes"),
+            ("m.k", "*PARAMETER\nR X, 1.\n" + dyna, "line 1: it has .PARAMETER"),
+            ("m.k", "*INCLUDE_TRANSFORM\na.k\n" + dyna, "line 1: it has .INCLUDE_TRANSFORM"),
+            ("m.k", "*INCLUDE\nm.k\n", "20 levels deep"), ("m.k", "*KEYWORD\n", "no .NODE"),
             ("m.su2", su2.replace("3\nNPOIN", "2\nNPOIN", 1), "line 1: .*two-dimensional"),
             ("m.su2", "NZONE= 2\n" + su2, "line 1: .*several zones"),
             ("m.su2", su2.replace("1 0 0", "1 inf 0"), "line 4: 'inf' is no number"),
@@ -530,6 +863,27 @@ class NastranIncludes(SolverFiles):
         self.morph(self.deck, self.deck)
         self.assertEqual(self.nodes.read_text(), self.changed)
         self.assertEqual(deck.st_ino, self.deck.stat().st_ino)
+
+    def test_a_name_is_sought_beside_its_file_and_from_the_root(self):
+        """A bare name beside its file first, one with a folder from the root's folder first."""
+        folder = self.folder / "in"
+        parts = self.nodes.read_text().splitlines(keepends=True)
+        self.nodes.write_text("".join(parts[:5]))
+        (folder / "lib").mkdir()
+        (folder / "lib" / "more.bdf").write_text("".join(parts[5:]))
+        (folder / "mesh" / "all.bdf").write_text(
+            "INCLUDE 'nodes.bdf'\nINCLUDE 'lib/\n     more.bdf'\n")
+        there = self.folder / "there"
+        there.mkdir()
+        self.morph(self.deck, there / "deck.bdf")
+        moved = [there / name for name in ("mesh/nodes.bdf", "lib/more.bdf")]
+        self.assertEqual("".join(path.read_text() for path in moved), self.changed)
+        (folder / "mesh" / "lib").mkdir()
+        (folder / "mesh" / "lib" / "more.bdf").write_text("")
+        self.assertIn("is lib/more.bdf, and not mesh/lib/more.bdf, which is there, too",
+                      run("--list-surfaces", self.deck).stderr)
+        (folder / "lib" / "more.bdf").rename(folder / "mesh" / "lib" / "more.bdf")
+        self.assertEqual(run("--list-surfaces", self.deck).stderr, "")
 
     def test_files_that_include_each_other(self):
         self.nodes.write_text("INCLUDE 'all.bdf'\n")

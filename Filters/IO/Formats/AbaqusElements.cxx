@@ -1,24 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Formats/AbaqusElements.h"
 
-#include <cctype>
 #include <cstdlib>
+#include <cstring>
 
 namespace morph::io
 {
 namespace
 {
-bool startsWith(const std::string& text, const char* start)
-{
-  return text.rfind(start, 0) == 0;
-}
-
-/// The number that follows the first letters (and "3D") of a type.
-int numberAfter(const std::string& type, const char* start)
-{
-  return std::atoi(type.c_str() + std::string(start).size());
-}
-
 AbaqusElement volume(int nodes)
 {
   switch (nodes)
@@ -51,6 +40,7 @@ AbaqusElement surface(int nodes)
     case 4:
       return { Quad, 4 };
     case 6:
+    case 65: // STRI65 has five degrees of freedom at a node
       return { QuadraticTriangle, 6 };
     case 8:
       return { QuadraticQuad, 8 };
@@ -58,47 +48,61 @@ AbaqusElement surface(int nodes)
       return {};
   }
 }
+
+AbaqusElement line(int nodes)
+{
+  return nodes == 3 ? AbaqusElement{ QuadraticEdge, 3 } : AbaqusElement{ Line, 2 };
+}
+
+/// Types that begin so, with their number of nodes after it.
+struct Family
+{
+  const char* start;
+  AbaqusElement (*element)(int nodes);
+  bool isPlanar = false;
+};
+
+/// The first that fits is taken: SC8 and STRI3 are no S.
+constexpr Family Families[] = {
+  { "CPEG", surface, true },
+  { "CPE", surface, true },
+  { "CPS", surface, true },
+  { "CAX", surface, true },
+  { "CGAX", surface, true },
+  { "DC2D", surface, true },
+  { "DCAX", surface, true },
+  { "AC2D", surface, true },
+  { "ACAX", surface, true },
+  { "F2D", surface, true },
+  { "C3D", volume },
+  { "DC3D", volume },
+  { "AC3D", volume },
+  { "F3D", volume },
+  { "DCC3D", volume },
+  { "Q3D", volume },
+  { "SC", volume }, // continuum shells
+  { "STRI", surface },
+  { "SFM3D", surface },
+  { "M3D", surface },
+  { "R3D", surface },
+  { "DS", surface },
+  { "S", surface },
+  { "T3D", line },
+  { "B31", [](int) { return line(2); } },
+  { "B32", [](int) { return line(3); } },
+  { "B33", [](int) { return line(2); } },
+};
 }
 
 AbaqusElement abaqusElement(const std::string& type)
 {
-  for (const char* planar : { "CPE", "CPS", "CAX", "CGAX", "DC2D", "DCAX", "AC2D", "ACAX", "F2D" })
+  for (const Family& family : Families)
   {
-    if (startsWith(type, planar))
+    if (type.rfind(family.start, 0) == 0)
     {
-      AbaqusElement element;
-      element.isPlanar = true;
+      AbaqusElement element = family.element(std::atoi(type.c_str() + std::strlen(family.start)));
+      element.isPlanar = family.isPlanar;
       return element;
-    }
-  }
-  for (const char* solid : { "C3D", "DC3D", "AC3D", "F3D", "DCC3D", "Q3D" })
-  {
-    if (startsWith(type, solid))
-    {
-      return volume(numberAfter(type, solid));
-    }
-  }
-  if (startsWith(type, "SC6") || startsWith(type, "SC8")) // continuum shells
-  {
-    return volume(numberAfter(type, "SC"));
-  }
-  if (type == "STRI3" || type == "STRI65")
-  {
-    return surface(type == "STRI3" ? 3 : 6);
-  }
-  for (const char* flat : { "SFM3D", "M3D", "R3D", "DS", "S" })
-  {
-    if (startsWith(type, flat) && std::isdigit(type[std::string(flat).size()]))
-    {
-      return surface(numberAfter(type, flat));
-    }
-  }
-  for (const char* line : { "T3D", "B3" })
-  {
-    if (startsWith(type, line))
-    {
-      const bool isQuadratic = type == "B32" || startsWith(type, "T3D3");
-      return isQuadratic ? AbaqusElement{ QuadraticEdge, 3 } : AbaqusElement{ Line, 2 };
     }
   }
   return {};

@@ -10,6 +10,8 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
+#include <optional>
 #include <set>
 
 namespace morph::io
@@ -39,7 +41,27 @@ private:
     Element,
     NodeSet,
     ElementSet,
-    Surface
+    Surface,
+    System,
+    Instance
+  };
+
+  /// What is added to the numbers of a part, so that each instance has its own.
+  struct Shift
+  {
+    Index nodes = 0, elements = 0;
+  };
+
+  /// The nodes, elements and sets of a part, or of all.
+  struct Model
+  {
+    SolverMesh mesh; ///< nodes alone
+    std::vector<NodePlace> places;
+    std::vector<std::vector<Index>> elementNodes; ///< node numbers of each cell
+    std::vector<std::uint8_t> elementTypes;
+    std::vector<Index> elementNumbers;
+    AbaqusSets sets;
+    std::size_t instances = 0;
   };
 
   void parse(std::size_t part, int depth);
@@ -52,6 +74,12 @@ private:
   void include(std::size_t part, Span span, const std::string& name, int depth);
   void beginElements(std::size_t part, Span span, const AbaqusKeyword& keyword);
   void beginSurface(const AbaqusKeyword& keyword);
+  bool takeAssembly(std::size_t part, Span span, const AbaqusKeyword& keyword);
+  void beginInstance(std::size_t part, Span span, const AbaqusKeyword& keyword);
+  void endInstance(std::size_t part, Span span);
+  std::size_t systemOf(std::size_t part, std::size_t at, const AbaqusKeyword& keyword);
+  const Shift& ownShift();
+  std::string shifted(std::string_view entry, Index own, bool isNodes) const;
   void finish();
 
   Block block_ = Block::Other;
@@ -60,37 +88,47 @@ private:
   std::vector<Index> pending_;             ///< numbers of an element, until it has all
   AbaqusSets::Entries* entries_ = nullptr; ///< of the sets that the block adds to
   AbaqusSets::Surface* surface_ = nullptr;
+  bool isOfNodes_ = false; ///< the surface
   std::vector<Span> fields_;
-  std::vector<std::vector<Index>> elementNodes_; ///< node numbers of each cell
-  std::vector<std::uint8_t> elementTypes_;
-  std::vector<Index> elementNumbers_;
+  Model all_;                           ///< in the assembly, or where there is none
+  std::map<std::string, Model> models_; ///< of parts, by their names in upper case
+  std::map<std::string, Shift> shifts_; ///< of instances
+  std::optional<Shift> own_;            ///< of the assembly's own nodes and elements
+  Model* model_ = &all_;                ///< to be added to
+  Shift shift_;                         ///< of the block
+  std::string instance_;                ///< of the block, in upper case, with a dot
+  struct
+  {
+    std::string name, part;
+    Model model;
+  } open_;                                  ///< the instance that is being read
+  std::vector<double> numbers_, placement_; ///< of *SYSTEM, and of *INSTANCE
+  CoordinateFrame system_;                  ///< of the nodes that follow
+  std::size_t frame_ = 0;                   ///< of the block's nodes
   std::set<std::string> unknownTypes_;
+  struct
+  {
+    std::string type;
+    std::size_t part = 0, at = 0;
+  } planar_;              ///< the first keyword of elements of a planar model
   bool hasDepth_ = false; ///< a node has a third coordinate
-  AbaqusSets sets_;
 };
 
 /// What these keywords do to nodes or elements is not in their lines.
 void refuseKeyword(const AbaqusKeyword& keyword, std::string& reason)
 {
-  static const std::set<std::string> assembled = { "PART", "INSTANCE", "ASSEMBLY" };
   static const std::set<std::string> generated = { "NGEN", "NFILL", "NCOPY", "NMAP", "ELGEN",
     "ELCOPY", "ELMOVE", "PARAMETER", "SUBMODEL", "IMPORT" };
-  if (assembled.count(keyword.name) > 0)
-  {
-    reason = "it is made of parts and instances (*" + keyword.name +
-             "). Write a flat input file, without parts and assemblies.";
-  }
-  else if (generated.count(keyword.name) > 0)
+  if (generated.count(keyword.name) > 0)
   {
     reason = "it has *" + keyword.name +
              ", which defines nodes or elements by others. Write an "
              "input file that lists them all.";
   }
-  else if (keyword.name == "SYSTEM" || (keyword.name == "NODE" && keyword.has("SYSTEM") &&
-                                         keyword.value("SYSTEM", true) != "R"))
+  else if (keyword.name == "NODE" && keyword.value("SYSTEM", true) == "S")
   {
-    reason = "its nodes are in another coordinate system (SYSTEM). Write them in the global "
-             "rectangular one.";
+    reason = "its nodes are in spherical coordinates (SYSTEM=S). Write rectangular or cylindrical "
+             "ones.";
   }
 }
 
@@ -153,10 +191,15 @@ void AbaqusFile::takeKeyword(std::size_t part, Span span, const AbaqusKeyword& k
   this->block_ = Block::Other;
   this->entries_ = nullptr;
   this->generates_ = keyword.has("GENERATE");
+  if (this->takeAssembly(part, span, keyword))
+  {
+    return;
+  }
   if (keyword.name == "NODE")
   {
     this->block_ = Block::Node;
-    this->entries_ = this->sets_.nodeSet(keyword.value("NSET"));
+    this->frame_ = this->systemOf(part, span.begin, keyword);
+    this->entries_ = this->model_->sets.nodeSet(keyword.value("NSET"));
   }
   else if (keyword.name == "ELEMENT")
   {
@@ -166,11 +209,12 @@ void AbaqusFile::takeKeyword(std::size_t part, Span span, const AbaqusKeyword& k
   {
     const bool isNodes = keyword.name == "NSET";
     this->block_ = isNodes ? Block::NodeSet : Block::ElementSet;
-    this->entries_ = isNodes ? this->sets_.nodeSet(keyword.value("NSET"))
-                             : this->sets_.elementSet(keyword.value("ELSET"));
+    AbaqusSets& sets = this->model_->sets;
+    this->entries_ =
+      isNodes ? sets.nodeSet(keyword.value("NSET")) : sets.elementSet(keyword.value("ELSET"));
     if (isNodes && keyword.has("ELSET")) // the nodes of an element set
     {
-      this->sets_.addNodesOf(keyword.value("ELSET"), keyword.value("NSET"));
+      sets.addNodesOf(this->instance_ + keyword.value("ELSET"), keyword.value("NSET"));
     }
   }
   else if (keyword.name == "SURFACE")
@@ -188,13 +232,12 @@ void AbaqusFile::beginElements(std::size_t part, Span span, const AbaqusKeyword&
 {
   const std::string type = keyword.value("TYPE", true);
   this->element_ = abaqusElement(type);
-  if (this->element_.isPlanar)
+  if (this->element_.isPlanar && this->planar_.type.empty())
   {
-    this->failAt(part, span.begin,
-      "its elements " + type + " make a planar model; volume meshes alone are morphed.");
+    this->planar_ = { type, part, span.begin };
   }
   // A set of elements that are left out exists, too.
-  this->entries_ = this->sets_.elementSet(keyword.value("ELSET"));
+  this->entries_ = this->model_->sets.elementSet(keyword.value("ELSET"));
   if (this->element_.cellType == 0)
   {
     this->unknownTypes_.insert(type);
@@ -210,8 +253,201 @@ void AbaqusFile::beginSurface(const AbaqusKeyword& keyword)
   if ((type.empty() || type == "ELEMENT" || type == "NODE") && !keyword.has("COMBINE"))
   {
     this->block_ = Block::Surface;
-    this->surface_ = this->sets_.surface(keyword.value("NAME"), type == "NODE");
+    this->isOfNodes_ = type == "NODE";
+    this->surface_ = this->model_->sets.surface(keyword.value("NAME"), this->isOfNodes_);
   }
+}
+
+/// Parts, instances and coordinate systems, and what numbers of the block belong to. Returns
+/// whether that is all.
+bool AbaqusFile::takeAssembly(std::size_t part, Span span, const AbaqusKeyword& keyword)
+{
+  const std::string& name = keyword.name;
+  if (name == "SYSTEM" || name == "PART" || name == "INSTANCE" || name == "ASSEMBLY" ||
+      name.rfind("END ", 0) == 0)
+  {
+    this->numbers_.clear();
+    this->system_ = {};
+    this->block_ = name == "SYSTEM" ? Block::System : Block::Other;
+    if (name == "END INSTANCE")
+    {
+      this->endInstance(part, span);
+    }
+    else if (name == "PART")
+    {
+      this->model_ = &this->models_[keyword.value("NAME", true)];
+    }
+    else if (name == "INSTANCE")
+    {
+      this->beginInstance(part, span, keyword);
+    }
+    else if (name != "SYSTEM")
+    {
+      this->model_ = &this->all_;
+    }
+    return true;
+  }
+  static const std::set<std::string> numbered = { "NODE", "ELEMENT", "NSET", "ELSET", "SURFACE" };
+  this->instance_.clear();
+  const bool isOwn = this->model_ == &this->all_ && numbered.count(name) > 0;
+  this->shift_ = isOwn ? this->ownShift() : Shift();
+  if (keyword.has("INSTANCE") && (name == "NSET" || name == "ELSET"))
+  {
+    const auto found = this->shifts_.find(keyword.value("INSTANCE", true));
+    if (found == this->shifts_.end())
+    {
+      this->failAt(
+        part, span.begin, "there is no instance '" + keyword.value("INSTANCE") + "' before it.");
+    }
+    this->shift_ = found->second;
+    this->instance_ = found->first + ".";
+  }
+  return false;
+}
+
+/// Numbers of the assembly itself come after those of the instances before them.
+const AbaqusFile::Shift& AbaqusFile::ownShift()
+{
+  if (!this->own_)
+  {
+    this->own_ = this->shifts_.empty() ? Shift() : this->shifts_[""];
+  }
+  return *this->own_;
+}
+
+void AbaqusFile::beginInstance(std::size_t part, Span span, const AbaqusKeyword& keyword)
+{
+  this->open_ = { keyword.value("NAME"), keyword.value("PART"), {} };
+  const auto found = this->models_.find(upperCase(this->open_.part));
+  if (found == this->models_.end() || this->open_.name.empty())
+  {
+    this->failAt(part, span.begin,
+      "the instance '" + this->open_.name + "' is of the part '" + this->open_.part +
+        "', which is not defined before it.");
+  }
+  if (++found->second.instances == 2)
+  {
+    this->sharesPlaces_ = true;
+    this->mesh_.warnings.push_back("The part '" + this->open_.part +
+                                   "' has several instances, which share its nodes in the file: "
+                                   "what moves in one instance moves in all of them.");
+  }
+  this->open_.model = found->second; // it may have nodes and elements of its own, too
+  this->model_ = &this->open_.model;
+  this->block_ = Block::Instance;
+}
+
+void AbaqusFile::endInstance(std::size_t part, Span span)
+{
+  Model& model = this->open_.model;
+  CoordinateFrame place;
+  const auto point = [this](std::size_t at)
+  {
+    return Eigen::Vector3d(
+      this->placement_[at], this->placement_[at + 1], this->placement_[at + 2]);
+  };
+  this->placement_.resize(this->placement_.size() <= 3 ? 3 : 10, 0);
+  if (this->placement_.size() == 10)
+  {
+    const auto turned = rotationAbout(point(3), point(6), this->placement_[9]);
+    if (!turned)
+    {
+      this->failAt(part, span.begin,
+        "the instance '" + this->open_.name + "' turns about an axis of two equal points.");
+    }
+    place = *turned;
+  }
+  place.origin = place.toBasic(point(0));
+  this->placement_.clear();
+  const bool isMoved = !place.origin.isZero(0) || !place.axes.isIdentity(0);
+  Shift& next = this->shifts_[""]; // beyond all numbers so far
+  const Shift shift = next;
+  std::map<std::size_t, std::size_t> frames; // of the assembly, by that of the part
+  for (std::size_t i = 0; i < model.places.size(); ++i)
+  {
+    NodePlace node = model.places[i];
+    const auto [frame, isNew] = frames.emplace(node.frame, node.frame);
+    if (isNew && isMoved)
+    {
+      frame->second = this->frames_.size();
+      this->frames_.push_back(combined(place, this->frames_[node.frame]));
+    }
+    node.frame = frame->second;
+    const Eigen::Vector3d x =
+      place.toBasic(Eigen::Map<const Eigen::Vector3d>(model.mesh.coordinates.data() + 3 * i));
+    const Index number = model.mesh.nodeNumbers[i] + shift.nodes;
+    this->all_.mesh.addNode(number, x[0], x[1], x[2]);
+    this->all_.places.push_back(node);
+    next.nodes = std::max(next.nodes, number);
+  }
+  AbaqusSets::Entries* whole = this->all_.sets.elementSet(this->open_.name);
+  for (std::size_t e = 0; e < model.elementNumbers.size(); ++e)
+  {
+    std::vector<Index> nodes = model.elementNodes[e];
+    for (Index& node : nodes)
+    {
+      node += shift.nodes;
+    }
+    this->all_.elementNodes.push_back(std::move(nodes));
+    this->all_.elementTypes.push_back(model.elementTypes[e]);
+    this->all_.elementNumbers.push_back(model.elementNumbers[e] + shift.elements);
+    whole->numbers.push_back(this->all_.elementNumbers.back());
+    next.elements = std::max(next.elements, this->all_.elementNumbers.back());
+  }
+  this->all_.sets.addInstance(model.sets, this->open_.name, shift.nodes, shift.elements);
+  this->shifts_[upperCase(this->open_.name)] = shift;
+  this->model_ = &this->all_;
+}
+
+/// The coordinate system of the nodes of a block.
+std::size_t AbaqusFile::systemOf(std::size_t part, std::size_t at, const AbaqusKeyword& keyword)
+{
+  CoordinateFrame& system = this->system_;
+  const std::vector<double>& x = this->numbers_; // of *SYSTEM
+  const auto point = [&x](std::size_t i) { return Eigen::Vector3d(x[i], x[i + 1], x[i + 2]); };
+  if (x.size() >= 3)
+  {
+    system.origin = point(0);
+  }
+  if (x.size() >= 6)
+  {
+    // Without a third point the third axis stays.
+    const Eigen::Vector3d along = point(3) - point(0);
+    const auto axes = axesOf(point(0), point(3),
+      x.size() >= 9 ? point(6) : point(0) + Eigen::Vector3d(-along[1], along[0], 0));
+    if (!axes)
+    {
+      this->failAt(part, at, "the points of *SYSTEM before it are on a line.");
+    }
+    system.axes = *axes;
+  }
+  system.kind = keyword.value("SYSTEM", true) == "C" ? CoordinateFrame::Kind::Cylindrical
+                                                     : CoordinateFrame::Kind::Rectangular;
+  if (system.kind == CoordinateFrame::Kind::Rectangular && x.size() < 3)
+  {
+    return 0;
+  }
+  this->frames_.push_back(system);
+  return this->frames_.size() - 1;
+}
+
+/// An entry of a set, in upper case: a number, that of an instance too ("Block-1.7"), or a name.
+std::string AbaqusFile::shifted(std::string_view entry, Index own, bool isNodes) const
+{
+  if (const auto number = parseInteger(entry))
+  {
+    return std::to_string(*number + own);
+  }
+  const std::string name = this->instance_ + upperCase(entry);
+  const std::size_t dot = name.rfind('.');
+  const auto found = this->shifts_.find(name.substr(0, std::min(dot, name.size())));
+  const bool hasDot = dot != std::string::npos && dot > 0;
+  const auto number = hasDot ? parseInteger(name.substr(dot + 1)) : std::nullopt;
+  if (found == this->shifts_.end() || !number)
+  {
+    return name;
+  }
+  return std::to_string(*number + (isNodes ? found->second.nodes : found->second.elements));
 }
 
 void AbaqusFile::takeData(std::size_t part, Span span)
@@ -236,6 +472,14 @@ void AbaqusFile::takeData(std::size_t part, Span span)
     case Block::Surface:
       this->takeSurface(part);
       break;
+    case Block::System:
+    case Block::Instance:
+      for (const Span& field : this->fields_)
+      {
+        std::vector<double>& to = this->block_ == Block::System ? this->numbers_ : this->placement_;
+        to.push_back(field.size() == 0 ? 0 : this->numberAt(part, field));
+      }
+      break;
     case Block::Other:
       break;
   }
@@ -247,8 +491,9 @@ void AbaqusFile::takeNode(std::size_t part)
   place.part = part;
   place.rules.longest = LongestNumber;
   place.rules.separator = ',';
-  const Index number = this->integerAt(part, this->fields_[0]);
-  std::array<double, 3> x = { 0, 0, 0 };
+  place.frame = this->frame_;
+  const Index number = this->integerAt(part, this->fields_[0]) + this->shift_.nodes;
+  Eigen::Vector3d x = Eigen::Vector3d::Zero();
   for (std::size_t j = 0; j < 3; ++j)
   {
     if (j + 1 >= this->fields_.size())
@@ -259,11 +504,12 @@ void AbaqusFile::takeNode(std::size_t part)
     }
     const Span field = this->fields_[j + 1];
     place.numbers[j] = placeOf(field);
-    x[j] = field.size() == 0 ? 0 : this->numberAt(part, field);
+    x[static_cast<Index>(j)] = field.size() == 0 ? 0 : this->numberAt(part, field);
     this->hasDepth_ = this->hasDepth_ || (j == 2 && field.size() > 0);
   }
-  this->mesh_.addNode(number, x[0], x[1], x[2]);
-  this->places_.push_back(place);
+  x = place.frame == 0 ? x : this->frames_[place.frame].toBasic(x);
+  this->model_->mesh.addNode(number, x[0], x[1], x[2]);
+  this->model_->places.push_back(place);
   if (this->entries_)
   {
     this->entries_->numbers.push_back(number);
@@ -278,12 +524,13 @@ void AbaqusFile::takeElement(std::size_t part)
     {
       continue; // after the last comma of a line
     }
-    this->pending_.push_back(this->integerAt(part, field));
+    this->pending_.push_back(this->integerAt(part, field) +
+                             (this->pending_.empty() ? this->shift_.elements : this->shift_.nodes));
     if (static_cast<int>(this->pending_.size()) > this->element_.nodes)
     {
-      this->elementNumbers_.push_back(this->pending_.front());
-      this->elementTypes_.push_back(this->element_.cellType);
-      this->elementNodes_.emplace_back(this->pending_.begin() + 1, this->pending_.end());
+      this->model_->elementNumbers.push_back(this->pending_.front());
+      this->model_->elementTypes.push_back(this->element_.cellType);
+      this->model_->elementNodes.emplace_back(this->pending_.begin() + 1, this->pending_.end());
       if (this->entries_)
       {
         this->entries_->numbers.push_back(this->pending_.front());
@@ -301,6 +548,8 @@ void AbaqusFile::takeSet(std::size_t part)
     return;
   }
   const std::string& text = this->parts_[part].text;
+  const bool isNodes = this->block_ == Block::NodeSet;
+  const Index own = isNodes ? this->shift_.nodes : this->shift_.elements;
   if (this->generates_)
   {
     if (this->fields_.size() < 2)
@@ -315,19 +564,19 @@ void AbaqusFile::takeSet(std::size_t part)
     {
       this->failAt(part, this->fields_[0].begin, "the step of GENERATE must be 1 or more.");
     }
-    this->entries_->ranges.push_back({ first, last, step });
+    this->entries_->ranges.push_back({ first + own, last + own, step });
     return;
   }
   for (const Span& field : this->fields_)
   {
-    const std::string_view entry = field.of(text);
+    const std::string entry = this->shifted(field.of(text), own, isNodes);
     if (const auto number = parseInteger(entry))
     {
       this->entries_->numbers.push_back(*number);
     }
-    else if (!entry.empty())
+    else if (field.size() > 0)
     {
-      this->entries_->names.push_back(upperCase(entry));
+      this->entries_->names.push_back(entry);
     }
   }
 }
@@ -339,7 +588,8 @@ void AbaqusFile::takeSurface(std::size_t part)
   const std::string face = this->fields_.size() > 1 ? upperCase(this->fields_[1].of(text)) : "";
   if (this->surface_ && !what.empty())
   {
-    this->surface_->push_back({ upperCase(what), face });
+    const Index own = this->isOfNodes_ ? this->shift_.nodes : this->shift_.elements;
+    this->surface_->push_back({ this->shifted(what, own, this->isOfNodes_), face });
   }
 }
 
@@ -350,33 +600,45 @@ void AbaqusFile::finish()
     this->fail("the nodes of element " + std::to_string(this->pending_.front()) +
                " are not complete at the end.");
   }
+  std::swap(this->all_.mesh.warnings, this->mesh_.warnings);
+  this->mesh_ = std::move(this->all_.mesh);
+  this->places_ = std::move(this->all_.places);
   if (this->mesh_.nodes() == 0)
   {
-    this->fail("it has no *NODE.");
+    this->fail(this->models_.empty() ? "it has no *NODE." : "no *INSTANCE has a *NODE.");
   }
   if (!this->hasDepth_)
   {
     this->fail("its nodes have two coordinates: planar models are not morphed.");
   }
+  // Beside volume elements they are faces: mesh generators have no other name for these.
+  const bool hasVolume = std::any_of(this->all_.elementTypes.begin(), this->all_.elementTypes.end(),
+    [](std::uint8_t type) { return dimensionOf(type) == 3; });
+  if (!this->planar_.type.empty() && !hasVolume)
+  {
+    this->failAt(this->planar_.part, this->planar_.at,
+      "its elements " + this->planar_.type +
+        " make a planar model; volume meshes alone are morphed.");
+  }
   const auto positions = positionsOf(this->mesh_.nodeNumbers, "node", this->path());
-  positionsOf(this->elementNumbers_, "element", this->path());
+  positionsOf(this->all_.elementNumbers, "element", this->path());
   std::vector<Index> nodes;
-  for (std::size_t e = 0; e < this->elementNumbers_.size(); ++e)
+  for (std::size_t e = 0; e < this->all_.elementNumbers.size(); ++e)
   {
     nodes.clear();
-    for (const Index number : this->elementNodes_[e])
+    for (const Index number : this->all_.elementNodes[e])
     {
       const auto found = positions.find(number);
       if (found == positions.end())
       {
-        this->fail("element " + std::to_string(this->elementNumbers_[e]) + " has the node " +
+        this->fail("element " + std::to_string(this->all_.elementNumbers[e]) + " has the node " +
                    std::to_string(number) + ", which is not defined.");
       }
       nodes.push_back(found->second);
     }
-    this->mesh_.addCell(this->elementTypes_[e], nodes, this->elementNumbers_[e]);
+    this->mesh_.addCell(this->all_.elementTypes[e], nodes, this->all_.elementNumbers[e]);
   }
-  this->sets_.addTo(this->mesh_, positions);
+  this->all_.sets.addTo(this->mesh_, positions);
   for (const std::string& type : this->unknownTypes_)
   {
     this->mesh_.warnings.push_back(

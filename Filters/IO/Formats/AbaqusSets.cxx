@@ -61,6 +61,50 @@ void AbaqusSets::addNodesOf(const std::string& elementSet, const std::string& no
   }
 }
 
+void AbaqusSets::addInstance(
+  const AbaqusSets& part, const std::string& name, Index nodes, Index elements)
+{
+  const std::string start = name + ".", key = upperCase(start);
+  const auto prefixed = [&key](std::vector<std::string> names)
+  {
+    std::transform(names.begin(), names.end(), names.begin(),
+      [&key](const std::string& one) { return key + one; });
+    return names;
+  };
+  for (const auto member : { &AbaqusSets::nodeSets_, &AbaqusSets::elementSets_ })
+  {
+    const Index shift = member == &AbaqusSets::nodeSets_ ? nodes : elements;
+    for (const auto& [one, set] : part.*member)
+    {
+      NamedEntries copy = set;
+      copy.name = start + set.name;
+      copy.entries.names = prefixed(set.entries.names);
+      copy.elementSets = prefixed(set.elementSets);
+      for (Index& number : copy.entries.numbers)
+      {
+        number += shift;
+      }
+      for (auto& range : copy.entries.ranges)
+      {
+        range[0] += shift;
+        range[1] += shift;
+      }
+      (this->*member)[key + one] = std::move(copy);
+    }
+  }
+  for (NamedSurface surface : part.surfaces_)
+  {
+    surface.name = start + surface.name;
+    for (auto& line : surface.lines)
+    {
+      const auto number = parseInteger(line.first);
+      line.first =
+        number ? std::to_string(*number + (surface.ofNodes ? nodes : elements)) : key + line.first;
+    }
+    this->surfaces_.push_back(std::move(surface));
+  }
+}
+
 std::vector<const AbaqusSets::NamedEntries*> AbaqusSets::reached(
   const Sets& sets, const std::string& name, std::string& missing)
 {

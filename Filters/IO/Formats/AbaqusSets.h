@@ -30,6 +30,9 @@ public:
   Entries* nodeSet(const std::string& name) { return entriesOf(this->nodeSets_, name); }
   Entries* elementSet(const std::string& name) { return entriesOf(this->elementSets_, name); }
   Surface* surface(const std::string& name, bool ofNodes);
+  /// Adds the sets of a part as those of an instance of it: "Block-1.Top". `nodes`, `elements`:
+  /// what is added to its numbers.
+  void addInstance(const AbaqusSets& part, const std::string& name, Index nodes, Index elements);
   /// A node set gets the nodes of an element set.
   void addNodesOf(const std::string& elementSet, const std::string& nodeSet);
 

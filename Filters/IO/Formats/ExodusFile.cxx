@@ -40,9 +40,14 @@ public:
     this->readBlocks(file);
     this->readNodeSets(file);
     this->readSideSets(file);
+    this->mesh_.displacementName = this->findDisplacements(file);
+    this->mesh_.displacements = this->displacementsIn(file, this->steps_ - 1);
   }
 
-  std::string displacements() const override;
+  std::vector<double> displacementsAt(Index step) const override
+  {
+    return this->displacementsIn(NetCdf(this->path(), this->path()), step);
+  }
 
   std::vector<NewFile> withCoordinates(const std::vector<double>& coordinates,
     const std::string& out, double& largestRounding) const override;
@@ -57,6 +62,8 @@ private:
     const std::vector<Index>& elementNumbers);
   void readNodeSets(const NetCdf& file);
   void readSideSets(const NetCdf& file);
+  std::string findDisplacements(const NetCdf& file);
+  std::vector<double> displacementsIn(const NetCdf& file, Index step) const;
   std::vector<Index> numbersOf(const NetCdf& file, std::initializer_list<const char*> variables,
     Index count, const char* what) const;
 
@@ -67,9 +74,11 @@ private:
   /// The mesh's node at a position (from 1) in the file; `where`: "the node set wall".
   Index nodeAt(Index position, const std::string& where) const;
 
-  std::vector<Index> nodeOf_; ///< the mesh's node of each node of the file
-  std::vector<Index> cellOf_; ///< of each element
-  Index elements_ = 0;        ///< that were read
+  std::vector<Index> nodeOf_;        ///< the mesh's node of each node of the file
+  std::vector<Index> cellOf_;        ///< of each element
+  Index elements_ = 0;               ///< that were read
+  std::vector<Index> displacements_; ///< their three variables, from 1
+  Index steps_ = 0;                  ///< of time, that have displacements
   bool isSingle_ = false, isTogether_ = false;
 };
 
@@ -348,22 +357,54 @@ void ExodusFile::readSideSets(const NetCdf& file)
 }
 
 /// Of the variables of nodes: VTK's readers take a vector as displacements whose name begins so.
-/// Its three variables differ in the last character.
-std::string ExodusFile::displacements() const
+/// Its three variables differ in the last character. Returns their common name.
+std::string ExodusFile::findDisplacements(const NetCdf& file)
 {
-  const NetCdf file(this->path(), this->path());
-  std::map<std::string, int> components;
+  std::map<std::string, std::map<char, Index>> vectors; // the variable of each last character
+  Index variable = 0;
   for (const std::string& name : file.texts("name_nod_var", file.dimension("num_nod_var")))
   {
     std::string stem = name.substr(0, std::max<std::size_t>(name.size(), 1) - 1);
     std::transform(stem.begin(), stem.end(), stem.begin(),
       [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    if (stem.compare(0, 3, "dis") == 0 && ++components[stem] == 3)
+    std::map<char, Index>& axes = vectors[stem];
+    axes.emplace(name.empty() ? ' ' : name.back(), ++variable);
+    if (stem.compare(0, 3, "dis") == 0 && axes.size() == 3)
     {
-      return name.substr(0, name.size() - 1);
+      for (const auto& axis : axes)
+      {
+        this->displacements_.push_back(axis.second);
+      }
+      this->steps_ = file.dimension("time_step");
+      return this->steps_ > 0 ? name.substr(0, name.size() - 1) : "";
     }
   }
   return {};
+}
+
+std::vector<double> ExodusFile::displacementsIn(const NetCdf& file, Index step) const
+{
+  if (step < 0 || step >= this->steps_)
+  {
+    return {};
+  }
+  const auto time = static_cast<std::size_t>(step);
+  std::vector<double> result(this->mesh_.coordinates.size());
+  for (std::size_t j = 0; j < 3; ++j)
+  {
+    const Index variable = this->displacements_[j],
+                nodes = static_cast<Index>(this->nodeOf_.size());
+    const std::string own = "vals_nod_var" + std::to_string(variable);
+    const std::vector<double> values =
+      file.has(own)
+        ? file.row(own, { time }, nodes)
+        : file.row("vals_nod_var", { time, static_cast<std::size_t>(variable - 1) }, nodes);
+    for (std::size_t i = values.size(); i-- > 0;) // of joined nodes the first
+    {
+      result[static_cast<std::size_t>(3 * this->nodeOf_[i]) + j] = values[i];
+    }
+  }
+  return result;
 }
 
 std::vector<NewFile> ExodusFile::withCoordinates(

@@ -201,6 +201,25 @@ std::vector<Index> FoamList::labels()
   return result;
 }
 
+/// Adds "(x y z)".
+void FoamList::vector(const std::string& what, Vectors& to)
+{
+  this->expect('(');
+  for (int j = 0; j < 3; ++j)
+  {
+    to.places.push_back(this->word());
+    const std::string_view text = to.places.back().of(this->content_);
+    const auto value = parseNumber(text);
+    if (!value)
+    {
+      this->fail(what + " has the coordinate '" + std::string(text.substr(0, 40)) +
+                 "', which is no number.");
+    }
+    to.values.push_back(*value);
+  }
+  this->expect(')');
+}
+
 FoamList::Vectors FoamList::vectors()
 {
   Vectors result;
@@ -220,20 +239,7 @@ FoamList::Vectors FoamList::vectors()
   }
   for (std::size_t i = 0; !this->isBinary_ && i < vectors; ++i)
   {
-    this->expect('(');
-    for (int j = 0; j < 3; ++j)
-    {
-      result.places.push_back(this->word());
-      const std::string_view text = result.places.back().of(this->content_);
-      const auto value = parseNumber(text);
-      if (!value)
-      {
-        this->fail("point " + std::to_string(i) + " has the coordinate '" +
-                   std::string(text.substr(0, 40)) + "', which is no number.");
-      }
-      result.values.push_back(*value);
-    }
-    this->expect(')');
+    this->vector("point " + std::to_string(i), result);
   }
   this->expect(')');
   return result;
@@ -271,6 +277,69 @@ std::vector<std::vector<Index>> FoamList::faces()
   return result;
 }
 
+/// A name that may be quoted, as patterns of names are.
+std::string FoamList::name(bool& isQuoted)
+{
+  isQuoted = this->peek() == '"';
+  if (!isQuoted)
+  {
+    return std::string(this->word().of(this->content_));
+  }
+  const std::size_t begin = this->at_ + 1;
+  const std::size_t end = this->content_.find('"', begin);
+  if (end == std::string::npos)
+  {
+    this->fail("a quotation mark is missing after byte " + std::to_string(begin) + ".");
+  }
+  this->at_ = end + 1;
+  return this->content_.substr(begin, end - begin);
+}
+
+/// To behind the ';' of an entry, or the '}' of a dictionary.
+void FoamList::skipEntry()
+{
+  for (int depth = 0;;)
+  {
+    const char c = this->peek();
+    if (c == '"' || !std::strchr("(){};", c))
+    {
+      bool isQuoted = false;
+      this->name(isQuoted);
+      continue;
+    }
+    ++this->at_;
+    depth += c == '(' || c == '{' ? 1 : c == ';' ? 0 : -1;
+    if (depth < 0)
+    {
+      this->fail("a ';' is missing at byte " + std::to_string(this->at_) + ".");
+    }
+    if (depth == 0 && (c == ';' || c == '}'))
+    {
+      return;
+    }
+  }
+}
+
+template <typename Take>
+void FoamList::readDictionary(Take take)
+{
+  this->expect('{');
+  while (this->peek() != '}')
+  {
+    bool isQuoted = false;
+    const std::string key = this->name(isQuoted);
+    if (key.empty())
+    {
+      this->fail("a name is missing at byte " + std::to_string(this->at_) + ".");
+    }
+    if (!take(key, isQuoted))
+    {
+      this->skipEntry();
+    }
+  }
+  this->expect('}');
+}
+
 std::vector<FoamList::Patch> FoamList::patches()
 {
   std::vector<Patch> result(static_cast<std::size_t>(this->count(4)));
@@ -278,31 +347,100 @@ std::vector<FoamList::Patch> FoamList::patches()
   for (Patch& patch : result)
   {
     patch.name = std::string(this->word().of(this->content_));
-    this->expect('{');
-    int depth = 1;
-    while (depth > 0)
+    this->readDictionary(
+      [&](const std::string& key, bool)
+      {
+        if (key == "type")
+        {
+          patch.type = std::string(this->word().of(this->content_));
+        }
+        else if (key == "nFaces" || key == "startFace")
+        {
+          (key == "nFaces" ? patch.count : patch.first) = this->integer();
+        }
+        else
+        {
+          return false;
+        }
+        this->expect(';');
+        return true;
+      });
+  }
+  return result;
+}
+
+/// "uniform (x y z);" or "nonuniform List<vector> N(...);"
+std::vector<double> FoamList::fieldValues(bool& isUniform)
+{
+  Vectors found;
+  const std::string_view kind = this->word().of(this->content_);
+  isUniform = kind == "uniform";
+  if (isUniform)
+  {
+    this->vector("a patch", found);
+  }
+  else if (kind == "nonuniform")
+  {
+    this->skipBlanks();
+    if (this->content_.compare(this->at_, 5, "List<") == 0)
     {
-      const char c = this->peek();
-      if (c == '{' || c == '}')
+      this->word();
+    }
+    found = this->vectors();
+  }
+  else
+  {
+    this->fail("a value is '" + std::string(kind.substr(0, 40)) +
+               "', where 'uniform' or 'nonuniform' is read.");
+  }
+  this->expect(';');
+  return found.values;
+}
+
+std::vector<FoamList::PatchVectors> FoamList::boundaryField()
+{
+  std::vector<PatchVectors> result;
+  const auto takePatch = [&](const std::string& name, bool isQuoted)
+  {
+    PatchVectors patch{ name, isQuoted, "", false, {} };
+    this->readDictionary(
+      [&](const std::string& key, bool)
       {
-        depth += c == '{' ? 1 : -1;
-        ++this->at_;
-        continue;
-      }
-      if (std::strchr("();", c))
-      {
-        ++this->at_;
-        continue;
-      }
-      const std::string key(this->word().of(this->content_));
-      if (depth == 1 && (key == "nFaces" || key == "startFace"))
-      {
-        (key == "nFaces" ? patch.count : patch.first) = this->integer();
-      }
-      else if (depth == 1 && key == "type")
-      {
-        patch.type = std::string(this->word().of(this->content_));
-      }
+        if (key == "value")
+        {
+          patch.values = this->fieldValues(patch.isUniform);
+        }
+        else if (key == "type")
+        {
+          patch.type = std::string(this->word().of(this->content_));
+          this->expect(';');
+        }
+        return key == "value" || key == "type";
+      });
+    result.push_back(std::move(patch));
+    return true;
+  };
+  for (this->skipBlanks(); this->at_ < this->content_.size(); this->skipBlanks())
+  {
+    const std::string_view key = this->word().of(this->content_);
+    const std::size_t begin = this->at_;
+    if (key == "boundaryField")
+    {
+      this->readDictionary(takePatch);
+    }
+    else if (key == "internalField") // which may be binary
+    {
+      bool isUniform = false;
+      this->fieldValues(isUniform);
+    }
+    else
+    {
+      this->skipEntry();
+    }
+    if (key == "dimensions")
+    {
+      const std::string_view text(this->content_);
+      this->dimensions_ = trimmed(text.substr(begin, this->at_ - begin - 1));
     }
   }
   return result;

@@ -44,8 +44,29 @@ public:
   };
   std::vector<Patch> patches();
 
+  /// What a field of vectors has for a patch.
+  struct PatchVectors
+  {
+    std::string name; ///< of the patch; a pattern of names where it is quoted in the file
+    bool isPattern = false;
+    std::string type;
+    bool isUniform = false;
+    std::vector<double> values; ///< 3 where they are uniform, or 3 for each point; may be empty
+  };
+  /// The boundaryField of a field of vectors, such as 0/pointDisplacement.
+  std::vector<PatchVectors> boundaryField();
+  const std::string& dimensions() const { return this->dimensions_; } ///< read by boundaryField()
+
 private:
   void readHeader();
+  /// Goes through a dictionary, from its '{' to behind its '}'. `take`: reads what follows a key,
+  /// or returns false to have it skipped.
+  template <typename Take>
+  void readDictionary(Take take);
+  void skipEntry();
+  std::string name(bool& isQuoted);
+  void vector(const std::string& what, Vectors& to);
+  std::vector<double> fieldValues(bool& isUniform);
   void skipBlanks();
   char peek();
   void expect(char character);
@@ -55,7 +76,7 @@ private:
   const char* bytes(std::size_t size);
   [[noreturn]] void fail(const std::string& reason) const;
 
-  std::string path_, content_, type_;
+  std::string path_, content_, type_, dimensions_;
   bool isBinary_ = false;
   std::size_t bytesOfLabel_ = 4, bytesOfScalar_ = 8, at_ = 0;
 };

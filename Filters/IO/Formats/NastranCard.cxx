@@ -89,19 +89,13 @@ void NastranCards::addFields(NastranCard& card, Span line) const
     this->addFixed(card, line);
     return;
   }
-  std::vector<Span> parts;
-  splitAtCommas(this->text_, line, parts);
+  std::vector<NumberField> all = freeFields(this->text_, line, 0);
   const std::size_t most = card.isLarge ? 4 : 8;
-  for (std::size_t i = 0; i < most; ++i)
-  {
-    NastranField field;
-    const bool isThere = i + 1 < parts.size();
-    field.span = isThere ? parts[i + 1] : Span{ parts.back().end, parts.back().end };
-    field.place.begin = field.span.begin;
-    field.place.length = static_cast<std::uint32_t>(field.span.size());
-    field.place.missing = isThere ? 0 : 1;
-    card.fields.push_back(field);
-  }
+  // A name, the fields, the name of the next line. Where there are more, the line continues itself.
+  const std::size_t lines = all.size() > most + 2 ? (all.size() - 2) / most + 1 : 1;
+  all = freeFields(this->text_, line, 1 + most * lines);
+  const auto first = all.begin() + 1;
+  card.fields.insert(card.fields.end(), first, first + static_cast<std::ptrdiff_t>(most * lines));
 }
 
 void NastranCards::addFixed(NastranCard& card, Span line) const
@@ -109,16 +103,7 @@ void NastranCards::addFixed(NastranCard& card, Span line) const
   const std::size_t width = card.isLarge ? 16 : 8, most = card.isLarge ? 4 : 8;
   for (std::size_t i = 0; i < most; ++i)
   {
-    const std::size_t column = line.begin + NameWidth + i * width;
-    const std::size_t begin = std::min(column, line.end);
-    const std::size_t end = std::min(column + width, line.end);
-    NastranField field;
-    field.width = width;
-    field.span = trimmed(this->text_, { begin, end });
-    field.place.begin = begin;
-    field.place.length = static_cast<std::uint32_t>(end - begin);
-    field.place.missing = static_cast<std::uint32_t>(column - begin);
-    card.fields.push_back(field);
+    card.fields.push_back(fixedField(this->text_, line, NameWidth + i * width, width));
   }
 }
 }

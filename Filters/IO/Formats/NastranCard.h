@@ -10,21 +10,13 @@
 
 namespace morph::io
 {
-/// A field of a line of bulk data, and where it lies.
-struct NastranField
-{
-  Span span;             ///< its characters without blanks around them
-  NumberPlace place;     ///< what a number may take the place of
-  std::size_t width = 0; ///< of a fixed field: 8 or 16; 0: between commas
-};
-
 /// An entry of the bulk data: its name and the fields of all its lines, from the second one on.
 struct NastranCard
 {
   std::string name; ///< upper case, without the star of the large format; empty: none
   std::size_t at = 0;
   bool isLarge = false, isFree = false;
-  std::vector<NastranField> fields;
+  std::vector<NumberField> fields;
 
   /// Whether a number of the line is written between commas, and its longest length.
   NumberRules rules(std::size_t field) const;

@@ -8,15 +8,12 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <filesystem>
 #include <map>
 
 namespace morph::io
 {
 namespace
 {
-namespace fs = std::filesystem;
-
 constexpr int DeepestInclude = 20;
 
 /// An entry of elements: the cells by the number of its nodes, the first field of its nodes.
@@ -78,13 +75,31 @@ private:
   };
 
   void parse(std::size_t part, int depth);
-  void include(std::size_t part, std::size_t at, int depth);
   void takeGrid(std::size_t part, const NastranCard& card);
   void takeElement(std::size_t part, const NastranCard& card, const Kind& kind);
+  void takeSystem(std::size_t part, const NastranCard& card);
   Index integerIn(std::size_t part, const NastranCard& card, std::size_t field) const;
+  std::size_t frameOf(Index system, int depth);
+  Eigen::Vector3d positionOf(std::size_t node, int depth);
   void finish();
 
+  /// A coordinate system: by three points in another one, or by three nodes.
+  struct System
+  {
+    CoordinateFrame::Kind kind = CoordinateFrame::Kind::Rectangular;
+    Index reference = 0;
+    Eigen::Matrix3d points = Eigen::Matrix3d::Zero(); ///< its columns
+    std::array<Index, 3> nodes = {};
+    bool isByNodes = false;
+    std::size_t part = 0, at = 0;
+    std::size_t frame = 0; ///< 0: not yet known
+  };
+
   std::vector<Element> elements_;
+  std::map<Index, System> systems_;
+  std::vector<Index> systemOf_; ///< of each node; -1: that of GRDSET
+  Index defaultSystem_ = 0;
+  std::unordered_map<Index, Index> positions_; ///< of node numbers
 };
 
 /// The file that a statement names: INCLUDE 'name', which may go over several lines. `at`: after
@@ -105,15 +120,13 @@ std::string includedName(std::string_view text, std::size_t& at)
   }
   const std::size_t end = std::min(text.find(quote, begin + 1), text.size());
   std::string name;
-  for (const char c : text.substr(begin + 1, end - begin - 1))
+  Lines lines(text.substr(0, end), begin + 1);
+  while (lines.next())
   {
-    if (c != '\n' && c != '\r')
-    {
-      name += c;
-    }
+    name += trimmed(lines.line());
   }
   at = std::min(text.find('\n', end), text.size());
-  return std::string(trimmed(name));
+  return name;
 }
 
 bool startsWith(const std::string& text, const char* start)
@@ -148,10 +161,7 @@ void NastranFile::parse(std::size_t part, int depth)
           name.empty() ? "the name of the included file is missing."
                        : "files include each other more than 20 levels deep.");
       }
-      // A relative name is that from the folder of the including file.
-      const fs::path relative = fs::path(this->parts_[part].name).parent_path() / name;
-      const fs::path folder = fs::path(this->parts_[part].path).parent_path();
-      this->parse(this->addPart((folder / name).string(), relative.string()), depth + 1);
+      this->parse(this->addIncluded(part, name), depth + 1);
       cards = NastranCards(text, after);
     }
     else if (startsWith(card.name, "ENDDATA"))
@@ -162,9 +172,13 @@ void NastranFile::parse(std::size_t part, int depth)
     {
       this->takeGrid(part, card);
     }
-    else if (card.name == "GRDSET" && this->integerIn(part, card, 1) != 0)
+    else if (card.name == "GRDSET")
     {
-      this->failAt(part, card.at, "GRDSET puts nodes into another coordinate system (CP).");
+      this->defaultSystem_ = this->integerIn(part, card, 1);
+    }
+    else if (startsWith(card.name, "CORD1") || startsWith(card.name, "CORD2"))
+    {
+      this->takeSystem(part, card);
     }
     else if (const auto kind = kinds().find(card.name); kind != kinds().end())
     {
@@ -193,30 +207,119 @@ void NastranFile::takeGrid(std::size_t part, const NastranCard& card)
     this->failAt(part, card.at, "GRID has no third coordinate: a continuation line is missing.");
   }
   const Index number = this->integerIn(part, card, 0);
-  if (this->integerIn(part, card, 1) != 0)
-  {
-    this->failAt(part, card.at,
-      "node " + std::to_string(number) + " is in another coordinate system (CP " +
-        std::to_string(this->integerIn(part, card, 1)) + "). Write all nodes in the basic one.");
-  }
-  NodePlace place;
-  place.part = part;
-  place.rules = card.rules(2);
-  std::array<double, 3> x = { 0, 0, 0 };
-  for (std::size_t j = 0; j < 3; ++j)
-  {
-    const NastranField& field = card.fields[2 + j];
-    place.numbers[j] = field.place;
-    // A coordinate that its line ends in is written in full before the next one.
-    const bool hasNewLine = card.isLarge && j == 2;
-    if (field.width > 0 && j > 0 && !hasNewLine && card.fields[1 + j].place.length < field.width)
-    {
-      place.numbers[j].missing = 0;
-    }
-    x[j] = field.span.size() == 0 ? 0 : this->numberAt(part, field.span);
-  }
+  const bool hasSystem = card.fields[1].span.size() > 0;
+  this->systemOf_.push_back(hasSystem ? this->integerIn(part, card, 1) : -1);
+  std::array<double, 3> x;
+  this->places_.push_back(
+    this->nodePlace(part, card.fields.data() + 2, card.rules(2), x, card.isLarge));
   this->mesh_.addNode(number, x[0], x[1], x[2]);
-  this->places_.push_back(place);
+}
+
+/// CORD1R, CORD1C, CORD1S: one or two systems by nodes; CORD2R, CORD2C, CORD2S: by points.
+void NastranFile::takeSystem(std::size_t part, const NastranCard& card)
+{
+  using Kind = CoordinateFrame::Kind;
+  static const std::map<char, Kind> kinds = { { 'R', Kind::Rectangular },
+    { 'C', Kind::Cylindrical }, { 'S', Kind::Spherical } };
+  const auto kind = card.name.size() == 6 ? kinds.find(card.name[5]) : kinds.end();
+  if (kind == kinds.end())
+  {
+    this->failAt(part, card.at, "the coordinate system " + card.name + " is not known.");
+  }
+  System system;
+  system.kind = kind->second;
+  system.part = part;
+  system.at = card.at;
+  system.isByNodes = card.name[4] == '1';
+  for (std::size_t first = 0; system.isByNodes && first < 8; first += 4)
+  {
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      system.nodes[k] = this->integerIn(part, card, first + 1 + k);
+    }
+    if (const Index number = this->integerIn(part, card, first); number > 0)
+    {
+      this->systems_[number] = system;
+    }
+  }
+  if (system.isByNodes)
+  {
+    return;
+  }
+  system.reference = this->integerIn(part, card, 1);
+  for (std::size_t k = 0; k < 9; ++k)
+  {
+    const bool isBlank = 2 + k >= card.fields.size() || card.fields[2 + k].span.size() == 0;
+    system.points(static_cast<Index>(k % 3), static_cast<Index>(k / 3)) =
+      isBlank ? 0 : this->numberAt(part, card.fields[2 + k].span);
+  }
+  this->systems_[this->integerIn(part, card, 0)] = system;
+}
+
+/// The frame of a coordinate system. `depth`: of systems that need each other.
+std::size_t NastranFile::frameOf(Index id, int depth)
+{
+  if (id == 0)
+  {
+    return 0;
+  }
+  const auto found = this->systems_.find(id);
+  if (found == this->systems_.end())
+  {
+    this->fail("nodes are in the coordinate system " + std::to_string(id) +
+               ", which no CORD1R, CORD1C, CORD1S, CORD2R, CORD2C or CORD2S defines.");
+  }
+  System& system = found->second;
+  if (system.frame > 0)
+  {
+    return system.frame;
+  }
+  const std::string name = "the coordinate system " + std::to_string(id);
+  if (depth > 100)
+  {
+    this->failAt(system.part, system.at, name + " needs others that need it.");
+  }
+  Eigen::Matrix3d points;
+  for (Index k = 0; k < 3; ++k)
+  {
+    if (!system.isByNodes)
+    {
+      const std::size_t reference = this->frameOf(system.reference, depth + 1);
+      points.col(k) = this->frames_[reference].toBasic(system.points.col(k));
+      continue;
+    }
+    const Index number = system.nodes[static_cast<std::size_t>(k)];
+    const auto node = this->positions_.find(number);
+    if (node == this->positions_.end())
+    {
+      this->failAt(system.part, system.at,
+        name + " needs the node " + std::to_string(number) + ", which is not defined.");
+    }
+    points.col(k) = this->positionOf(static_cast<std::size_t>(node->second), depth + 1);
+  }
+  // The second point is on the third axis, the last one in the plane of the first and third.
+  const auto axes = axesOf(points.col(0), points.col(1), points.col(2));
+  if (!axes)
+  {
+    this->failAt(system.part, system.at, "the three points of " + name + " are on a line.");
+  }
+  CoordinateFrame frame;
+  frame.kind = system.kind;
+  frame.origin = points.col(0);
+  frame.axes << axes->col(1), axes->col(2), axes->col(0);
+  system.frame = this->frames_.size();
+  this->frames_.push_back(frame);
+  return system.frame;
+}
+
+/// Of a node, in the basic system.
+Eigen::Vector3d NastranFile::positionOf(std::size_t node, int depth)
+{
+  const Index system = this->systemOf_[node] < 0 ? this->defaultSystem_ : this->systemOf_[node];
+  const Eigen::Map<const Eigen::Vector3d> local(this->mesh_.coordinates.data() + 3 * node);
+  const std::size_t frame = this->frameOf(system, depth);
+  this->places_[node].frame = frame;
+  return this->frames_[frame].toBasic(local);
 }
 
 void NastranFile::takeElement(std::size_t part, const NastranCard& card, const Kind& kind)
@@ -252,7 +355,15 @@ void NastranFile::finish()
   {
     this->fail("it has no GRID.");
   }
-  const auto positions = positionsOf(this->mesh_.nodeNumbers, "node", this->path());
+  this->positions_ = positionsOf(this->mesh_.nodeNumbers, "node", this->path());
+  const auto& positions = this->positions_;
+  std::vector<double> basic;
+  for (std::size_t node = 0; node < this->places_.size(); ++node)
+  {
+    const Eigen::Vector3d x = this->positionOf(node, 0);
+    basic.insert(basic.end(), { x[0], x[1], x[2] });
+  }
+  this->mesh_.coordinates = std::move(basic);
   std::vector<Index> nodes;
   std::map<Index, std::vector<Index>> properties;
   for (const Element& element : this->elements_)

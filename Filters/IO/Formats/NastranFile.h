@@ -11,6 +11,6 @@ bool isNastranFile(const std::string& path);
 
 /// Reads GRID and the elements CTETRA, CPYRAM, CPENTA, CHEXA, CTRIA3, CTRIA6, CQUAD4, CQUAD8,
 /// CBAR, CBEAM and CROD of a file and of those that it includes. The elements of a property are a
-/// set, "PID 7". Nodes in other coordinate systems (CP) are refused by name.
+/// set, "PID 7". Nodes in other coordinate systems (CP) are read in the basic one.
 std::unique_ptr<SolverFile> readNastranFile(const std::string& path);
 }

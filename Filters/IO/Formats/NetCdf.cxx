@@ -149,6 +149,26 @@ std::vector<double> NetCdf::numbers(const std::string& variable, Index count) co
   return result;
 }
 
+std::vector<double> NetCdf::row(
+  const std::string& variable, std::vector<std::size_t> place, Index count) const
+{
+  int id = 0, dimensions = 0;
+  this->check(nc_inq_varid(this->file_, variable.c_str(), &id), variable);
+  this->check(nc_inq_varndims(this->file_, id, &dimensions), variable);
+  if (static_cast<std::size_t>(dimensions) != place.size() + 1)
+  {
+    throw Error("Cannot read " + this->name_ + ": its variable " + variable + " does not have " +
+                std::to_string(place.size() + 1) + " dimensions.");
+  }
+  std::vector<std::size_t> counts(place.size(), 1);
+  counts.push_back(static_cast<std::size_t>(count));
+  place.push_back(0);
+  std::vector<double> result(static_cast<std::size_t>(count));
+  this->check(
+    nc_get_vara_double(this->file_, id, place.data(), counts.data(), result.data()), variable);
+  return result;
+}
+
 std::vector<Index> NetCdf::integers(const std::string& variable, Index count) const
 {
   const int id = this->variable(variable, count);

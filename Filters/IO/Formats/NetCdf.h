@@ -31,6 +31,9 @@ public:
   bool isSinglePrecision(const std::string& variable) const;
   /// The values of a variable, which must have `count` of them.
   std::vector<double> numbers(const std::string& variable, Index count) const;
+  /// Of an array, the `count` values of its last dimension at these places in those before.
+  std::vector<double> row(
+    const std::string& variable, std::vector<std::size_t> place, Index count) const;
   std::vector<Index> integers(const std::string& variable, Index count) const;
   /// The rows of an array of characters: `count` of them. None where there is no such variable.
   std::vector<std::string> texts(const std::string& variable, Index count) const;

@@ -8,6 +8,7 @@
 #include "Support/Error.h"
 #include "Text/NumberPlaces.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
@@ -34,32 +35,84 @@ bool hasFile(const fs::path& folder, const char* name)
   return isThere(folder / name) || isThere(folder / (std::string(name) + ".gz"));
 }
 
-/// The folder polyMesh with the points that a path means; empty where it means none.
-fs::path pointsFolder(const std::string& path)
+/// The folder that a path means: itself, or that of a marker or a file of points.
+fs::path folderOf(const fs::path& path)
 {
   std::error_code error;
-  fs::path folder = path;
-  if (fs::is_regular_file(folder, error))
+  if (!fs::is_regular_file(path, error))
   {
-    if (isPointsFile(folder))
-    {
-      return folder.has_parent_path() ? folder.parent_path() : fs::path(".");
-    }
-    if (extensionOf(path) != ".foam")
-    {
-      return {};
-    }
-    folder = folder.has_parent_path() ? folder.parent_path() : fs::path(".");
+    return path;
   }
+  const bool isKnown = isPointsFile(path) || extensionOf(path.string()) == ".foam";
+  return !isKnown ? fs::path() : path.has_parent_path() ? path.parent_path() : fs::path(".");
+}
+
+/// The folder polyMesh with the points that a path means; empty where it means none.
+fs::path pointsFolder(const fs::path& path)
+{
+  const fs::path folder = folderOf(path);
   for (const fs::path& candidate :
     { folder / "constant" / "polyMesh", folder / "polyMesh", folder })
   {
-    if (hasFile(candidate, "points"))
+    if (!folder.empty() && hasFile(candidate, "points"))
     {
       return candidate;
     }
   }
   return {};
+}
+
+/// The folders of a case that have a mesh each, where the case itself has none: those of its
+/// regions, or else the pieces of a decomposed case. In the order of their names.
+std::vector<std::string> meshesIn(const fs::path& path)
+{
+  std::vector<std::string> regions, pieces;
+  const fs::path folder = folderOf(path);
+  for (const fs::path& parent : { folder / "constant", folder })
+  {
+    std::error_code error;
+    for (fs::directory_iterator it(parent, error), end; !error && it != end; it.increment(error))
+    {
+      const bool isPiece = it->path().filename().string().rfind("processor", 0) == 0;
+      if (hasFile(it->path() / "polyMesh", "points"))
+      {
+        regions.push_back(it->path().string());
+      }
+      else if (isPiece && isThere(it->path() / "constant"))
+      {
+        pieces.push_back(it->path().string());
+      }
+    }
+  }
+  std::vector<std::string>& meshes = regions.empty() ? pieces : regions;
+  std::sort(meshes.begin(), meshes.end());
+  return meshes;
+}
+
+/// As pointsFolder(). Throws Error with what to give where the path means several meshes.
+fs::path onePointsFolder(const std::string& path)
+{
+  fs::path found = pointsFolder(path);
+  const std::vector<std::string> meshes =
+    found.empty() ? meshesIn(path) : std::vector<std::string>();
+  if (meshes.empty())
+  {
+    return found;
+  }
+  if (fs::path(meshes.front()).filename().string().rfind("processor", 0) == 0)
+  {
+    throw Error("Cannot read " + path + ": it is a decomposed case, whose pieces are " +
+                meshes.front() + " and so on. Join them with OpenFOAM's reconstructParMesh.");
+  }
+  std::string list;
+  for (const std::string& mesh : meshes)
+  {
+    list += (list.empty() ? "" : ", ") + mesh;
+  }
+  throw Error("Cannot read " + path +
+              ": it has no mesh of its own, but one for each region. Give "
+              "one of these in its place: " +
+              list + ".");
 }
 
 /// The folder with the faces: that of the points, or that of constant/ for a time's points.
@@ -88,7 +141,7 @@ class OpenFoamMesh : public SolverFile
 public:
   explicit OpenFoamMesh(const std::string& path)
     : SolverFile(path)
-    , list_((pointsFolder(path) / "points").string())
+    , list_((onePointsFolder(path) / "points").string())
     , points_(list_.vectors())
   {
     for (std::size_t i = 0; 3 * i < this->points_.values.size(); ++i)
@@ -255,7 +308,7 @@ std::string OpenFoamMesh::asBytes(
 
 bool isOpenFoamMesh(const std::string& path)
 {
-  return !pointsFolder(path).empty();
+  return !pointsFolder(path).empty() || !meshesIn(path).empty();
 }
 
 std::unique_ptr<SolverFile> readOpenFoamMesh(const std::string& path)

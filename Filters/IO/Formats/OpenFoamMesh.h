@@ -6,12 +6,14 @@
 namespace morph::io
 {
 /// Whether a path is a mesh of OpenFOAM: the folder of a case, a .foam file in one, a folder
-/// polyMesh (of a region or a time too), or a file points or points.gz.
+/// polyMesh (of a region or a time too), or a file points or points.gz. A case whose regions or
+/// pieces have the meshes is one, too.
 bool isOpenFoamMesh(const std::string& path);
 
 /// Reads points, faces, owner, neighbour and boundary, text or binary, packed (.gz) or not; nodes
 /// and cells are numbered from 0. A time's folder may have its points alone. Patches are sets of
-/// faces. Cells of other shapes are polyhedra. Throws Error for a piece of a decomposed case.
+/// faces. Cells of other shapes are polyhedra. Throws Error for a case of several regions, which
+/// names them, and for a decomposed case or a piece of it.
 std::unique_ptr<SolverFile> readOpenFoamMesh(const std::string& path);
 
 /// The file of points that `out` means: itself, where it is called points or points.gz; or that of

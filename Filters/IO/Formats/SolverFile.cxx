@@ -3,9 +3,11 @@
 
 #include "Files/ReadFile.h"
 #include "Formats/AbaqusFile.h"
+#include "Formats/AnsysFile.h"
 #include "Formats/CgnsFile.h"
 #include "Formats/ExodusFile.h"
 #include "Formats/GmshFile.h"
+#include "Formats/LsDynaFile.h"
 #include "Formats/NastranFile.h"
 #include "Formats/OpenFoamMesh.h"
 #include "Formats/Su2File.h"
@@ -55,9 +57,11 @@ constexpr bool HasCgns = false;
 
 constexpr Format Formats[] = {
   { "Abaqus or CalculiX", isAbaqusFile, readAbaqusFile, sameExtension },
+  { "Ansys", isAnsysFile, readAnsysFile, sameExtension },
   { "CGNS", isCgnsFile, readCgnsFile, sameExtension, false, HasCgns },
   { "Exodus II", isExodusFile, readExodusFile, sameExtension, false, HasNetCdf },
   { "Gmsh", isGmshFile, readGmshFile, sameExtension },
+  { "LS-DYNA", isLsDynaFile, readLsDynaFile, sameExtension },
   { "Nastran", isNastranFile, readNastranFile, sameExtension },
   { "OpenFOAM", isOpenFoamMesh, readOpenFoamMesh, openFoamTarget, true },
   { "SU2", isSu2File, readSu2File, sameExtension },
@@ -163,40 +167,62 @@ double writeSolverFile(const std::string& original, const std::vector<Index>& nu
   return largestRounding;
 }
 
-void requireOwnCoordinates(const std::string& original, const std::vector<Index>& numbers,
-  const std::vector<double>& coordinates, double precision)
+std::vector<double> requireOwnCoordinates(const std::string& original,
+  const std::vector<Index>& numbers, const std::vector<double>& coordinates, double precision,
+  bool isMorphed)
 {
   const std::unique_ptr<SolverFile> file = requireFormat(original).read(original);
-  const std::string displacements = file->displacements();
-  if (displacements.empty())
+  const SolverMesh& mesh = file->mesh();
+  if (mesh.displacementName.empty())
   {
-    return;
+    return {};
   }
   const std::vector<double> given = inOrder(*file, numbers, coordinates);
-  const std::vector<double>& own = file->mesh().coordinates;
-  std::vector<Index> other;
-  for (std::size_t i = 0; i < own.size(); i += 3)
+  // The nodes that are not at the file's own coordinates plus these displacements.
+  const auto elsewhere = [&](const std::vector<double>& displacements)
   {
-    double difference = 0;
-    for (std::size_t j = i; j < i + 3; ++j)
+    std::vector<Index> nodes;
+    for (std::size_t i = 0; i < given.size(); ++i)
     {
-      difference = std::max(difference, std::abs(given[j] - own[j]));
+      const double expected = mesh.coordinates[i] + displacements[i];
+      if (!(std::abs(given[i] - expected) <= precision) &&
+          (nodes.empty() || nodes.back() != mesh.nodeNumbers[i / 3]))
+      {
+        nodes.push_back(mesh.nodeNumbers[i / 3]);
+      }
     }
-    if (difference > precision)
+    return nodes;
+  };
+  const std::vector<Index> other = elsewhere(std::vector<double>(given.size(), 0));
+  if (other.empty())
+  {
+    return {};
+  }
+  std::vector<double> added;
+  for (Index step = 0; !isMorphed && !(added = file->displacementsAt(step)).empty(); ++step)
+  {
+    if (elsewhere(added).empty())
     {
-      other.push_back(file->mesh().nodeNumbers[i / 3]);
+      const auto positions = positionsOf(mesh.nodeNumbers, "node", original);
+      std::vector<double> exact;
+      for (const Index number : numbers)
+      {
+        const auto first = static_cast<std::size_t>(3 * positions.at(number));
+        for (std::size_t i = first; i < first + 3; ++i)
+        {
+          exact.push_back(mesh.coordinates[i] + added[i]);
+        }
+      }
+      return exact;
     }
   }
-  if (!other.empty())
-  {
-    throw Error(printable(
-      "Cannot write the coordinates into a copy of " + original +
-      ": before the morph, nodes were not at the file's own coordinates: " + listIds(other) +
-      ". The displacements '" + displacements +
-      "' of the file were added, or filters moved the mesh more than once. If the reader has Apply "
-      "Displacements on, switch it off, or read the file with Solver File Reader, which takes its "
-      "own coordinates. To keep such displacements, morph the file by a table of them."));
-  }
+  throw Error(printable(
+    "Cannot write the coordinates into a copy of " + original +
+    ": before the morph, nodes were not at the file's own coordinates: " + listIds(other) +
+    ". The displacements '" + mesh.displacementName +
+    "' of the file were added, or filters moved the mesh more than once. If the reader has Apply "
+    "Displacements on, switch it off, or read the file with Solver File Reader, which takes its "
+    "own coordinates. To keep such displacements, first write them alone into a copy."));
 }
 
 void requireWritable(const std::string& original, const std::string& out)

@@ -18,9 +18,8 @@ public:
 
   const SolverMesh& mesh() const { return this->mesh_; }
   const std::string& path() const { return this->path_; }
-  /// Reads the name of the displacements that other readers add to the coordinates, as ParaView
-  /// does with those of Exodus II. Empty: there are none. Throws Error as the reading does.
-  virtual std::string displacements() const { return {}; }
+  /// The displacements of a time step, from 0 on, as those of mesh(); none where it is not there.
+  virtual std::vector<double> displacementsAt(Index) const { return {}; }
 
   /// The files to write so that `out` is a copy with these coordinates (3 x #nodes, in the order of
   /// mesh()), the one of `out` last. Nothing else differs. Sets the largest difference between a
@@ -57,9 +56,11 @@ double writeSolverFile(const std::string& original, const std::vector<Index>& nu
 
 /// Throws Error where `original` has displacements, and `coordinates`, which another reader gave,
 /// are not its own: that reader or a filter has added them. `precision`: what rounding may have
-/// changed.
-void requireOwnCoordinates(const std::string& original, const std::vector<Index>& numbers,
-  const std::vector<double>& coordinates, double precision);
+/// changed. `isMorphed`: a morph follows. Without one, the displacements of a time step may have
+/// been added: returns the exact sums then, else nothing.
+std::vector<double> requireOwnCoordinates(const std::string& original,
+  const std::vector<Index>& numbers, const std::vector<double>& coordinates, double precision,
+  bool isMorphed);
 
 /// Throws Error unless a copy of `original` can be written to `out`, so that the error comes before
 /// the work.

@@ -111,12 +111,17 @@ SolverMesh partOf(
   const SolverMesh& mesh, const std::vector<Index>& nodes, const std::vector<Index>& cells)
 {
   SolverMesh part;
+  part.displacementName = mesh.displacementName;
   const std::vector<Index> placeOfNode = placesOf(nodes, mesh.nodes());
   const std::vector<Index> placeOfCell = placesOf(cells, mesh.cells());
   for (const Index node : nodes)
   {
     const double* x = mesh.coordinates.data() + 3 * node;
     part.addNode(mesh.nodeNumbers[node], x[0], x[1], x[2]);
+    for (Index j = 3 * node; !mesh.displacements.empty() && j < 3 * node + 3; ++j)
+    {
+      part.displacements.push_back(mesh.displacements[j]);
+    }
   }
   for (const Index cell : cells)
   {

@@ -7,7 +7,11 @@
 #include "Text/Printable.h"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
+#include <functional>
+#include <limits>
+#include <map>
 #include <system_error>
 
 namespace morph::io
@@ -34,6 +38,49 @@ std::size_t TextFile::addPart(const std::string& path, const std::string& name)
   }
   this->parts_.push_back({ path, name, readFile(path) });
   return this->parts_.size() - 1;
+}
+
+std::size_t TextFile::addIncluded(std::size_t part, const std::string& name)
+{
+  const fs::path root = fs::path(this->path()).parent_path();
+  fs::path first = fs::path(this->parts_[part].name).parent_path() / name, second = name;
+  if (second.has_parent_path())
+  {
+    std::swap(first, second);
+  }
+  std::error_code error;
+  const bool isSecond = fs::exists(root / second, error);
+  if (isSecond && !fs::exists(root / first, error))
+  {
+    std::swap(first, second);
+  }
+  else if (isSecond && !fs::equivalent(root / first, root / second, error))
+  {
+    this->mesh_.warnings.push_back("The included file '" + name + "' is " + first.string() +
+                                   ", and not " + second.string() + ", which is there, too.");
+  }
+  return this->addPart((root / first).string(), first.string());
+}
+
+TextFile::NodePlace TextFile::nodePlace(std::size_t part, const NumberField* fields,
+  const NumberRules& rules, std::array<double, 3>& coordinates, bool isSplit) const
+{
+  NodePlace place;
+  place.part = part;
+  place.rules = rules;
+  for (std::size_t j = 0; j < 3; ++j)
+  {
+    const NumberField& field = fields[j];
+    place.numbers[j] = field.place;
+    // A coordinate that its line ends in is written in full before the next one.
+    const bool hasNewLine = isSplit && j == 2;
+    if (field.width > 0 && j > 0 && !hasNewLine && fields[j - 1].place.length < field.width)
+    {
+      place.numbers[j].missing = 0;
+    }
+    coordinates[j] = field.span.size() == 0 ? 0 : this->numberAt(part, field.span);
+  }
+  return place;
 }
 
 std::string TextFile::where(std::size_t part, std::size_t at) const
@@ -71,17 +118,82 @@ long long TextFile::integerAt(std::size_t part, Span span) const
   return *value;
 }
 
+std::vector<double> TextFile::atPlaces(const std::vector<double>& coordinates,
+  const std::string& out, std::vector<std::uint8_t>& isKept, double& largestRounding) const
+{
+  const std::vector<double>& old = this->mesh().coordinates;
+  std::vector<double> result = coordinates;
+  isKept.resize(result.size());
+  std::transform(result.begin(), result.end(), old.begin(), isKept.begin(), std::equal_to<>());
+  double size = 0;
+  for (const double x : old)
+  {
+    size = std::max(size, std::abs(x));
+  }
+  const double rounding = 16 * std::numeric_limits<double>::epsilon() * size;
+  std::map<std::pair<std::size_t, std::uint64_t>, std::size_t> moved; // by place
+  std::vector<Index> apart;
+  for (std::size_t node = 0; node < this->places_.size(); ++node)
+  {
+    const NodePlace& place = this->places_[node];
+    std::uint8_t* kept = isKept.data() + 3 * node;
+    const bool isStill = kept[0] && kept[1] && kept[2];
+    if (isStill || (place.frame == 0 && !this->sharesPlaces_))
+    {
+      continue;
+    }
+    const CoordinateFrame& frame = this->frames_[place.frame];
+    const Eigen::Map<const Eigen::Vector3d> basic(coordinates.data() + 3 * node);
+    Eigen::Map<Eigen::Vector3d> local(result.data() + 3 * node);
+    Eigen::Vector3d before;
+    for (int j = 0; j < 3; ++j)
+    {
+      const NumberPlace& number = place.numbers[static_cast<std::size_t>(j)];
+      const std::string_view text = this->parts_[place.part].text;
+      before[j] = parseNumber(trimmed(text.substr(number.begin, number.length))).value_or(0);
+    }
+    local = frame.fromBasic(basic, before, rounding);
+    for (int j = 0; j < 3; ++j)
+    {
+      kept[j] = local[j] == before[j];
+    }
+    const auto [other, isFirst] =
+      moved.emplace(std::pair{ place.part, place.numbers[0].begin }, node);
+    if (!this->sharesPlaces_ || isFirst)
+    {
+      continue;
+    }
+    std::fill(kept, kept + 3, std::uint8_t(1));
+    const Eigen::Map<const Eigen::Vector3d> written(result.data() + 3 * other->second);
+    const double difference = (frame.toBasic(written) - basic).norm();
+    largestRounding = std::max(largestRounding, difference);
+    if (!(difference <= 1e-6 * size))
+    {
+      apart.push_back(this->mesh().nodeNumbers[node]);
+    }
+  }
+  if (!apart.empty())
+  {
+    throw Error("Cannot write " + out + ": instances of one part move differently at the nodes " +
+                listIds(apart) +
+                ". The file has the nodes of the part once. Move them alike, or give each "
+                "instance a part of its own.");
+  }
+  return result;
+}
+
 std::vector<NewFile> TextFile::withCoordinates(
   const std::vector<double>& coordinates, const std::string& out, double& largestRounding) const
 {
+  std::vector<std::uint8_t> isKept;
+  const std::vector<double> values = this->atPlaces(coordinates, out, isKept, largestRounding);
   std::vector<std::vector<NumberChange>> changes(this->parts_.size());
   for (std::size_t node = 0; node < this->places_.size(); ++node)
   {
     const NodePlace& place = this->places_[node];
     for (std::size_t j = 0; j < 3; ++j)
     {
-      const auto changesAt = [&](std::size_t k)
-      { return coordinates[3 * node + k] != this->mesh().coordinates[3 * node + k]; };
+      const auto changesAt = [&](std::size_t k) { return !isKept[3 * node + k]; };
       // Where a line ends too soon, what is written there needs what comes before.
       const auto isShort = [&](std::size_t k)
       { return place.numbers[k].missing > 0 || place.numbers[k].length < place.rules.width; };
@@ -92,7 +204,7 @@ std::vector<NewFile> TextFile::withCoordinates(
       }
       if (isNeeded)
       {
-        const double value = coordinates[3 * node + j];
+        const double value = values[3 * node + j];
         changes[place.part].push_back({ place.numbers[j], value, place.rules });
       }
     }

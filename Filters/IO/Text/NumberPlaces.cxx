@@ -21,7 +21,7 @@ using Field = NumberRules::Field;
               std::to_string(line) + ". Choose a format with wider fields, or another unit.");
 }
 
-std::string fixedField(
+std::string fixedText(
   const std::string& text, const NumberChange& change, std::string_view old, std::string& number)
 {
   const NumberPlace& place = change.place;
@@ -73,6 +73,35 @@ void align(std::string& result, std::size_t written, std::size_t old)
 }
 }
 
+NumberField fixedField(std::string_view text, Span line, std::size_t column, std::size_t width)
+{
+  const std::size_t at = line.begin + column;
+  const std::size_t begin = std::min(at, line.end), end = std::min(at + width, line.end);
+  NumberField field;
+  field.width = width;
+  field.span = trimmed(text, { begin, end });
+  field.place.begin = begin;
+  field.place.length = static_cast<std::uint32_t>(end - begin);
+  field.place.missing = static_cast<std::uint32_t>(at - begin);
+  return field;
+}
+
+std::vector<NumberField> freeFields(std::string_view text, Span line, std::size_t least)
+{
+  std::vector<Span> parts;
+  splitAtCommas(text, line, parts);
+  std::vector<NumberField> fields(std::max(least, parts.size()));
+  for (std::size_t i = 0; i < fields.size(); ++i)
+  {
+    const bool isThere = i < parts.size();
+    fields[i].span = isThere ? parts[i] : Span{ parts.back().end, parts.back().end };
+    fields[i].place.begin = fields[i].span.begin;
+    fields[i].place.length = static_cast<std::uint32_t>(fields[i].span.size());
+    fields[i].place.missing = isThere ? 0 : 1;
+  }
+  return fields;
+}
+
 std::string withNumbers(
   const std::string& text, const std::vector<NumberChange>& changes, double& largestRounding)
 {
@@ -89,7 +118,7 @@ std::string withNumbers(
     if (change.rules.field == Field::Fixed)
     {
       std::string number;
-      const std::string field = fixedField(text, change, old, number);
+      const std::string field = fixedText(text, change, old, number);
       result += field;
       largestRounding =
         std::max(largestRounding, std::abs(parseNumber(number).value_or(0) - change.value));

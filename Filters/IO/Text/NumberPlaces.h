@@ -18,6 +18,19 @@ struct NumberPlace
   std::uint32_t missing = 0; ///< characters to add before it, where the line is too short
 };
 
+/// A field of a line, and where a number may take its place.
+struct NumberField
+{
+  Span span; ///< its characters without blanks around them
+  NumberPlace place;
+  std::size_t width = 0; ///< of a fixed field; 0: between commas
+};
+
+/// The field of a line that begins at a column, from 0 on; the line may end before it.
+NumberField fixedField(std::string_view text, Span line, std::size_t column, std::size_t width);
+/// The fields of a line between commas; those beyond it are empty, up to `least` of them.
+std::vector<NumberField> freeFields(std::string_view text, Span line, std::size_t least);
+
 /// How the numbers of a text may be written.
 struct NumberRules
 {

@@ -1,0 +1,346 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Formats/AnsysFile.h"
+
+#include "Files/ReadFile.h"
+#include "Formats/AbaqusKeyword.h"
+#include "Formats/SolidElements.h"
+#include "Formats/TextFile.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <map>
+#include <set>
+
+namespace morph::io
+{
+namespace
+{
+/// See "Mesh Information File" and CDWRITE in the Mechanical APDL documentation.
+class AnsysFile : public TextFile
+{
+public:
+  explicit AnsysFile(const std::string& path)
+    : TextFile(path)
+  {
+    this->addPart(path, "");
+    this->parse();
+    this->finish();
+  }
+
+private:
+  struct Element
+  {
+    Index number = 0, material = 0, type = 0;
+    std::vector<Index> nodes;
+    std::size_t at = 0;
+  };
+  struct Component
+  {
+    std::string name;
+    bool isOfNodes = false;
+    std::vector<std::pair<Index, Index>> ranges; ///< first and last number
+  };
+
+  std::string_view text() const { return this->parts_[0].text; }
+  void parse();
+  void readWidths(Lines& lines);
+  bool nextOfBlock(Lines& lines, const char* block) const;
+  std::vector<NumberField> fieldsOf(Span line) const;
+  std::vector<Index> integersOf(Span line) const;
+  void readNodes(Lines& lines);
+  void readElements(Lines& lines);
+  void readComponent(Lines& lines, const std::vector<Span>& command);
+  void finish();
+
+  std::vector<std::size_t> widths_; ///< of the fields of the block
+  std::size_t integers_ = 0;        ///< of these, which come first
+  std::map<Index, Index> types_;    ///< element type of each number of ET
+  std::vector<Element> elements_;
+  std::vector<Component> components_;
+};
+
+/// Whether a type has volume elements (1), shells (2), or is left out (0).
+int kindOf(Index type)
+{
+  static const std::set<Index> solids = { 45, 64, 65, 70, 87, 90, 92, 95, 185, 186, 187, 226, 227,
+    278, 279, 285, 291 };
+  static const std::set<Index> shells = { 41, 57, 63, 131, 157, 181 };
+  return solids.count(type) > 0 ? 1 : shells.count(type) > 0 ? 2 : 0;
+}
+
+/// The format of a block, on the line after its command: "(3i9,6e21.13e3)".
+void AnsysFile::readWidths(Lines& lines)
+{
+  this->widths_.clear();
+  this->integers_ = 0;
+  const std::size_t at = lines.at();
+  std::string format = lines.next() ? upperCase(trimmed(lines.line())) : "";
+  const bool isFormat = format.size() > 2 && format.front() == '(' && format.back() == ')';
+  std::vector<Span> parts;
+  splitAtCommas(format, { 1, std::max<std::size_t>(format.size(), 2) - 1 }, parts);
+  for (std::size_t i = 0; isFormat && i < parts.size(); ++i)
+  {
+    const std::string part(parts[i].of(format));
+    const std::size_t letter = part.find_first_of("IEFG");
+    const int count = std::atoi(part.c_str());
+    const int width = letter < part.size() ? std::atoi(part.c_str() + letter + 1) : 0;
+    if (width < 1 || width > 100 || count < 0 || count > 100)
+    {
+      break;
+    }
+    this->widths_.insert(
+      this->widths_.end(), static_cast<std::size_t>(std::max(count, 1)), std::size_t(width));
+    this->integers_ = part[letter] == 'I' ? this->widths_.size() : this->integers_;
+  }
+  if (this->widths_.empty() || this->integers_ == 0)
+  {
+    this->failAt(0, at, "the format of the block is missing, as in (3i9,6e21.13e3).");
+  }
+}
+
+/// Moves to the next line of a block. False at its end, which is a command or -1.
+bool AnsysFile::nextOfBlock(Lines& lines, const char* block) const
+{
+  if (!lines.next())
+  {
+    this->fail(std::string("it ends inside of ") + block + ".");
+  }
+  const std::string_view line = trimmed(lines.line());
+  return !line.empty() && line != "-1" && line[0] != 'N' && line[0] != 'n';
+}
+
+std::vector<NumberField> AnsysFile::fieldsOf(Span line) const
+{
+  std::vector<NumberField> fields;
+  std::size_t column = 0;
+  for (const std::size_t width : this->widths_)
+  {
+    fields.push_back(fixedField(this->text(), line, column, width));
+    column += width;
+  }
+  return fields;
+}
+
+/// Those of a line, up to its end.
+std::vector<Index> AnsysFile::integersOf(Span line) const
+{
+  std::vector<Index> numbers;
+  for (const NumberField& field : this->fieldsOf(line))
+  {
+    if (field.span.size() > 0)
+    {
+      numbers.push_back(this->integerAt(0, field.span));
+    }
+  }
+  return numbers;
+}
+
+void AnsysFile::readNodes(Lines& lines)
+{
+  this->readWidths(lines);
+  if (this->widths_.size() < this->integers_ + 3)
+  {
+    this->failAt(0, lines.span().begin, "the format of NBLOCK has less than three coordinates.");
+  }
+  while (this->nextOfBlock(lines, "NBLOCK"))
+  {
+    const std::vector<NumberField> fields = this->fieldsOf(lines.span());
+    NumberRules rules;
+    rules.field = NumberRules::Field::Fixed;
+    rules.width = fields[this->integers_].width;
+    std::array<double, 3> x;
+    this->places_.push_back(this->nodePlace(0, fields.data() + this->integers_, rules, x));
+    this->mesh_.addNode(this->integerAt(0, fields[0].span), x[0], x[1], x[2]);
+  }
+}
+
+/// Of the form SOLID: material, type, and so on, the number of nodes (9th), the element's number
+/// (11th), its nodes.
+void AnsysFile::readElements(Lines& lines)
+{
+  this->readWidths(lines);
+  while (this->nextOfBlock(lines, "EBLOCK"))
+  {
+    const std::vector<Index> head = this->integersOf(lines.span());
+    if (head.size() < 12 || head[8] < 1 || head[8] > 100)
+    {
+      this->failAt(0, lines.span().begin, "an element of EBLOCK needs 11 numbers and its nodes.");
+    }
+    Element element{ head[10], head[0], head[1], { head.begin() + 11, head.end() },
+      lines.span().begin };
+    const auto count = static_cast<std::size_t>(head[8]);
+    while (element.nodes.size() < count && this->nextOfBlock(lines, "EBLOCK"))
+    {
+      const std::vector<Index> more = this->integersOf(lines.span());
+      element.nodes.insert(element.nodes.end(), more.begin(), more.end());
+    }
+    if (element.nodes.size() != count)
+    {
+      this->failAt(0, element.at,
+        "element " + std::to_string(element.number) + " should have " + std::to_string(count) +
+          " nodes, and has " + std::to_string(element.nodes.size()) + ".");
+    }
+    this->elements_.push_back(std::move(element));
+  }
+}
+
+/// A number below zero ends a range that begins with the number before it.
+void AnsysFile::readComponent(Lines& lines, const std::vector<Span>& command)
+{
+  const auto word = [&](std::size_t i)
+  { return std::string(i < command.size() ? command[i].of(this->text()) : std::string_view()); };
+  Component component;
+  component.name = word(1);
+  component.isOfNodes = upperCase(word(2)).rfind("NODE", 0) == 0;
+  const std::string countText = word(3).substr(0, word(3).find('!'));
+  const int count = std::atoi(countText.c_str());
+  this->readWidths(lines);
+  for (int found = 0; found < count;)
+  {
+    const std::size_t at = lines.at();
+    const std::vector<Index> numbers =
+      lines.next() ? this->integersOf(lines.span()) : std::vector<Index>();
+    if (numbers.empty())
+    {
+      this->failAt(0, at, "the component " + component.name + " has fewer numbers than it says.");
+    }
+    for (const Index number : numbers)
+    {
+      std::vector<std::pair<Index, Index>>& ranges = component.ranges;
+      if (number >= 0)
+      {
+        ranges.emplace_back(number, number);
+      }
+      else if (ranges.empty() || number > -ranges.back().first)
+      {
+        this->failAt(0, at, "the range to " + std::to_string(number) + " has no beginning.");
+      }
+      else
+      {
+        ranges.back().second = -number;
+      }
+      ++found;
+    }
+  }
+  this->components_.push_back(std::move(component));
+}
+
+void AnsysFile::parse()
+{
+  Lines lines(this->text());
+  std::vector<Span> fields;
+  while (lines.next())
+  {
+    splitAtCommas(this->text(), lines.span(), fields);
+    const auto word = [&](std::size_t i)
+    { return i < fields.size() ? upperCase(fields[i].of(this->text())) : std::string(); };
+    const std::string command = word(0);
+    if (command == "NBLOCK")
+    {
+      this->readNodes(lines);
+    }
+    else if (command == "EBLOCK" && word(2) == "SOLID")
+    {
+      this->readElements(lines);
+    }
+    else if (command == "EBLOCK")
+    {
+      this->mesh_.warnings.push_back(
+        "An EBLOCK without SOLID is left out of the mesh; it stays in the file.");
+    }
+    else if (command == "CMBLOCK")
+    {
+      this->readComponent(lines, fields);
+    }
+    else if (command == "ET" && fields.size() > 2)
+    {
+      const std::string name = word(2);
+      const std::size_t digits = std::min(name.find_first_of("0123456789"), name.size());
+      this->types_[std::atoi(word(1).c_str())] = std::atoi(name.c_str() + digits);
+    }
+    else if (command == "N" || command == "EN")
+    {
+      this->failAt(0, lines.span().begin,
+        "its nodes or elements have a command each (" + command +
+          "). Write a blocked archive (CDWRITE with BLOCKED).");
+    }
+  }
+}
+
+void AnsysFile::finish()
+{
+  if (this->mesh_.nodes() == 0)
+  {
+    this->fail("it has no nodes in NBLOCK.");
+  }
+  const auto positions = positionsOf(this->mesh_.nodeNumbers, "node", this->path());
+  std::set<Index> unknown;
+  std::map<Index, Index> cells;
+  std::map<Index, std::vector<Index>> materials;
+  for (const Element& element : this->elements_)
+  {
+    const Index type = this->types_[element.type];
+    const int kind = kindOf(type);
+    if (kind == 0)
+    {
+      unknown.insert(type);
+      continue;
+    }
+    auto [cellType, nodes] = kind == 1 ? solidElement(element.nodes) : shellElement(element.nodes);
+    if (cellType == EmptyCell)
+    {
+      this->failAt(0, element.at,
+        "element " + std::to_string(element.number) + " of type " + std::to_string(type) + " has " +
+          std::to_string(element.nodes.size()) + " nodes, which is not supported.");
+    }
+    for (Index& node : nodes)
+    {
+      const auto found = positions.find(node);
+      if (found == positions.end())
+      {
+        this->failAt(0, element.at,
+          "element " + std::to_string(element.number) + " has the node " + std::to_string(node) +
+            ", which is not defined.");
+      }
+      node = found->second;
+    }
+    const Index cell = this->mesh_.addCell(cellType, nodes, element.number);
+    cells[element.number] = cell;
+    materials[element.material].push_back(cell);
+  }
+  for (auto& [material, members] : materials)
+  {
+    this->mesh_.set("Material " + std::to_string(material)).cells = std::move(members);
+  }
+  positionsOf(this->mesh_.cellNumbers, "element", this->path());
+  const std::map<Index, Index> nodes(positions.begin(), positions.end());
+  for (const Component& component : this->components_)
+  {
+    NamedSet& set = this->mesh_.set(component.name);
+    const auto& places = component.isOfNodes ? nodes : cells;
+    for (const auto& [first, last] : component.ranges) // of elements that are left out, too
+    {
+      for (auto one = places.lower_bound(first); one != places.end() && one->first <= last; ++one)
+      {
+        (component.isOfNodes ? set.nodes : set.cells).push_back(one->second);
+      }
+    }
+  }
+  for (const Index type : unknown)
+  {
+    this->mesh_.warnings.push_back("Elements of the type " + std::to_string(type) +
+                                   " are left out of the mesh; they stay in the file.");
+  }
+}
+}
+
+bool isAnsysFile(const std::string& path)
+{
+  return extensionOf(path) == ".cdb" && !readHead(path, 1).empty();
+}
+
+std::unique_ptr<SolverFile> readAnsysFile(const std::string& path)
+{
+  return std::make_unique<AnsysFile>(path);
+}
+}

@@ -1,0 +1,418 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Formats/LsDynaFile.h"
+
+#include "Files/ReadFile.h"
+#include "Formats/AbaqusKeyword.h"
+#include "Formats/SolidElements.h"
+#include "Formats/TextFile.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+namespace morph::io
+{
+namespace
+{
+constexpr int DeepestInclude = 20;
+
+class LsDynaFile : public TextFile
+{
+public:
+  explicit LsDynaFile(const std::string& path)
+    : TextFile(path)
+  {
+    this->parse(this->addPart(path, ""), 0);
+    this->finish();
+  }
+
+private:
+  /// What the lines of a keyword are.
+  enum class Block
+  {
+    Other,
+    Include,
+    Node,
+    Part,
+    Solid,
+    Shell,
+    NodeSet,
+    SegmentSet,
+    SolidSet,
+    ShellSet,
+    PartSet,
+  };
+  struct Element
+  {
+    Index number = 0, part = 0;
+    std::vector<Index> nodes;
+    std::size_t file = 0, at = 0;
+  };
+  struct Set
+  {
+    Block kind;
+    std::string name;
+    std::vector<Index> members;
+  };
+
+  bool parse(std::size_t part, int depth);
+  void takeKeyword(std::size_t part, Span span);
+  void takeCard(std::size_t part, Span span);
+  void takeElement(std::size_t part, Span span, std::vector<Element>& elements);
+  void takeSet(std::size_t part, Span span);
+  std::vector<NumberField> fieldsOf(std::size_t part, Span span,
+    std::initializer_list<std::size_t> widths, std::size_t count) const;
+  /// The first `count` numbers, or all of a line between commas where it is a list.
+  std::vector<Index> integersOf(
+    std::size_t part, Span span, std::size_t width, std::size_t count, bool isList = false) const;
+  Index position(Index node, const std::string& what) const;
+  std::map<Index, Index> addElements(const std::vector<Element>& elements, bool isShell);
+  void addSets();
+  void finish();
+
+  Block block_ = Block::Other;
+  bool isLong_ = false, isLongBlock_ = false, hasTitle_ = false;
+  int line_ = 0;                  ///< of the block, from 0
+  bool isOpen_ = false;           ///< the nodes of an element are on the next line
+  int extraLines_ = 0, skip_ = 0; ///< of each element, and of the one before
+  std::string title_;
+  std::vector<Element> solids_, shells_;
+  std::vector<Set> sets_;
+  std::map<Index, std::string> titles_; ///< of parts
+  std::set<std::string> unknown_;
+  std::unordered_map<Index, Index> positions_;
+  std::map<Index, std::vector<Index>> cellsOfPart_;
+};
+
+/// Fields of these widths, the last of them repeated, or between commas.
+std::vector<NumberField> LsDynaFile::fieldsOf(
+  std::size_t part, Span span, std::initializer_list<std::size_t> widths, std::size_t count) const
+{
+  const std::string_view text = this->parts_[part].text;
+  if (span.of(text).find(',') != std::string_view::npos)
+  {
+    return freeFields(text, span, count);
+  }
+  std::vector<NumberField> fields;
+  for (std::size_t i = 0, column = 0; i < count; ++i)
+  {
+    const std::size_t own = widths.begin()[std::min(i, widths.size() - 1)];
+    const std::size_t width = this->isLongBlock_ ? 20 : own;
+    fields.push_back(fixedField(text, span, column, width));
+    column += width;
+  }
+  return fields;
+}
+
+std::vector<Index> LsDynaFile::integersOf(
+  std::size_t part, Span span, std::size_t width, std::size_t count, bool isList) const
+{
+  const std::vector<NumberField> fields = this->fieldsOf(part, span, { width }, count);
+  std::vector<Index> numbers(isList ? fields.size() : count);
+  for (std::size_t i = 0; i < numbers.size(); ++i)
+  {
+    const Span field = fields[i].span;
+    numbers[i] = field.size() == 0 ? 0 : this->integerAt(part, field);
+  }
+  return numbers;
+}
+
+/// Returns whether lines follow: not after *END.
+bool LsDynaFile::parse(std::size_t part, int depth)
+{
+  const std::string& text = this->parts_[part].text;
+  Lines lines(text);
+  while (lines.next())
+  {
+    const std::string_view line = lines.line();
+    if (line.empty() || line[0] == '$')
+    {
+      continue;
+    }
+    if (line[0] == '*')
+    {
+      if (upperCase(trimmed(line)) == "*END")
+      {
+        return false;
+      }
+      this->takeKeyword(part, lines.span());
+    }
+    else if (this->block_ == Block::Include)
+    {
+      const std::size_t at = lines.span().begin;
+      std::string name(trimmed(line));
+      while (name.size() > 2 && name.compare(name.size() - 2, 2, " +") == 0 && lines.next())
+      {
+        name = name.substr(0, name.size() - 2) + std::string(trimmed(lines.line()));
+      }
+      if (depth >= DeepestInclude)
+      {
+        this->failAt(part, at, "files include each other more than 20 levels deep.");
+      }
+      if (!this->parse(this->addIncluded(part, name), depth + 1))
+      {
+        return false;
+      }
+      this->block_ = Block::Include;
+    }
+    else
+    {
+      this->takeCard(part, lines.span());
+    }
+  }
+  return true;
+}
+
+void LsDynaFile::takeKeyword(std::size_t part, Span span)
+{
+  static const std::map<std::string, Block> blocks = { { "INCLUDE", Block::Include },
+    { "NODE", Block::Node }, { "PART", Block::Part }, { "ELEMENT_SOLID", Block::Solid },
+    { "ELEMENT_SHELL", Block::Shell }, { "ELEMENT_SHELL_THICKNESS", Block::Shell },
+    { "ELEMENT_SHELL_BETA", Block::Shell }, { "SET_NODE", Block::NodeSet },
+    { "SET_NODE_LIST", Block::NodeSet }, { "SET_SEGMENT", Block::SegmentSet },
+    { "SET_SOLID", Block::SolidSet }, { "SET_SHELL", Block::ShellSet },
+    { "SET_SHELL_LIST", Block::ShellSet }, { "SET_PART", Block::PartSet },
+    { "SET_PART_LIST", Block::PartSet } };
+  static const std::map<std::string, std::string> refused = {
+    { "INCLUDE_", "files that are included by another keyword than *INCLUDE" },
+    { "NODE_", "nodes that are transformed, or defined otherwise than by *NODE" },
+    { "DEFINE_TRANSFORMATION", "parts that are transformed" }, { "PARAMETER", "parameters" }
+  };
+  std::string name = upperCase(trimmed(span.of(this->parts_[part].text).substr(1)));
+  this->isLong_ = this->isLong_ || name.find("LONG=Y") != std::string::npos;
+  name = name.substr(0, name.find_first_of(" ,"));
+  this->isLongBlock_ = this->isLong_;
+  if (!name.empty() && (name.back() == '+' || name.back() == '-'))
+  {
+    this->isLongBlock_ = name.back() == '+';
+    name.pop_back();
+  }
+  for (const auto& [start, what] : refused)
+  {
+    if (name.rfind(start, 0) == 0)
+    {
+      this->failAt(part, span.begin,
+        "it has *" + name + ": " + what + " are not read. Write a deck without them.");
+    }
+  }
+  const std::string end = "_TITLE";
+  this->hasTitle_ =
+    name.size() > end.size() && name.compare(name.size() - end.size(), end.size(), end) == 0;
+  name.resize(name.size() - (this->hasTitle_ ? end.size() : 0));
+  const auto found = blocks.find(name);
+  this->block_ = found == blocks.end() ? Block::Other : found->second;
+  this->line_ = this->skip_ = 0;
+  this->isOpen_ = false;
+  this->title_.clear();
+  this->extraLines_ = this->block_ == Block::Shell && name != "ELEMENT_SHELL" ? 1 : 0;
+  if (this->block_ == Block::Other && name.rfind("ELEMENT_", 0) == 0)
+  {
+    this->unknown_.insert(name);
+  }
+}
+
+void LsDynaFile::takeCard(std::size_t part, Span span)
+{
+  switch (this->block_)
+  {
+    case Block::Node:
+    {
+      const auto fields = this->fieldsOf(part, span, { 8, 16 }, 4);
+      NumberRules rules;
+      const bool isFixed = fields[1].width > 0;
+      rules.field = isFixed ? NumberRules::Field::Fixed : NumberRules::Field::Free;
+      rules.width = fields[1].width;
+      rules.longest = 20;
+      rules.separator = isFixed ? ' ' : ',';
+      std::array<double, 3> x;
+      this->places_.push_back(this->nodePlace(part, fields.data() + 1, rules, x));
+      this->mesh_.addNode(this->integerAt(part, fields[0].span), x[0], x[1], x[2]);
+      return;
+    }
+    case Block::Solid:
+    case Block::Shell:
+      this->takeElement(part, span, this->block_ == Block::Solid ? this->solids_ : this->shells_);
+      return;
+    case Block::Part: // a title and a card
+      if (this->line_++ % 2 == 0)
+      {
+        this->title_ = trimmed(span.of(this->parts_[part].text));
+        return;
+      }
+      this->titles_[this->integersOf(part, span, 10, 1)[0]] = this->title_;
+      return;
+    case Block::Other:
+    case Block::Include:
+      return;
+    default:
+      this->takeSet(part, span);
+  }
+}
+
+/// On one line, or with its nodes on a second one.
+void LsDynaFile::takeElement(std::size_t part, Span span, std::vector<Element>& elements)
+{
+  if (this->skip_ > 0)
+  {
+    --this->skip_;
+    return;
+  }
+  std::vector<Index> numbers = this->integersOf(part, span, 8, 10);
+  if (!this->isOpen_)
+  {
+    elements.push_back({ numbers[0], numbers[1], {}, part, span.begin });
+    numbers.erase(numbers.begin(), numbers.begin() + 2);
+  }
+  numbers.erase(std::find(numbers.begin(), numbers.end(), 0), numbers.end());
+  this->isOpen_ = !this->isOpen_ && numbers.empty();
+  this->skip_ = this->isOpen_ ? 0 : this->extraLines_;
+  elements.back().nodes = std::move(numbers);
+}
+
+void LsDynaFile::takeSet(std::size_t part, Span span)
+{
+  const int line = this->line_++;
+  if (this->hasTitle_ && line == 0)
+  {
+    this->title_ = trimmed(span.of(this->parts_[part].text));
+    return;
+  }
+  if (line == (this->hasTitle_ ? 1 : 0))
+  {
+    static const std::map<Block, std::string> kinds = { { Block::NodeSet, "Node set " },
+      { Block::SegmentSet, "Segment set " }, { Block::SolidSet, "Solid set " },
+      { Block::ShellSet, "Shell set " }, { Block::PartSet, "Part set " } };
+    const std::string number = std::to_string(this->integersOf(part, span, 10, 1)[0]);
+    this->sets_.push_back(
+      { this->block_, this->title_.empty() ? kinds.at(this->block_) + number : this->title_, {} });
+    return;
+  }
+  const bool isSegment = this->block_ == Block::SegmentSet;
+  std::vector<Index> numbers = this->integersOf(part, span, 10, isSegment ? 4 : 8, !isSegment);
+  if (!isSegment)
+  {
+    numbers.erase(std::remove(numbers.begin(), numbers.end(), 0), numbers.end());
+  }
+  std::vector<Index>& members = this->sets_.back().members;
+  members.insert(members.end(), numbers.begin(), numbers.end());
+}
+
+/// A node's place in the mesh.
+Index LsDynaFile::position(Index node, const std::string& what) const
+{
+  const auto found = this->positions_.find(node);
+  if (found == this->positions_.end())
+  {
+    this->fail(what + " has the node " + std::to_string(node) + ", which is not defined.");
+  }
+  return found->second;
+}
+
+std::map<Index, Index> LsDynaFile::addElements(const std::vector<Element>& elements, bool isShell)
+{
+  std::map<Index, Index> cells; // solids and shells have numbers of their own
+  for (const Element& element : elements)
+  {
+    auto [type, nodes] = isShell ? shellElement(element.nodes) : solidElement(element.nodes);
+    const std::string name = "element " + std::to_string(element.number);
+    if (type == EmptyCell)
+    {
+      this->failAt(element.file, element.at,
+        name + " has " + std::to_string(element.nodes.size()) + " nodes, which is not supported.");
+    }
+    for (Index& node : nodes)
+    {
+      node = this->position(node, name);
+    }
+    const Index cell = this->mesh_.addCell(type, nodes, element.number);
+    cells[element.number] = cell;
+    this->cellsOfPart_[element.part].push_back(cell);
+  }
+  return cells;
+}
+
+void LsDynaFile::finish()
+{
+  if (this->mesh_.nodes() == 0)
+  {
+    this->fail("it has no *NODE.");
+  }
+  this->positions_ = positionsOf(this->mesh_.nodeNumbers, "node", this->path());
+  const auto solids = this->addElements(this->solids_, false);
+  const auto shells = this->addElements(this->shells_, true);
+  for (const auto& [part, cells] : this->cellsOfPart_)
+  {
+    const std::string& title = this->titles_[part];
+    this->mesh_.set(title.empty() ? "PID " + std::to_string(part) : title).cells = cells;
+  }
+  for (const Set& set : this->sets_)
+  {
+    NamedSet& named = this->mesh_.set(set.name);
+    const std::vector<Index>& members = set.members;
+    for (std::size_t i = 0; i < members.size(); i += set.kind == Block::SegmentSet ? 4 : 1)
+    {
+      const auto addFrom = [&](const std::map<Index, Index>& cells)
+      {
+        if (const auto cell = cells.find(members[i]); cell != cells.end())
+        {
+          named.cells.push_back(cell->second);
+        }
+      };
+      if (set.kind == Block::NodeSet)
+      {
+        named.nodes.push_back(this->position(members[i], "the set " + set.name));
+      }
+      else if (set.kind == Block::SegmentSet)
+      {
+        const auto first = members.begin() + static_cast<std::ptrdiff_t>(i);
+        auto [type, nodes] = shellElement({ first, first + 4 });
+        for (Index& node : nodes)
+        {
+          node = this->position(node, "the set " + set.name);
+        }
+        named.cells.push_back(this->mesh_.addCell(type, nodes, -1));
+      }
+      else if (set.kind == Block::PartSet)
+      {
+        const std::vector<Index>& cells = this->cellsOfPart_[members[i]];
+        named.cells.insert(named.cells.end(), cells.begin(), cells.end());
+      }
+      else
+      {
+        addFrom(set.kind == Block::SolidSet ? solids : shells);
+      }
+    }
+  }
+  for (const std::string& name : this->unknown_)
+  {
+    this->mesh_.warnings.push_back(
+      "The elements of *" + name + " are left out of the mesh; they stay in the file.");
+  }
+}
+}
+
+bool isLsDynaFile(const std::string& path)
+{
+  const std::string extension = extensionOf(path);
+  if (extension != ".k" && extension != ".key" && extension != ".dyn")
+  {
+    return false;
+  }
+  const std::string head = readHead(path, 1 << 16);
+  Lines lines(head);
+  while (lines.next())
+  {
+    const std::string_view line = lines.line();
+    if (!trimmed(line).empty() && line[0] != '$')
+    {
+      return line[0] == '*';
+    }
+  }
+  return false;
+}
+
+std::unique_ptr<SolverFile> readLsDynaFile(const std::string& path)
+{
+  return std::make_unique<LsDynaFile>(path);
+}
+}
