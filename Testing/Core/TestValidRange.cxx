@@ -140,8 +140,8 @@ TEST(ValidRange, OfQuadraticCellsIsAsAccurateForASlowMotion)
   for (int trial = 0; trial < 20; ++trial)
   {
     const Points fast = meshes::noise(mesh.points.rows(), 1, random), slow = Slow * fast;
-    const ValidRange own = validRange(mesh, { &mesh.points, &fast, nullptr, 0 }, {}, {}, monitor);
-    const ValidRange range = validRange(mesh, { &mesh.points, &slow, nullptr, 0 }, {}, {}, monitor);
+    const ValidRange own = validRange(mesh, { &mesh.points, &fast, {} }, {}, {}, monitor);
+    const ValidRange range = validRange(mesh, { &mesh.points, &slow, {} }, {}, {}, monitor);
     EXPECT_NEAR(range.highest * Slow, own.highest, 1e-9 * own.highest);
     EXPECT_NEAR(range.lowest * Slow, own.lowest, -1e-9 * own.lowest);
   }
