@@ -15,8 +15,7 @@ AttachedNodes attachedNodes(const DistributedMesh& mesh, const NodePartition& pa
     [&]
     {
       links = AttachedNodes::linksOf(mesh.mesh(), mesh.isGhost());
-      anchors =
-        mesh.idsOfNodes(AttachedNodes::anchorsOf(mesh.mesh(), links, partition.prescribed));
+      anchors = mesh.idsOfNodes(AttachedNodes::anchorsOf(mesh.mesh(), links, partition.prescribed));
       for (AttachedNodes::Link& link : links)
       {
         link.a = mesh.nodeId(link.a);

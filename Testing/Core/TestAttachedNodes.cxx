@@ -102,8 +102,8 @@ TEST(AttachedNodes, AreLinearAlongABeamBetweenTwoBodies)
   meshes::add(mesh, morph::Hexahedron, { 8, 9, 11, 10, 12, 13, 15, 14 });
   const Index first = addNode(mesh, { 0, 0, 2 }), second = addNode(mesh, { 0, 0, 2.5 });
   meshes::add(mesh, morph::PolyLine, { 4, first, second, 8 });
-  const Points moved =
-    follow(mesh, [](const Row& x) { return Row(x[2] > 4 ? x + Row(8, 4, 0) : x); }, 16);
+  const Points moved = follow(
+    mesh, [](const Row& x) { return Row(x[2] > 4 ? x + Row(8, 4, 0) : x); }, 16);
   EXPECT_LT((moved.row(first) - Row(2, 1, 2)).norm(), 1e-13);
   EXPECT_LT((moved.row(second) - Row(3, 1.5, 2.5)).norm(), 1e-13);
 }

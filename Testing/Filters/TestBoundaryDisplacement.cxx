@@ -484,8 +484,8 @@ TEST(BoundaryDisplacement, NodesBetweenAMovedAndAFixedCornerKeepTheirPart)
   morph::Mesh mesh = meshes::quadraticHexes(3, 3, 3, false);
   const auto isBeside = [](const Row& x)
   { return x[1] + x[2] == 0.5 && (x[1] == 0.5 || x[2] == 0.5) && x[0] == std::floor(x[0]); };
-  meshes::transform(mesh, [&](const Row& x)
-    { return isBeside(x) ? Row(x[0], x[1] / 2, x[2] / 2) : x; });
+  meshes::transform(
+    mesh, [&](const Row& x) { return isBeside(x) ? Row(x[0], x[1] / 2, x[2] / 2) : x; });
   auto grid = grids::make(mesh);
   auto filter = movesUp(grid);
   filter->SetMovingToSelection();

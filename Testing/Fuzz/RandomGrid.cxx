@@ -193,7 +193,8 @@ vtkSmartPointer<vtkUnstructuredGrid> makeGrid(
   // Cells as hexahedra that name nodes twice.
   static const std::map<std::uint8_t, std::vector<int>> Disguises = {
     { morph::Tetra, { 0, 1, 2, 2, 3, 3, 3, 3 } }, { morph::Pyramid, { 0, 1, 2, 3, 4, 4, 4, 4 } },
-    { morph::Wedge, { 0, 1, 2, 2, 3, 4, 5, 5 } } };
+    { morph::Wedge, { 0, 1, 2, 2, 3, 4, 5, 5 } }
+  };
   const bool areDisguised = choices.chance("cells.asHexahedra", 0.06);
   Random random = choices.stream("cells.asHexahedra");
   for (Index c = 0; c < mesh.numberOfCells(); ++c)
@@ -209,8 +210,8 @@ vtkSmartPointer<vtkUnstructuredGrid> makeGrid(
     if (areDisguised && disguise != Disguises.end() && random.happens(0.5))
     {
       std::vector<vtkIdType> corners;
-      std::transform(disguise->second.begin(), disguise->second.end(),
-        std::back_inserter(corners), [&](int k) { return nodes[k]; });
+      std::transform(disguise->second.begin(), disguise->second.end(), std::back_inserter(corners),
+        [&](int k) { return nodes[k]; });
       nodes = corners;
       type = morph::Hexahedron;
     }

@@ -464,8 +464,8 @@ std::vector<AttachedPart> attachedParts(const Mesh& mesh)
     }
     for (auto other = parts.begin(); other != parts.end();)
     {
-      const bool isJoined = std::any_of(other->first.begin(), other->first.end(),
-        [&](Index n) { return part.first.count(n) > 0; });
+      const bool isJoined = std::any_of(
+        other->first.begin(), other->first.end(), [&](Index n) { return part.first.count(n) > 0; });
       if (isJoined)
       {
         part.first.insert(other->first.begin(), other->first.end());

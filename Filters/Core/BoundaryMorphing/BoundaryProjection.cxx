@@ -170,7 +170,8 @@ public:
     for (Index node : projected)
     {
       const Index k = this->placeOf(node);
-      if (std::any_of(this->faces_.between.begin(k), this->faces_.between.end(k), [&](Index corner) { return this->wasMoved_[corner]; }))
+      if (std::any_of(this->faces_.between.begin(k), this->faces_.between.end(k),
+            [&](Index corner) { return this->wasMoved_[corner]; }))
       {
         moving.push_back(node);
       }

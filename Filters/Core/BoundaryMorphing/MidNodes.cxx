@@ -36,8 +36,8 @@ std::vector<Index> carryMidNodes(const BoundaryFaces& faces, const Classificatio
     {
       continue;
     }
-    const Row mean = meanBetween(
-      faces, k, motion.rest, [&](Index corner) { return Row(shift.row(corner)); });
+    const Row mean =
+      meanBetween(faces, k, motion.rest, [&](Index corner) { return Row(shift.row(corner)); });
     if (mean.isZero(0))
     {
       continue;

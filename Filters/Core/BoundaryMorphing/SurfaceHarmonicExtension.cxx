@@ -65,9 +65,8 @@ public:
     }
     for (Index node : this->middles_)
     {
-      this->set(node,
-        meanBetween(this->faces_, placeOf(this->faces_, node), this->motion_.rest,
-          [this](Index corner) { return this->residual(corner); }));
+      this->set(node, meanBetween(this->faces_, placeOf(this->faces_, node), this->motion_.rest,
+                        [this](Index corner) { return this->residual(corner); }));
     }
   }
 

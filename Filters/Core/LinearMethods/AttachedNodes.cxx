@@ -152,7 +152,8 @@ void AttachedNodes::prepare(std::vector<Link> links, std::vector<Index> anchors)
   {
     return;
   }
-  std::sort(links.begin(), links.end(), [](const Link& l, const Link& r)
+  std::sort(links.begin(), links.end(),
+    [](const Link& l, const Link& r)
     { return std::tie(l.a, l.b, l.length) < std::tie(r.a, r.b, r.length); });
   double mean = 0;
   std::vector<Index> all;

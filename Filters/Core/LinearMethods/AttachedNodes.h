@@ -55,8 +55,7 @@ public:
   AttachedNodes(const Mesh& rest, const NodePartition& partition);
   /// Of a mesh in pieces. `links`, `anchors`: of all processes, by ids. `rest`: the piece, with all
   /// volume cells around the nodes that it owns.
-  AttachedNodes(
-    const Mesh& rest, std::vector<Link> links, std::vector<Index> anchors, Piece piece);
+  AttachedNodes(const Mesh& rest, std::vector<Link> links, std::vector<Index> anchors, Piece piece);
 
   /// The nodes that hang on anchors, and those that hang on none, by ids, ascending.
   ///@{
@@ -84,7 +83,7 @@ private:
   Piece piece_;
   std::vector<Index> ids_, loose_, anchors_;
   std::vector<Index> nodeOfAnchor_; ///< #anchors; -1 for those that another process owns
-  Matrix coupling_; ///< #nodes x #anchors
+  Matrix coupling_;                 ///< #nodes x #anchors
   std::shared_ptr<Eigen::SimplicialLDLT<Matrix>> factor_;
   Adjacency rings_; ///< of each such anchor: the nodes of the volume cells around it, with it
   Eigen::RowVector3d origin_ = Eigen::RowVector3d::Zero();

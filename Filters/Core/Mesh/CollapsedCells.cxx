@@ -111,7 +111,7 @@ Replacement cellWith(const std::vector<NodeList>& faces, const NodeList& corners
     }
   }
   return nodes.size() == 6 && ascending(nodes) == ascending(corners) ? Replacement{ Wedge, nodes }
-                                                               : Replacement{};
+                                                                     : Replacement{};
 }
 
 /// The numbers of the two corners that a node of a shape is between; of none for a face or body.
@@ -191,7 +191,8 @@ Replacement replacementOf(const CellShape& shape, const Index* cell)
   if (faces.empty())
   {
     constexpr std::uint8_t Types[] = { EmptyCell, Vertex, Line, Triangle };
-    replacement = { distinct.size() < 4 ? Types[distinct.size()] : std::uint8_t(Polygon), distinct };
+    replacement = { distinct.size() < 4 ? Types[distinct.size()] : std::uint8_t(Polygon),
+      distinct };
   }
   if (replacement.type != EmptyCell && shape.numberOfNodes > shape.numberOfCorners)
   {

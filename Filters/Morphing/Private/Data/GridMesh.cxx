@@ -170,15 +170,14 @@ bool sameFaces(vtkUnstructuredGrid* grid, const morph::Mesh& mesh)
 bool haveCells(vtkUnstructuredGrid* grid, const morph::Mesh& mesh)
 {
   bool same = typesOf(grid) == mesh.types;
-  for (const auto& [array, kept] :
-    { std::pair(grid->GetCells()->GetOffsetsArray(), &mesh.offsets),
-      std::pair(grid->GetCells()->GetConnectivityArray(), &mesh.connectivity) })
+  for (const auto& [array, kept] : { std::pair(grid->GetCells()->GetOffsetsArray(), &mesh.offsets),
+         std::pair(grid->GetCells()->GetConnectivityArray(), &mesh.connectivity) })
   {
     const std::vector<morph::Index>& own = *kept;
     if (same)
     {
-      visitIntegers(array,
-        [&](const auto* values, vtkIdType count) { same = equals(values, count, own); });
+      visitIntegers(
+        array, [&](const auto* values, vtkIdType count) { same = equals(values, count, own); });
     }
   }
   return same;
@@ -190,10 +189,10 @@ bool haveReplacedCells(vtkUnstructuredGrid* grid, const morph::Mesh& mesh)
   morph::Monitor serial;
   morph::Mesh read;
   readCells(grid, read, serial);
-  const bool isReadable = read.offsets.size() == read.types.size() + 1 &&
-                          read.offsets.front() == 0 &&
-                          std::is_sorted(read.offsets.begin(), read.offsets.end()) &&
-                          read.offsets.back() == static_cast<morph::Index>(read.connectivity.size());
+  const bool isReadable =
+    read.offsets.size() == read.types.size() + 1 && read.offsets.front() == 0 &&
+    std::is_sorted(read.offsets.begin(), read.offsets.end()) &&
+    read.offsets.back() == static_cast<morph::Index>(read.connectivity.size());
   return isReadable && morph::replaceCollapsedCells(read) && read.types == mesh.types &&
          read.offsets == mesh.offsets && read.connectivity == mesh.connectivity;
 }

@@ -117,8 +117,8 @@ void moveBetween(const BoundaryModel& model, const std::vector<Surroundings::Rol
     const Index *begin = faces.between.begin(k), *end = faces.between.end(k);
     if (begin == end || std::count(roles.begin(), roles.end(), result.Roles[node]) == 0 ||
         (result.Roles[node] == Surroundings::IsHeld &&
-          std::none_of(begin, end,
-            [&](Index corner) { return result.Roles[corner] == Surroundings::Moves; })))
+          std::none_of(
+            begin, end, [&](Index corner) { return result.Roles[corner] == Surroundings::Moves; })))
     {
       continue;
     }
