@@ -32,9 +32,10 @@ std::vector<std::uint8_t> nodesOfVolume(const Mesh& mesh)
   std::vector<std::uint8_t> isUsed(mesh.numberOfNodes(), 0);
   for (Index c = 0; c < mesh.numberOfCells(); ++c)
   {
-    for (Index k = 0; isVolume(mesh, c) && k < mesh.cellSize(c); ++k)
+    const Index size = isVolume(mesh, c) ? mesh.cellSize(c) : 0;
+    for (const Index* node = mesh.cell(c); node != mesh.cell(c) + size; ++node)
     {
-      isUsed[mesh.cell(c)[k]] = 1;
+      isUsed[*node] = 1;
     }
   }
   return isUsed;
@@ -239,8 +240,9 @@ void AttachedNodes::findRings()
   this->origin_ = Eigen::Map<Row>(origin, 3);
   for (Index c = 0; c < this->rest_->numberOfCells(); ++c)
   {
-    const Index *first = this->rest_->cell(c), *last = first + this->rest_->cellSize(c);
-    for (const Index* node = first; isVolume(*this->rest_, c) && node != last; ++node)
+    const Index size = isVolume(*this->rest_, c) ? this->rest_->cellSize(c) : 0;
+    const Index *first = this->rest_->cell(c), *last = first + size;
+    for (const Index* node = first; node != last; ++node)
     {
       if (anchorAt[*node] >= 0)
       {
