@@ -49,8 +49,10 @@
  * DegenerateCells, InvertedBefore, NewInvertedCells, WorstCellId, BoundaryInvertedCells,
  * MirroredBodies, PrepareSeconds, EvaluateSeconds, SolverIterations, MorphStatus and
  * LargestValidStep. The same numbers have getters after an execution. Mid-side, face and body nodes
- * of quadratic cells that are not prescribed keep their place in the cell. Cells of lower dimension
- * pass through. Normals do not.
+ * of quadratic cells that are not prescribed keep their place in the cell. Nodes of shells, beams
+ * and links that no volume cell uses follow the volume to which their cells attach them: rigidly
+ * where that is at one node, else smoothly between these; those attached to nothing stay, with a
+ * warning. Cells of lower dimension pass through. Normals do not.
  *
  * Output 1 holds the inverted and degenerate cells of output 0 (ScaledJacobian of 0 or less) with
  * their points and arrays. The cell array `MorphCellId` and the point array `MorphPointId` are
@@ -500,11 +502,13 @@ public:
 
   ///@{
   /**
-   * As of the last execution: nodes whose positions were prescribed, held nodes included, and
-   * points of port 1 that were ignored because no node is near.
+   * As of the last execution: nodes whose positions were prescribed, held nodes included; points of
+   * port 1 that were ignored because no node is near; and nodes that no volume cell uses, but that
+   * move with the volume to which cells of lower dimension attach them.
    */
   vtkIdType GetPrescribedPoints() const { return this->GetInteger("PrescribedPoints"); }
   vtkIdType GetUnmatchedPoints() const { return this->GetInteger("UnmatchedPoints"); }
+  vtkIdType GetAttachedPoints() const { return this->GetInteger("AttachedPoints"); }
   ///@}
 
   /**

@@ -358,6 +358,7 @@ morphResultMacro(SubSteps, vtkIdType, Integer);
 morphResultMacro(PrepareCount, int, Integer);
 morphResultMacro(PrescribedPoints, vtkIdType, Integer);
 morphResultMacro(UnmatchedPoints, vtkIdType, Integer);
+morphResultMacro(AttachedPoints, vtkIdType, Integer);
 morphResultMacro(SolverIterations, int, Integer);
 morphResultMacro(MaxTargetDistanceBefore, double, Number);
 morphResultMacro(MeanTargetDistanceBefore, double, Number);

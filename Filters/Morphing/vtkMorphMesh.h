@@ -373,6 +373,7 @@ public:
   int GetPrepareCount() const;
   vtkIdType GetPrescribedPoints() const;
   vtkIdType GetUnmatchedPoints() const;
+  vtkIdType GetAttachedPoints() const;
   vtkIdType GetZonePoints() const;
   vtkIdType GetLayerPoints() const;
   int GetSolverIterations() const;

@@ -7,6 +7,7 @@
 #include "TestGrids.h"
 
 #include <vtkAlgorithm.h>
+#include <vtkCellType.h>
 #include <vtkFEMWarpMorph.h>
 #include <vtkNew.h>
 #include <vtkSmoothingMorph.h>
@@ -47,6 +48,37 @@ TEST(DistributedFilters, PrepareOnceAndTellAllRanksTheSame)
   }
   EXPECT_EQ(filter->GetPrescribedPoints(), 7 * 6 * 5 - 5 * 4 * 3);
   EXPECT_LT((grids::points(filter->GetOutput()) - grids::mapped(grids::points(grid), grids::affine))
+              .cwiseAbs()
+              .maxCoeff(),
+    1e-9);
+}
+
+TEST(DistributedFilters, ShellsFollowTheVolumeAcrossRanks)
+{
+  // A row of quads stands on the block from end to end, so that all ranks have some.
+  const Ranks ranks = pieces::world();
+  morph::Mesh whole = meshes::hexes(6, 5, 4);
+  const morph::Index foot = 7 * (2 + 6 * 4), first = whole.numberOfNodes();
+  whole.points.conservativeResize(first + 7, 3);
+  for (morph::Index i = 0; i < 7; ++i)
+  {
+    whole.points.row(first + i) << static_cast<double>(i), 2, 5;
+  }
+  for (morph::Index i = 0; i < 6; ++i)
+  {
+    meshes::add(whole, VTK_QUAD, { foot + i, foot + i + 1, first + i + 1, first + i });
+  }
+  const auto grid = rank_grids::piece(ranks, whole);
+  const grids::Map rigid = [](const grids::Row& x)
+  { return grids::Row(0.6 * x[0] - 0.8 * x[2], x[1] + 2, 0.8 * x[0] + 0.6 * x[2]); };
+  vtkNew<vtkFEMWarpMorph> filter;
+  filter->SetInputData(grid);
+  filter->SetBoundaryData(grids::boundary(grid, rigid));
+  grids::Listener listener(filter);
+  filter->Update();
+  EXPECT_TRUE(listener.Errors.empty() && listener.Warnings.empty());
+  EXPECT_EQ(filter->GetAttachedPoints(), 7);
+  EXPECT_LT((grids::points(filter->GetOutput()) - grids::mapped(grids::points(grid), rigid))
               .cwiseAbs()
               .maxCoeff(),
     1e-9);

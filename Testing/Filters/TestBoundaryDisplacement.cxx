@@ -478,6 +478,39 @@ TEST(BoundaryDisplacement, MidSideNodesKeepTheirPlaceBetweenCorners)
   }
 }
 
+TEST(BoundaryDisplacement, NodesBetweenAMovedAndAFixedCornerKeepTheirPart)
+{
+  // The edge y = z = 0 moves, and mid-side nodes next to it are at a quarter of their edges.
+  morph::Mesh mesh = meshes::quadraticHexes(3, 3, 3, false);
+  const auto isBeside = [](const Row& x)
+  { return x[1] + x[2] == 0.5 && (x[1] == 0.5 || x[2] == 0.5) && x[0] == std::floor(x[0]); };
+  meshes::transform(
+    mesh, [&](const Row& x) { return isBeside(x) ? Row(x[0], x[1] / 2, x[2] / 2) : x; });
+  auto grid = grids::make(mesh);
+  auto filter = movesUp(grid);
+  filter->SetMovingToSelection();
+  filter->SetSelectionData(indices(vtkSelectionNode::POINT,
+    nodesWhere(grid, [](const Row& x) { return x[1] == 0 && x[2] == 0; })));
+  for (int surroundings = 0; surroundings < 3; ++surroundings)
+  {
+    filter->SetSurroundings(surroundings);
+    filter->SetFalloffRadius(0.1);
+    filter->Update();
+    const morph::Points x = grids::points(filter->GetOutput());
+    const morph::Points rest = restPositions(filter->GetOutput());
+    int between = 0;
+    for (morph::Index i = 0; i < x.rows(); ++i)
+    {
+      if ((rest(i, 0) == 0 || rest(i, 0) == 3) && rest(i, 1) + rest(i, 2) == 0.25)
+      {
+        EXPECT_LE((x.row(i) - rest.row(i) - 0.75 * Up).norm(), 1e-14) << rest.row(i);
+        ++between;
+      }
+    }
+    EXPECT_EQ(between, 4);
+  }
+}
+
 TEST(BoundaryDisplacement, ABoundaryIsAsGoodAsTheMesh)
 {
   auto grid = grids::make(shapes::boxWithHole(16, 3, 3));

@@ -314,6 +314,60 @@ TEST_P(MorphFilters, LowerDimensionCellsPassThrough)
   }
 }
 
+TEST_P(MorphFilters, ShellsAndBeamsFollowTheVolume)
+{
+  morph::Mesh mesh = meshes::hexes(3, 3, 3);
+  mesh.points.conservativeResize(70, 3);
+  mesh.points.bottomRows(6) << 1, 1, 4, 2, 1, 4, 1, 1, 5, 0, 0, 4, 8, 8, 8, 9, 8, 8;
+  meshes::add(mesh, VTK_QUAD, { 53, 54, 65, 64 });
+  meshes::add(mesh, VTK_LINE, { 64, 66 });
+  meshes::add(mesh, VTK_LINE, { 48, 67 });
+  meshes::add(mesh, VTK_LINE, { 68, 69 }); // hangs on nothing
+  auto grid = grids::make(mesh);
+  const grids::Map rigid = [](const grids::Row& x)
+  { return grids::Row(0.6 * x[0] - 0.8 * x[2], x[1] + 2, 0.8 * x[0] + 0.6 * x[2]); };
+  auto filter = Make(grid, grids::boundary(grid, rigid));
+  grids::Listener listener(filter);
+  filter->Update();
+  const morph::Points x = grids::points(filter->GetOutput());
+  for (morph::Index n = 64; n < 68; ++n)
+  {
+    EXPECT_LT((x.row(n) - rigid(mesh.points.row(n))).norm(), 1e-6) << "node " << n;
+  }
+  EXPECT_EQ(x.bottomRows(2), mesh.points.bottomRows(2));
+  EXPECT_EQ(filter->GetAttachedPoints(), 4);
+  ASSERT_EQ(listener.Warnings.size(), 1u);
+  EXPECT_NE(listener.Warnings[0].find("2 nodes stay"), std::string::npos);
+  EXPECT_NE(listener.Warnings[0].find("68, 69"), std::string::npos);
+}
+
+TEST_P(MorphFilters, CollapsedCellsAreMeasuredAsTheCellsThatTheyAre)
+{
+  // A wedge, a pyramid and two tetrahedra as hexahedra, a wedge that is a pyramid, and a quad.
+  morph::Mesh mesh;
+  mesh.offsets = { 0 };
+  mesh.points.resize(8, 3);
+  mesh.points << 0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0, 0, 1, 1, 0, 1, 1, 1, 1, 0, 1, 1;
+  meshes::add(mesh, VTK_HEXAHEDRON, { 0, 1, 2, 2, 4, 5, 6, 6 });
+  meshes::add(mesh, VTK_HEXAHEDRON, { 0, 3, 7, 4, 6, 6, 6, 6 });
+  meshes::add(mesh, VTK_HEXAHEDRON, { 0, 2, 3, 3, 6, 6, 6, 6 });
+  meshes::add(mesh, VTK_HEXAHEDRON, { 0, 1, 2, 3, 0, 1, 2, 3 });
+  auto grid = grids::make(mesh);
+  auto filter = Make(grid, grids::boundary(grid, grids::affine));
+  grids::Listener listener(filter);
+  filter->Update();
+  EXPECT_TRUE(listener.Errors.empty() && listener.Warnings.empty());
+  EXPECT_EQ(filter->GetMorphStatus(), std::string("Valid"));
+  EXPECT_EQ(filter->GetDegenerateCells() + filter->GetInvertedCells(), 0);
+  auto* quality = filter->GetOutput()->GetCellData()->GetArray("ScaledJacobian");
+  EXPECT_GT(quality->GetComponent(0, 0), 0.2);
+  EXPECT_TRUE(std::isnan(quality->GetComponent(3, 0)));
+  const int prepared = filter->GetPrepareCount();
+  grid->Modified();
+  filter->Update();
+  EXPECT_EQ(filter->GetPrepareCount(), prepared);
+}
+
 TEST_P(MorphFilters, OptionsOfTheMethodPrepareAnewWhereTheyHaveTo)
 {
   auto grid = grids::hexes(6);

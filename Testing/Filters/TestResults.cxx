@@ -86,6 +86,7 @@ Getters gettersOf(vtkMorphAlgorithm* f)
     { "PrepareCount", [f] { return f->GetPrepareCount(); } },
     { "PrescribedPoints", [f] { return f->GetPrescribedPoints(); } },
     { "UnmatchedPoints", [f] { return f->GetUnmatchedPoints(); } },
+    { "AttachedPoints", [f] { return f->GetAttachedPoints(); } },
     { "SolverIterations", [f] { return f->GetSolverIterations(); } } };
 }
 

@@ -382,6 +382,40 @@ Finding checkFrame(Case& made, vtkAlgorithm* filter, const Run& first)
                                  text(own.least) + " and " + text(others.least) };
 }
 
+Finding checkAttached(const Case& made, vtkAlgorithm* filter, const Run& run)
+{
+  auto* output = vtkPointSet::SafeDownCast(run.outputs.front());
+  const bool isMorph =
+    vtkMorphAlgorithm::SafeDownCast(filter) || vtkMorphShapes::SafeDownCast(filter);
+  if (!isMorph || !run.errors.empty() || !run.fromExecutive.empty() || !made.grid.isAsMesh ||
+      made.grid.hasGhosts || !made.boundary.isRight || !output || !isOfType(output, VTK_DOUBLE) ||
+      output->GetNumberOfPoints() != made.grid.mesh.numberOfNodes())
+  {
+    return {};
+  }
+  const morph::Points& rest = made.grid.mesh.points;
+  const morph::Points x = pointsOf(output);
+  const double allowed = 1e3 * (rounding(x, false) + rounding(rest, false));
+  for (const AttachedPart& part : attachedParts(made.grid.mesh))
+  {
+    for (std::size_t i = 0; i < part.nodes.size() && part.anchors.size() < 2; ++i)
+    {
+      const Index node = part.nodes[i];
+      const Index other = i > 0                  ? part.nodes[i - 1]
+                          : part.anchors.empty() ? node
+                                                 : part.anchors.front();
+      const double off = part.anchors.empty() ? (x.row(node) - rest.row(node)).norm()
+                                              : std::abs((x.row(node) - x.row(other)).norm() -
+                                                         (rest.row(node) - rest.row(other)).norm());
+      if (!(off <= (part.anchors.empty() ? 0 : allowed)))
+      {
+        return { "attached", "node " + std::to_string(node) + " is off by " + text(off) };
+      }
+    }
+  }
+  return {};
+}
+
 Finding checkRanges(Case& made, vtkAlgorithm* filter, const Run& run)
 {
   auto* shapes = vtkMorphShapes::SafeDownCast(filter);

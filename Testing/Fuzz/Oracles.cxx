@@ -211,6 +211,7 @@ Verdict judge(
     std::vector<std::function<Finding()>>{ inputsChanged, [&] { return checkMessages(made, run); },
       [&] { return checkOutput(made, algorithm, run); },
       [&] { return checkNothing(made, algorithm, run); },
+      [&] { return checkAttached(made, algorithm, run); },
       [&] { return checkAgain(made, algorithm, run); },
       [&] { return checkFrame(made, algorithm, run); },
       [&] { return checkRanges(made, algorithm, run); }, inputsChanged })

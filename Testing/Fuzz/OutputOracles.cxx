@@ -448,7 +448,15 @@ Finding checkAdjoint(const Case& made, const Run& run)
     gradient->GetTuple(p, value);
     sum += Row(value[0], value[1], value[2]);
   }
-  for (const Index n : volumeNodes(made.grid.mesh))
+  std::vector<Index> moved = volumeNodes(made.grid.mesh);
+  for (const AttachedPart& part : attachedParts(made.grid.mesh))
+  {
+    if (!part.anchors.empty())
+    {
+      moved.insert(moved.end(), part.nodes.begin(), part.nodes.end());
+    }
+  }
+  for (const Index n : moved)
   {
     double value[3];
     given->GetTuple(n, value);

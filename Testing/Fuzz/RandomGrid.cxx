@@ -2,6 +2,7 @@
 #include "RandomGrid.h"
 
 #include "Mesh/CellShape.h"
+#include "Mesh/CollapsedCells.h"
 #include "PolyhedralMeshes.h"
 #include "RandomMesh.h"
 
@@ -25,6 +26,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <map>
 
 namespace fuzz
 {
@@ -187,6 +190,13 @@ vtkSmartPointer<vtkUnstructuredGrid> makeGrid(
   }
   grid->SetPoints(points);
   grid->Allocate(mesh.numberOfCells());
+  // Cells as hexahedra that name nodes twice.
+  static const std::map<std::uint8_t, std::vector<int>> Disguises = {
+    { morph::Tetra, { 0, 1, 2, 2, 3, 3, 3, 3 } }, { morph::Pyramid, { 0, 1, 2, 3, 4, 4, 4, 4 } },
+    { morph::Wedge, { 0, 1, 2, 2, 3, 4, 5, 5 } }
+  };
+  const bool areDisguised = choices.chance("cells.asHexahedra", 0.06);
+  Random random = choices.stream("cells.asHexahedra");
   for (Index c = 0; c < mesh.numberOfCells(); ++c)
   {
     if (mesh.types[c] == morph::Polyhedron)
@@ -194,8 +204,18 @@ vtkSmartPointer<vtkUnstructuredGrid> makeGrid(
       addPolyhedron(choices, mesh, c, isHostile, grid);
       continue;
     }
-    const std::vector<vtkIdType> nodes(mesh.cell(c), mesh.cell(c) + mesh.cellSize(c));
-    grid->InsertNextCell(mesh.types[c], static_cast<vtkIdType>(nodes.size()), nodes.data());
+    std::vector<vtkIdType> nodes(mesh.cell(c), mesh.cell(c) + mesh.cellSize(c));
+    std::uint8_t type = mesh.types[c];
+    const auto disguise = Disguises.find(type);
+    if (areDisguised && disguise != Disguises.end() && random.happens(0.5))
+    {
+      std::vector<vtkIdType> corners;
+      std::transform(disguise->second.begin(), disguise->second.end(), std::back_inserter(corners),
+        [&](int k) { return nodes[k]; });
+      nodes = corners;
+      type = morph::Hexahedron;
+    }
+    grid->InsertNextCell(type, static_cast<vtkIdType>(nodes.size()), nodes.data());
   }
   if (choices.chance("grid.32bit", 0.25))
   {
@@ -296,6 +316,7 @@ RandomGrid randomGrid(Choices& choices)
   auto grid = makeGrid(choices, mesh, hostile);
   result.isAsMesh = polyhedra == 0;
   result.mesh.points = pointsOf(grid);
+  morph::replaceCollapsedCells(result.mesh);
   result.outer = outerNodes(result.mesh);
   result.size = meshSize(result.mesh);
   result.data = grid;

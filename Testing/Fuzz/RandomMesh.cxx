@@ -16,6 +16,7 @@
 #include <limits>
 #include <numeric>
 #include <set>
+#include <utility>
 
 namespace fuzz
 {
@@ -244,6 +245,16 @@ void changeCells(Choices& choices, Mesh& mesh, bool hostile)
       morph::BiquadraticQuad, morph::QuadraticLinearQuad, morph::BiquadraticTriangle,
       morph::EmptyCell };
     const int more = 1 + random.below(5);
+    if (choices.chance("cells.attached", 0.5))
+    {
+      const Index before = mesh.numberOfNodes();
+      const Row middle = mesh.points.row(random.below(static_cast<int>(before)));
+      mesh.points.conservativeResize(before + 1 + random.below(6), 3);
+      for (Index n = before; n < mesh.numberOfNodes(); ++n)
+      {
+        mesh.points.row(n) = middle + 2 * Row(random.unit(), random.unit(), random.unit());
+      }
+    }
     for (int i = 0; i < more; ++i)
     {
       const std::uint8_t type = types[random.below(static_cast<int>(std::size(types)))];
@@ -427,6 +438,49 @@ std::vector<Index> volumeNodes(const Mesh& mesh)
     }
   }
   return { nodes.begin(), nodes.end() };
+}
+
+std::vector<AttachedPart> attachedParts(const Mesh& mesh)
+{
+  const std::vector<Index> volume = volumeNodes(mesh);
+  const auto isVolume = [&](Index n)
+  { return std::binary_search(volume.begin(), volume.end(), n); };
+  std::vector<std::pair<std::set<Index>, std::set<Index>>> parts; // nodes, anchors
+  for (Index c = 0; c < mesh.numberOfCells(); ++c)
+  {
+    const morph::CellShape* shape = morph::cellShape(mesh.types[c]);
+    if (!shape || shape->dimension < 1 || shape->dimension > 2)
+    {
+      continue;
+    }
+    std::pair<std::set<Index>, std::set<Index>> part;
+    for (const Index* n = mesh.cell(c); n != mesh.cell(c) + mesh.cellSize(c); ++n)
+    {
+      (isVolume(*n) ? part.second : part.first).insert(*n);
+    }
+    if (part.first.empty())
+    {
+      continue;
+    }
+    for (auto other = parts.begin(); other != parts.end();)
+    {
+      const bool isJoined = std::any_of(
+        other->first.begin(), other->first.end(), [&](Index n) { return part.first.count(n) > 0; });
+      if (isJoined)
+      {
+        part.first.insert(other->first.begin(), other->first.end());
+        part.second.insert(other->second.begin(), other->second.end());
+      }
+      other = isJoined ? parts.erase(other) : other + 1;
+    }
+    parts.push_back(part);
+  }
+  std::vector<AttachedPart> result;
+  for (const auto& [nodes, anchors] : parts)
+  {
+    result.push_back({ { nodes.begin(), nodes.end() }, { anchors.begin(), anchors.end() } });
+  }
+  return result;
 }
 
 double meshSize(const Mesh& mesh)

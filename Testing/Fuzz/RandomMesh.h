@@ -17,6 +17,14 @@ morph::Mesh randomMesh(Choices& choices);
 std::vector<morph::Index> outerNodes(const morph::Mesh& mesh);
 /// Nodes of volume cells, ascending.
 std::vector<morph::Index> volumeNodes(const morph::Mesh& mesh);
+/// Nodes that no volume cell uses but cells of dimension 1 or 2 do: in parts that such cells hold
+/// together apart from volume nodes.
+struct AttachedPart
+{
+  std::vector<morph::Index> nodes;   ///< ascending
+  std::vector<morph::Index> anchors; ///< the volume nodes in their cells, ascending
+};
+std::vector<AttachedPart> attachedParts(const morph::Mesh& mesh);
 /// Diagonal of the box of these nodes.
 double meshSize(const morph::Mesh& mesh);
 }

@@ -33,7 +33,7 @@ def run(*arguments):
                           timeout=120)
 
 
-# Of VTK's quadratic tetrahedron, hexahedron (20 and 27 nodes), wedge and pyramid: the corners
+# Of VTK's quadratic tetrahedron, hexahedron (20, 27), wedge (15, 18) and pyramid: the corners
 # between which each further node lies.
 BETWEEN = {24: ((0, 1), (1, 2), (0, 2), (0, 3), (1, 3), (2, 3)),
            25: ((0, 1), (1, 2), (2, 3), (3, 0), (4, 5), (5, 6), (6, 7), (7, 4), (0, 4), (1, 5),
@@ -42,7 +42,8 @@ BETWEEN = {24: ((0, 1), (1, 2), (0, 2), (0, 3), (1, 3), (2, 3)),
            27: ((0, 1), (1, 2), (2, 3), (3, 0), (0, 4), (1, 4), (2, 4), (3, 4))}
 BETWEEN[29] = BETWEEN[25] + ((0, 3, 7, 4), (1, 2, 6, 5), (0, 1, 5, 4), (3, 2, 6, 7), (0, 1, 2, 3),
                              (4, 5, 6, 7), tuple(range(8)))
-CORNERS = {24: 4, 25: 8, 26: 6, 27: 5, 29: 8}
+BETWEEN[32] = BETWEEN[26] + ((0, 1, 4, 3), (1, 2, 5, 4), (2, 0, 3, 5))
+CORNERS = {24: 4, 25: 8, 26: 6, 27: 5, 29: 8, 32: 6}
 
 
 class Files(unittest.TestCase):
@@ -196,7 +197,8 @@ class Gmsh(Files):
                    "Extrude {{0, 0, 2}} {{ Surface{{1}}; Layers{{2}}; Recombine; }}\n"
                    "Mesh.SecondOrderIncomplete = {};\n")
         for recombine, incomplete, what in (("Recombine Surface{1};", 1, 25),
-                                            ("Recombine Surface{1};", 0, 29), ("", 1, 26)):
+                                            ("Recombine Surface{1};", 0, 29), ("", 1, 26),
+                                            ("", 0, 32)):
             (self.folder / "box.geo").write_text(extrude.format(recombine, incomplete))
             for version in (22, 41):
                 with self.subTest(what=what, version=version):
@@ -388,11 +390,13 @@ class SecondOrder(Files):
              (7, 4)),
         26: ((0, 1), (1, 2), (2, 0), (0, 3), (1, 4), (2, 5), (3, 4), (4, 5), (5, 3)),
         24: BETWEEN[24]}
+    POINTS[32] = POINTS[26]
+    BOTTOM_SIDES_TOP[32] = BOTTOM_SIDES_TOP[26] + BETWEEN[32][9:]
 
     def nodes(self, what, between):
         corners = self.POINTS[what]
-        return corners + [tuple(sum(corners[c][a] for c in pair) / 2 for a in range(3))
-                          for pair in between[what]]
+        return corners + [tuple(sum(corners[c][a] for c in group) / len(group) for a in range(3))
+                          for group in between[what]]
 
     def test_nastran(self):
         for what, name in ((25, "CHEXA"), (26, "CPENTA"), (24, "CTETRA")):
@@ -421,7 +425,7 @@ class SecondOrder(Files):
 
     @unittest.skipUnless(shutil.which("ncgen"), "ncgen is not installed (netcdf-bin)")
     def test_exodus(self):
-        for what, name in ((25, "HEX20"), (26, "WEDGE15"), (24, "TETRA10")):
+        for what, name in ((25, "HEX20"), (26, "WEDGE15"), (32, "WEDGE18"), (24, "TETRA10")):
             nodes = self.nodes(what, self.BOTTOM_SIDES_TOP)
             values = lambda axis: ", ".join(str(x[axis]) for x in nodes)
             (self.folder / "one.cdl").write_text(

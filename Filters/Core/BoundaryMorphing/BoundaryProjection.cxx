@@ -2,6 +2,7 @@
 #include "BoundaryMorphing/BoundaryProjection.h"
 
 #include "Boundary/FaceQuality.h"
+#include "BoundaryMorphing/MidNodes.h"
 #include "Support/Parallel.h"
 
 #include <algorithm>
@@ -168,8 +169,9 @@ public:
     std::vector<Index> moving;
     for (Index node : projected)
     {
-      const auto [first, last] = this->between(node);
-      if (std::any_of(first, last, [&](Index corner) { return this->wasMoved_[corner]; }))
+      const Index k = this->placeOf(node);
+      if (std::any_of(this->faces_.between.begin(k), this->faces_.between.end(k),
+            [&](Index corner) { return this->wasMoved_[corner]; }))
       {
         moving.push_back(node);
       }
@@ -177,10 +179,8 @@ public:
     this->place(moving,
       [&](Index node)
       {
-        Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
-        const auto [first, last] = this->between(node);
-        std::for_each(first, last, [&](Index corner) { sum += this->now_.row(corner); });
-        return Eigen::RowVector3d(sum / static_cast<double>(last - first));
+        return meanBetween(this->faces_, this->placeOf(node), this->motion_.rest,
+          [this](Index corner) { return Eigen::RowVector3d(this->now_.row(corner)); });
       });
   }
 
@@ -196,11 +196,10 @@ private:
     }
   }
 
-  std::pair<const Index*, const Index*> between(Index node) const
+  Index placeOf(Index node) const
   {
-    const Index i = std::lower_bound(this->faces_.nodes.begin(), this->faces_.nodes.end(), node) -
-                    this->faces_.nodes.begin();
-    return { this->faces_.between.begin(i), this->faces_.between.end(i) };
+    return std::lower_bound(this->faces_.nodes.begin(), this->faces_.nodes.end(), node) -
+           this->faces_.nodes.begin();
   }
 
   /// Moves all nodes simultaneously: `wanted` sees the previous positions.

@@ -1,10 +1,27 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "BoundaryMorphing/MidNodes.h"
 
-#include <algorithm>
+#include "Geometry/AffineFit.h"
 
 namespace morph
 {
+Eigen::VectorXd weightsBetween(const BoundaryFaces& faces, Index node, const Points& rest)
+{
+  const std::vector<Index> corners(faces.between.begin(node), faces.between.end(node));
+  const auto count = static_cast<Index>(corners.size());
+  if (count == 0)
+  {
+    return {};
+  }
+  Points arms = rest(corners, allColumns);
+  const Eigen::RowVector3d centre = arms.colwise().mean();
+  arms.rowwise() -= centre;
+  const Eigen::Matrix3d spread = arms.transpose() * arms;
+  const Eigen::RowVector3d arm = rest.row(faces.nodes[node]) - centre;
+  return Eigen::VectorXd::Constant(count, 1. / static_cast<double>(count)) +
+         arms * PrincipalDirections(spread, static_cast<double>(count)).inverse() * arm.transpose();
+}
+
 std::vector<Index> carryMidNodes(const BoundaryFaces& faces, const Classification& geometry,
   const ProjectionTarget* target, const Points& normals, const Points& before,
   BoundaryMotion& motion)
@@ -15,11 +32,13 @@ std::vector<Index> carryMidNodes(const BoundaryFaces& faces, const Classificatio
   for (std::size_t i = 0; i < faces.nodes.size(); ++i)
   {
     const Index k = static_cast<Index>(i), node = faces.nodes[i];
-    const Index *first = faces.between.begin(k), *last = faces.between.end(k);
-    Row mean = Row::Zero();
-    std::for_each(first, last,
-      [&](Index corner) { mean += shift.row(corner) / static_cast<double>(last - first); });
-    if (motion.state[node] != BoundaryMotion::OnSurface || mean.isZero(0))
+    if (motion.state[node] != BoundaryMotion::OnSurface)
+    {
+      continue;
+    }
+    const Row mean =
+      meanBetween(faces, k, motion.rest, [&](Index corner) { return Row(shift.row(corner)); });
+    if (mean.isZero(0))
     {
       continue;
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "BoundaryMorphing/SurfaceHarmonicExtension.h"
 
+#include "BoundaryMorphing/MidNodes.h"
 #include "Geometry/AffineFit.h"
 #include "Solvers/SpdSolver.h"
 #include "Support/ProgressRange.h"
@@ -33,12 +34,10 @@ std::vector<Pair> edgesOf(const BoundaryFaces& faces, const std::vector<Index>& 
   return edges;
 }
 
-/// Returns the corners that a quadratic face's node is between; empty for a corner.
-std::pair<const Index*, const Index*> between(const BoundaryFaces& faces, Index node)
+/// The number of a node in faces.nodes.
+Index placeOf(const BoundaryFaces& faces, Index node)
 {
-  const Index i =
-    std::lower_bound(faces.nodes.begin(), faces.nodes.end(), node) - faces.nodes.begin();
-  return { faces.between.begin(i), faces.between.end(i) };
+  return std::lower_bound(faces.nodes.begin(), faces.nodes.end(), node) - faces.nodes.begin();
 }
 
 class Smoother
@@ -52,8 +51,9 @@ public:
   {
     for (Index node : free)
     {
-      const auto [first, last] = between(faces, node);
-      (first == last ? this->corners_ : this->middles_).push_back(node);
+      const Index k = placeOf(faces, node);
+      const bool isCorner = faces.between.begin(k) == faces.between.end(k);
+      (isCorner ? this->corners_ : this->middles_).push_back(node);
     }
   }
 
@@ -65,13 +65,8 @@ public:
     }
     for (Index node : this->middles_)
     {
-      Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
-      const auto [first, last] = between(this->faces_, node);
-      for (const Index* corner = first; corner != last; ++corner)
-      {
-        sum += this->residual(*corner) / static_cast<double>(last - first);
-      }
-      this->set(node, sum);
+      this->set(node, meanBetween(this->faces_, placeOf(this->faces_, node), this->motion_.rest,
+                        [this](Index corner) { return this->residual(corner); }));
     }
   }
 

@@ -268,8 +268,11 @@ void ExodusFile::addBlock(const NetCdf& file, const std::string& number, const s
   const std::uint8_t cellType = exodusCellType(type, nodes);
   if (elements > 0 && cellType == EmptyCell)
   {
-    this->fail("the block " + name + " has elements of the type '" + type.substr(0, 40) +
-               "' with " + std::to_string(nodes) + " nodes, which are not known here.");
+    this->fail(
+      "the block " + name + " has elements of the type '" + type.substr(0, 40) + "' with " +
+      std::to_string(nodes) +
+      " nodes, which are not known here. Write it with nodes at corners, or with those and one "
+      "on each edge, as TETRA10 and PYRAMID13.");
   }
   NamedSet& set = this->mesh_.set(name);
   const std::vector<Index> connectivity =

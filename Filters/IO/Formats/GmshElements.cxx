@@ -11,8 +11,8 @@ GmshElement gmshElement(Index type)
   static constexpr GmshElement Elements[] = { {}, { Line, 2 }, { Triangle, 3 }, { Quad, 4 },
     { Tetra, 4 }, { Hexahedron, 8 }, { Wedge, 6 }, { Pyramid, 5 }, { QuadraticEdge, 3 },
     { QuadraticTriangle, 6 }, { BiquadraticQuad, 9 }, { QuadraticTetra, 10 },
-    { TriquadraticHexahedron, 27 }, { EmptyCell, 18 }, { EmptyCell, 14 }, { Vertex, 1 },
-    { QuadraticQuad, 8 }, { QuadraticHexahedron, 20 }, { QuadraticWedge, 15 },
+    { TriquadraticHexahedron, 27 }, { BiquadraticQuadraticWedge, 18 }, { EmptyCell, 14 },
+    { Vertex, 1 }, { QuadraticQuad, 8 }, { QuadraticHexahedron, 20 }, { QuadraticWedge, 15 },
     { QuadraticPyramid, 13 } };
   return type > 0 && type < Index(std::size(Elements)) ? Elements[type] : GmshElement();
 }
@@ -26,6 +26,8 @@ void gmshToVtkOrder(std::uint8_t cellType, std::vector<Index>& nodes)
   static const std::vector<std::size_t> triquadratic = { 8, 11, 13, 9, 16, 18, 19, 17, 10, 12, 14,
     15, 22, 23, 21, 24, 20, 25, 26 };
   static const std::vector<std::size_t> wedge = { 6, 9, 7, 12, 14, 13, 8, 10, 11 };
+  static const std::vector<std::size_t> biquadratic = { 6, 9, 7, 12, 14, 13, 8, 10, 11, 15, 17,
+    16 };
   static const std::vector<std::size_t> pyramid = { 5, 8, 10, 6, 7, 9, 11, 12 };
   const std::vector<std::size_t>* from = nullptr;
   switch (cellType)
@@ -41,6 +43,9 @@ void gmshToVtkOrder(std::uint8_t cellType, std::vector<Index>& nodes)
       break;
     case QuadraticWedge:
       from = &wedge;
+      break;
+    case BiquadraticQuadraticWedge:
+      from = &biquadratic;
       break;
     case QuadraticPyramid:
       from = &pyramid;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Private/Data/GridMesh.h"
 
+#include "Mesh/CollapsedCells.h"
 #include "Mesh/Polyhedra.h"
 #include "Private/Data/Version.h"
 #include "Support/Error.h"
@@ -93,6 +94,20 @@ void copyIntegers(
     { std::copy(values + first, values + last, to.begin() + first); });
 }
 
+/// Copies cells without the faces of polyhedra.
+void readCells(vtkUnstructuredGrid* grid, morph::Mesh& mesh, morph::Monitor& monitor)
+{
+  mesh.offsets = { 0 };
+  if (grid->GetNumberOfCells() > 0)
+  {
+    mesh.types = typesOf(grid);
+    visitIntegers(grid->GetCells()->GetOffsetsArray(), [&](const auto* values, vtkIdType count)
+      { copyIntegers(values, count, mesh.offsets, monitor); });
+    visitIntegers(grid->GetCells()->GetConnectivityArray(), [&](const auto* values, vtkIdType count)
+      { copyIntegers(values, count, mesh.connectivity, monitor); });
+  }
+}
+
 /// Copies the faces of polyhedra. Returns those whose faces the grid does not hold.
 std::vector<morph::Index> readFaces(vtkUnstructuredGrid* grid, morph::Mesh& mesh)
 {
@@ -151,6 +166,37 @@ bool sameFaces(vtkUnstructuredGrid* grid, const morph::Mesh& mesh)
   return other.faceOffsets == mesh.faceOffsets && other.faces == mesh.faces;
 }
 
+/// Whether the grid's cells are those of `mesh`, but for the faces of polyhedra.
+bool haveCells(vtkUnstructuredGrid* grid, const morph::Mesh& mesh)
+{
+  bool same = typesOf(grid) == mesh.types;
+  for (const auto& [array, kept] : { std::pair(grid->GetCells()->GetOffsetsArray(), &mesh.offsets),
+         std::pair(grid->GetCells()->GetConnectivityArray(), &mesh.connectivity) })
+  {
+    const std::vector<morph::Index>& own = *kept;
+    if (same)
+    {
+      visitIntegers(
+        array, [&](const auto* values, vtkIdType count) { same = equals(values, count, own); });
+    }
+  }
+  return same;
+}
+
+/// The same where FromGrid() has replaced collapsed cells.
+bool haveReplacedCells(vtkUnstructuredGrid* grid, const morph::Mesh& mesh)
+{
+  morph::Monitor serial;
+  morph::Mesh read;
+  readCells(grid, read, serial);
+  const bool isReadable =
+    read.offsets.size() == read.types.size() + 1 && read.offsets.front() == 0 &&
+    std::is_sorted(read.offsets.begin(), read.offsets.end()) &&
+    read.offsets.back() == static_cast<morph::Index>(read.connectivity.size());
+  return isReadable && morph::replaceCollapsedCells(read) && read.types == mesh.types &&
+         read.offsets == mesh.offsets && read.connectivity == mesh.connectivity;
+}
+
 /// Unknown cells pass the core's checks as poly-vertices; their node ids are still checked.
 void validateKnown(morph::Mesh& mesh)
 {
@@ -179,15 +225,7 @@ morph::Mesh FromGrid(vtkUnstructuredGrid* grid, UnknownCells unknown, morph::Mon
 {
   morph::Mesh mesh;
   mesh.points = FromPoints(grid->GetPoints());
-  mesh.offsets = { 0 };
-  if (grid->GetNumberOfCells() > 0)
-  {
-    mesh.types = typesOf(grid);
-    visitIntegers(grid->GetCells()->GetOffsetsArray(), [&](const auto* values, vtkIdType count)
-      { copyIntegers(values, count, mesh.offsets, monitor); });
-    visitIntegers(grid->GetCells()->GetConnectivityArray(), [&](const auto* values, vtkIdType count)
-      { copyIntegers(values, count, mesh.connectivity, monitor); });
-  }
+  readCells(grid, mesh, monitor);
   const std::vector<morph::Index> withoutFaces = readFaces(grid, mesh);
   if (!withoutFaces.empty())
   {
@@ -202,6 +240,7 @@ morph::Mesh FromGrid(vtkUnstructuredGrid* grid, UnknownCells unknown, morph::Mon
   {
     morph::validate(mesh);
   }
+  morph::replaceCollapsedCells(mesh);
   morph::orientPolyhedra(mesh);
   return mesh;
 }
@@ -274,19 +313,7 @@ bool SameCells(vtkUnstructuredGrid* grid, const morph::Mesh& mesh)
   {
     return true;
   }
-  if (typesOf(grid) != mesh.types)
-  {
-    return false;
-  }
-  bool same = true;
-  visitIntegers(grid->GetCells()->GetOffsetsArray(),
-    [&](const auto* values, vtkIdType count) { same = equals(values, count, mesh.offsets); });
-  if (same)
-  {
-    visitIntegers(grid->GetCells()->GetConnectivityArray(), [&](const auto* values, vtkIdType count)
-      { same = equals(values, count, mesh.connectivity); });
-  }
-  return same && sameFaces(grid, mesh);
+  return (haveCells(grid, mesh) || haveReplacedCells(grid, mesh)) && sameFaces(grid, mesh);
 }
 
 bool SamePoints(vtkUnstructuredGrid* grid, const morph::Mesh& mesh)

@@ -25,4 +25,16 @@ void WarnOfShared(const std::vector<morph::Index>& repeatedCells,
                  ". Give each part a node of its own if they only touch by chance.");
   }
 }
+
+void WarnOfLoose(const std::vector<morph::Index>& nodes, morph::Monitor& monitor)
+{
+  if (!nodes.empty())
+  {
+    monitor.warn(std::to_string(nodes.size()) +
+                 " nodes stay: they belong to cells of lower dimension that share no node with a "
+                 "volume cell, directly or by others of their kind. Point ids " +
+                 morph::listIds(nodes) +
+                 ". Give them nodes of the volume where they are attached to it.");
+  }
+}
 }

@@ -12,4 +12,6 @@ namespace morph::filters::MeshNotes
 /// those of the whole mesh, ascending.
 void WarnOfShared(const std::vector<morph::Index>& repeatedCells,
   const std::vector<morph::Index>& touchingNodes, morph::Monitor& monitor);
+/// Of nodes of shells, beams or links that hang on nothing; see AttachedNodes.h. Ids as above.
+void WarnOfLoose(const std::vector<morph::Index>& nodes, morph::Monitor& monitor);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Private/Displace/SlideRounds.h"
 
+#include "BoundaryMorphing/MidNodes.h"
 #include "Mesh/Polyhedra.h"
 #include "Support/Error.h"
 
@@ -86,21 +87,17 @@ void moveBetween(const BoundaryModel& model, const std::map<Index, Surfaces>& sl
   for (std::size_t i = 0; i < faces.nodes.size(); ++i)
   {
     const auto k = static_cast<Index>(i);
-    const Index *begin = faces.between.begin(k), *end = faces.between.end(k);
     const auto found = sliding.find(faces.nodes[i]);
-    if (begin == end || found == sliding.end())
+    if (found == sliding.end())
     {
       continue;
     }
-    Row sum = Row::Zero();
-    for (const Index* corner = begin; corner != end; ++corner)
+    const Row shift = morph::meanBetween(faces, k, model.Points(),
+      [&](Index corner) { return Row(moved.row(corner) - before.row(corner)); });
+    if (!shift.isZero(0))
     {
-      sum += moved.row(*corner) - before.row(*corner);
-    }
-    if (!sum.isZero(0))
-    {
-      moved.row(found->first) = shapes.Slid(model, found->second, found->first,
-        before.row(found->first) + sum / static_cast<double>(end - begin));
+      moved.row(found->first) =
+        shapes.Slid(model, found->second, found->first, before.row(found->first) + shift);
     }
   }
 }

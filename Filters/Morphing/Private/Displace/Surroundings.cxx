@@ -2,6 +2,7 @@
 #include "Private/Displace/Surroundings.h"
 
 #include "BoundaryMorphing/CurveMorph.h"
+#include "BoundaryMorphing/MidNodes.h"
 #include "BoundaryMorphing/SurfaceSmoothing.h"
 #include "Support/Error.h"
 
@@ -104,31 +105,35 @@ std::vector<std::uint8_t> touched(const BoundaryModel& model, const Surroundings
   return isTouched;
 }
 
-/// Moves mid-side and face nodes that neither move nor are held with their corners. Otherwise the
-/// edges between moved and fixed corners would bend.
-void moveBetween(const BoundaryModel& model, Surroundings::Result& result)
+/// Moves mid-side and face nodes of these roles with their corners. Otherwise the edges between
+/// moved and fixed corners would bend. A held node moves only beside a corner that is given a place.
+void moveBetween(const BoundaryModel& model, const std::vector<Surroundings::Role>& roles,
+  Surroundings::Result& result)
 {
   const morph::BoundaryFaces& faces = model.Faces();
   for (std::size_t i = 0; i < faces.nodes.size(); ++i)
   {
     const Index node = faces.nodes[i], k = static_cast<Index>(i);
     const Index *begin = faces.between.begin(k), *end = faces.between.end(k);
-    if (begin == end || result.Roles[node] == Surroundings::Moves ||
-        result.Roles[node] == Surroundings::IsHeld)
+    if (begin == end || std::count(roles.begin(), roles.end(), result.Roles[node]) == 0 ||
+        (result.Roles[node] == Surroundings::IsHeld &&
+          std::none_of(
+            begin, end, [&](Index corner) { return result.Roles[corner] == Surroundings::Moves; })))
     {
       continue;
     }
-    Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
-    for (const Index* corner = begin; corner != end; ++corner)
-    {
-      sum += result.Moved.row(*corner) - model.Points().row(*corner);
-    }
-    const bool moves = !sum.isZero(0);
-    result.Roles[node] = moves ? Surroundings::Follows : Surroundings::Stays;
+    const Eigen::RowVector3d shift = morph::meanBetween(faces, k, model.Points(),
+      [&](Index corner)
+      { return Eigen::RowVector3d(result.Moved.row(corner) - model.Points().row(corner)); });
     result.Moved.row(node) = model.Points().row(node);
-    if (moves)
+    if (!shift.isZero(0))
     {
-      result.Moved.row(node) += sum / static_cast<double>(end - begin);
+      result.Roles[node] = Surroundings::Follows;
+      result.Moved.row(node) += shift;
+    }
+    else if (result.Roles[node] == Surroundings::Follows)
+    {
+      result.Roles[node] = Surroundings::Stays;
     }
   }
 }
@@ -231,7 +236,7 @@ void Surroundings::Place(const BoundaryModel& model, const Choice::Result& choic
     case Kind::Stay:
       break;
   }
-  moveBetween(model, result);
+  moveBetween(model, { Stays, Follows, IsHeld }, result);
   this->Slide(model, sliding, { Follows }, result);
 }
 
@@ -394,6 +399,7 @@ void Surroundings::Follow(const BoundaryModel& model, const Choice::Result& choi
       result.Roles[node] = Follows;
     }
   }
+  moveBetween(model, { Stays, IsHeld }, result);
   if (options.linear)
   {
     return;

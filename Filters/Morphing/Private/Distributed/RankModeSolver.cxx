@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Distributed/AttachedNodes.h"
 #include "Distributed/DistributedMesh.h"
 #include "Distributed/Method.h"
 #include "Distributed/Methods.h"
@@ -33,6 +34,7 @@ public:
     if (isTaken)
     {
       this->Method.reset();
+      this->Hanging = {};
     }
     this->Pieces.RequireVolumeCells();
     return isTaken;
@@ -77,6 +79,7 @@ public:
       prepared = std::make_unique<morph::distributed::PolyhedralMethod>(std::move(prepared));
     }
     prepared->prepare(whole, partition, monitor);
+    this->Hanging = morph::distributed::attachedNodes(whole, partition);
     this->Method = std::move(prepared);
   }
   std::vector<morph::Points> Basis(const std::vector<morph::Points>& displacements,
@@ -93,6 +96,7 @@ public:
     }
     return fields;
   }
+  const morph::AttachedNodes& Attached() const override { return this->Hanging; }
   Measured Write(vtkUnstructuredGrid* grid, const morph::Points& moved, int precision, bool all,
     const Outputs& outputs, morph::Monitor& monitor) const override
   {
@@ -118,6 +122,7 @@ public:
 private:
   RankMesh Pieces;
   std::unique_ptr<morph::distributed::Method> Method; ///< prepared, or null
+  morph::AttachedNodes Hanging;                       ///< of Method
 };
 }
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Distributed/AttachedNodes.h"
 #include "Distributed/DistributedMesh.h"
 #include "Distributed/InversionFree.h"
 #include "Distributed/Method.h"
@@ -334,6 +335,12 @@ StepResult Morphing::Internals::Step(const DistributedMesh* from,
   {
     result.BoundaryInverted = 0;
   }
+  const morph::AttachedNodes attached =
+    morph::distributed::attachedNodes(this->Mesh.Whole(), partition);
+  attached.apply(result.Moved);
+  whole.copyToDoubles(result.Moved);
+  result.Attached = static_cast<morph::Index>(attached.nodes().size());
+  result.Loose = attached.loose();
   result.Iterations = report.iterations;
   morph::Index prescribed = 0;
   for (const morph::Index node : match.Ids)
@@ -490,6 +497,8 @@ void Morphing::Transpose(vtkUnstructuredGrid* rest, vtkDataObject* boundary, vtk
                  "gradient is that of the method alone.");
   }
   morph::Points prescribed;
+  morph::distributed::attachedNodes(whole, partition).applyTranspose(nodes);
+  whole.halo().add(ranks, nodes);
   method.applyTranspose(nodes, prescribed, applying);
   prescribed *= options.Matching.ScaleFactor;
   RankMatch::SendBack(ranks, match.Ids, prescribed, followers,

@@ -3,6 +3,7 @@
 
 #include "Distributed/Quality.h"
 #include "Private/Data/BadCells.h"
+#include "Private/Data/MeshNotes.h"
 #include "Private/Data/Output.h"
 #include "Private/Data/Quality.h"
 #include "Private/Data/Results.h"
@@ -122,6 +123,10 @@ void Write(const RankMesh& mesh, const OnRanks::Morphing::Task& task, const Step
   }
   results.SetInteger(
     "SurfaceInvertedCells", WriteParts(mesh, mine, all, task.Output, task.BadCells, task.Surface));
+  if (mesh.Ranks().rank() == 0)
+  {
+    MeshNotes::WarnOfLoose(step.Loose, monitor);
+  }
   MorphOutput::WriteCounts(step, results, task.Output);
 }
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "LinearMethods/AttachedNodes.h"
 #include "Mesh/Mesh.h"
 #include "Morpher/Morpher.h"
 #include "Private/Data/Quality.h"
@@ -68,6 +69,9 @@ public:
   /// See LinearMorpher::basis(). After Prepare().
   virtual std::vector<morph::Points> Basis(const std::vector<morph::Points>& displacements,
     std::vector<morph::EvaluateReport>& reports, morph::Monitor& monitor) const = 0;
+
+  /// The nodes that no volume cell uses. After Prepare(). Their functions are collective.
+  virtual const morph::AttachedNodes& Attached() const = 0;
 
   struct Outputs
   {

@@ -2,6 +2,7 @@
 #include "Private/Morph/MorphOutput.h"
 
 #include "Private/Data/BadCells.h"
+#include "Private/Data/MeshNotes.h"
 #include "Private/Data/Output.h"
 #include "Private/Data/Quality.h"
 #include "Private/Data/Results.h"
@@ -84,6 +85,7 @@ void WriteMeasures(const Session& session, const StepResult& step, Measures meas
     badCells->Initialize();
     measureSurface(session, results, output, surface, monitor);
   }
+  MeshNotes::WarnOfLoose(step.Loose, monitor);
   WriteCounts(step, results, output);
 }
 
@@ -107,6 +109,7 @@ void WriteCounts(const StepResult& step, Results& results, vtkDataObject* output
   results.SetInteger("SolverIterations", step.Iterations);
   results.SetInteger("PrescribedPoints", step.Prescribed);
   results.SetInteger("UnmatchedPoints", step.Unmatched);
+  results.SetInteger("AttachedPoints", step.Attached);
   results.SetCounts(step.Statistics);
   results.Write(output);
 }

@@ -22,6 +22,8 @@ struct StepResult
   std::vector<morph::Statistic> Statistics;
   morph::Index Prescribed = 0;
   morph::Index Unmatched = 0;
+  morph::Index Attached = 0;         ///< nodes; see AttachedNodes.h
+  std::vector<morph::Index> Loose;   ///< ids
   morph::Index BoundaryInverted = 0; ///< see vtkMorphAlgorithm::GetBoundaryInvertedCells()
   /// see vtkMorphAlgorithm::GetBoundaryMinimum(), NaN without such a corner
   double BoundaryMinimum = std::numeric_limits<double>::quiet_NaN();

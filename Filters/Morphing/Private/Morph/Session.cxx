@@ -108,6 +108,7 @@ void Session::SetGrid(vtkUnstructuredGrid* grid, morph::Monitor& monitor)
     this->Method.reset();
     this->Modes.clear();
     this->Samples.reset();
+    this->Attached = {};
     this->Partition = std::make_shared<morph::NodePartition>();
     this->Steps.Clear();
   }
@@ -305,6 +306,9 @@ StepResult Session::MorphStep(const morph::Mesh& from, const BoundaryMatch::Resu
     result.Valid.Status = "Unmeasured";
     result.Valid.LargestValidStep = std::numeric_limits<double>::quiet_NaN();
   }
+  this->Attached.apply(result.Moved);
+  result.Attached = static_cast<morph::Index>(this->Attached.nodes().size());
+  result.Loose = this->Attached.loose();
   const std::string& status = result.Valid.Status;
   if (status != "Valid" && status != "Inverted" && status != "Unmeasured")
   {
@@ -350,6 +354,7 @@ const morph::NodePartition& Session::PartitionOf(const std::vector<morph::Index>
     this->Samples.reset();
     this->Partition =
       std::make_shared<morph::NodePartition>(morph::partitionNodes(this->Kept.Mesh(), prescribed));
+    this->Attached = morph::AttachedNodes(this->Kept.Mesh(), *this->Partition);
   }
   return *this->Partition;
 }
@@ -391,7 +396,7 @@ void Session::Prepare(const morph::Mesh& from, const Options& options, morph::Mo
 void Session::Transpose(vtkUnstructuredGrid* rest, vtkDataObject* boundary, vtkDataArray* gradient,
   const Options& options, vtkDoubleArray* boundaryGradient, morph::Monitor& monitor)
 {
-  const morph::Points nodes = Gradient::Require(gradient, rest->GetNumberOfPoints());
+  morph::Points nodes = Gradient::Require(gradient, rest->GetNumberOfPoints());
   vtkPointSet* displaced = Input::RequireBoundary(boundary);
   this->SetGrid(rest, monitor);
   const BoundaryMatch::Result match = this->Match(displaced, 1, options, monitor);
@@ -414,6 +419,7 @@ void Session::Transpose(vtkUnstructuredGrid* rest, vtkDataObject* boundary, vtkD
   morph::ProgressRange applying(monitor, 0.5, 1);
   options.SetEvaluateOptions(morph::methodOf(*linear));
   morph::Points prescribed;
+  this->Attached.applyTranspose(nodes);
   linear->applyTranspose(nodes, prescribed, applying);
   Gradient::Gather(options.Matching.ScaleFactor * prescribed, match.Sources,
     displaced->GetNumberOfPoints(), boundaryGradient);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "LinearMethods/AttachedNodes.h"
 #include "Mesh/Mesh.h"
 #include "Mesh/NodePartition.h"
 #include "Morpher/AffineModes.h"
@@ -118,7 +119,8 @@ private:
   KeptMesh Kept;
   /// Of Kept, or empty.
   std::shared_ptr<const morph::NodePartition> Partition = std::make_shared<morph::NodePartition>();
-  std::unique_ptr<morph::MovableQuality> Samples; ///< of Kept and Partition, or null
+  morph::AttachedNodes Attached;                  ///< of Kept and Partition
+  std::unique_ptr<morph::MovableQuality> Samples; ///< of the same, or null
   std::unique_ptr<morph::Morpher> Method; ///< prepared for Kept under MethodOptions, or null
   bool MethodIsOfKept = false;            ///< not of a step's points
   std::string MethodOptions;

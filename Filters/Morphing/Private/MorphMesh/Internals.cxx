@@ -446,6 +446,7 @@ void vtkMorphMesh::vtkInternals::TakeResults()
   to.SetInteger("PrepareCount", from->GetPrepareCount());
   to.SetInteger("PrescribedPoints", from->GetPrescribedPoints());
   to.SetInteger("UnmatchedPoints", from->GetUnmatchedPoints());
+  to.SetInteger("AttachedPoints", from->GetAttachedPoints());
   to.SetInteger("SolverIterations", from->GetSolverIterations());
 }
 

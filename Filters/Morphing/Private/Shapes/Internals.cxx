@@ -7,6 +7,7 @@
 #include "LinearMethods/SimplexLinear.h"
 #include "LinearMethods/SimplexNaturalNeighbor.h"
 #include "LinearMethods/WeightedResidual.h"
+#include "Private/Data/MeshNotes.h"
 #include "Private/Pipeline/Input.h"
 #include "Private/Shapes/KeptModeSolver.h"
 #include "Support/Error.h"
@@ -227,8 +228,13 @@ void vtkMorphShapes::vtkInternals::Morph(vtkUnstructuredGrid* grid,
     [&] {
       morph::blend(this->Modes.Mesh().points, this->Modes.Weighted(weights), this->Moved, monitor);
     });
+  this->Modes.GetSolver()->Attached().apply(this->Moved);
   this->Results.SetNumber("EvaluateSeconds",
     group.Maximum(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count()));
+  if (group.IsFirst())
+  {
+    filters::MeshNotes::WarnOfLoose(this->Modes.GetSolver()->Attached().loose(), monitor);
+  }
   morph::ProgressRange writing(monitor, 0.8, 1);
   this->Write(grid, weights, outputs, writing);
   this->WriteShapes(weights, this->Ports.Output(outputs));

@@ -39,6 +39,7 @@ bool KeptModeSolver::Take(vtkUnstructuredGrid* grid, const CreateMorpher&, morph
   if (isCopied)
   {
     this->Method.reset();
+    this->Hanging = {};
   }
   return isCopied;
 }
@@ -60,7 +61,9 @@ void KeptModeSolver::Prepare(std::unique_ptr<morph::LinearMorpher> method,
 {
   this->Method.reset();
   method = forCellsOf(this->Kept.Mesh(), std::move(method));
-  method->prepare(this->Kept.Mesh(), morph::partitionNodes(this->Kept.Mesh(), prescribed), monitor);
+  const morph::NodePartition partition = morph::partitionNodes(this->Kept.Mesh(), prescribed);
+  method->prepare(this->Kept.Mesh(), partition, monitor);
+  this->Hanging = morph::AttachedNodes(this->Kept.Mesh(), partition);
   this->Method = std::move(method);
 }
 

@@ -31,6 +31,7 @@ public:
     const std::vector<morph::Index>& prescribed, morph::Monitor& monitor) override;
   std::vector<morph::Points> Basis(const std::vector<morph::Points>& displacements,
     std::vector<morph::EvaluateReport>& reports, morph::Monitor& monitor) const override;
+  const morph::AttachedNodes& Attached() const override { return this->Hanging; }
   Measured Write(vtkUnstructuredGrid* grid, const morph::Points& moved, int precision, bool all,
     const Outputs& outputs, morph::Monitor& monitor) const override;
   void WriteUndeformedSurface(vtkUnstructuredGrid* grid, vtkPolyData* surface) const override
@@ -41,5 +42,6 @@ public:
 private:
   KeptMesh Kept;
   std::unique_ptr<morph::LinearMorpher> Method; ///< prepared, or null
+  morph::AttachedNodes Hanging;                 ///< of Method
 };
 }

@@ -379,6 +379,7 @@ std::vector<double> ShapeModes::Derivatives(
       counted.row(node) = gradient.row(node);
     }
   }
+  this->Solver->Attached().applyTranspose(counted);
   std::vector<double> result;
   for (std::size_t i = 0; i < this->Shapes.size(); ++i)
   {

@@ -1,0 +1,379 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "LinearMethods/AttachedNodes.h"
+
+#include "Geometry/AffineFit.h"
+#include "Geometry/RigidFit.h"
+#include "Mesh/CellShape.h"
+#include "Support/UnionFind.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <tuple>
+#include <utility>
+
+namespace morph
+{
+namespace
+{
+using Row = Eigen::RowVector3d;
+using Square = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
+
+/// Rigid links may join nodes at one place: at least this part of the links' mean length counts.
+constexpr double LeastLength = 1e-6;
+
+bool isVolume(const Mesh& mesh, Index cell)
+{
+  const CellShape* shape = cellShape(mesh, cell);
+  return shape && shape->dimension == 3;
+}
+
+std::vector<std::uint8_t> nodesOfVolume(const Mesh& mesh)
+{
+  std::vector<std::uint8_t> isUsed(mesh.numberOfNodes(), 0);
+  for (Index c = 0; c < mesh.numberOfCells(); ++c)
+  {
+    const Index size = isVolume(mesh, c) ? mesh.cellSize(c) : 0;
+    for (const Index* node = mesh.cell(c); node != mesh.cell(c) + size; ++node)
+    {
+      isUsed[*node] = 1;
+    }
+  }
+  return isUsed;
+}
+
+/// Calls link(i, j) for pairs of a cell's nodes: all of a cell with a known number of nodes, else
+/// neighbors along a line, an outline or a strip.
+template <typename Link>
+void forPairs(const CellShape& shape, Index size, const Link& link)
+{
+  const bool isOpen = shape.numberOfNodes < 0;
+  for (Index i = 0; i < size; ++i)
+  {
+    const Index reach = isOpen ? shape.dimension : size;
+    for (Index j = i + 1; j < std::min(size, i + reach + 1); ++j)
+    {
+      link(i, j);
+    }
+  }
+  if (isOpen && shape.dimension == 2 && size > 3)
+  {
+    link(0, size - 1);
+  }
+}
+
+/// The place of an id in ascending ones, or -1.
+Index placeOf(const std::vector<Index>& ids, Index id)
+{
+  const auto found = std::lower_bound(ids.begin(), ids.end(), id);
+  return found != ids.end() && *found == id ? found - ids.begin() : -1;
+}
+
+void sortUnique(std::vector<Index>& ids)
+{
+  std::sort(ids.begin(), ids.end());
+  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+}
+}
+
+std::vector<AttachedNodes::Link> AttachedNodes::linksOf(
+  const Mesh& mesh, const std::vector<std::uint8_t>& skip)
+{
+  const std::vector<std::uint8_t> isUsed = nodesOfVolume(mesh);
+  std::vector<Link> links;
+  for (Index c = 0; c < mesh.numberOfCells(); ++c)
+  {
+    const CellShape* shape = cellShape(mesh, c);
+    const Index *cell = mesh.cell(c), size = mesh.cellSize(c);
+    if (!shape || shape->dimension == 0 || shape->dimension == 3 || (!skip.empty() && skip[c]) ||
+        std::all_of(cell, cell + size, [&](Index n) { return isUsed[n] != 0; }))
+    {
+      continue;
+    }
+    forPairs(*shape, size,
+      [&](Index i, Index j)
+      {
+        const Index a = std::min(cell[i], cell[j]), b = std::max(cell[i], cell[j]);
+        if (a != b)
+        {
+          links.push_back({ a, b, (mesh.points.row(a) - mesh.points.row(b)).norm() });
+        }
+      });
+  }
+  return links;
+}
+
+std::vector<Index> AttachedNodes::anchorsOf(
+  const Mesh& mesh, const std::vector<Link>& links, const std::vector<Index>& prescribed)
+{
+  std::vector<Index> anchors;
+  if (links.empty())
+  {
+    return anchors;
+  }
+  std::vector<std::uint8_t> isAnchor = nodesOfVolume(mesh);
+  for (const Index node : prescribed)
+  {
+    isAnchor[node] = 1;
+  }
+  for (const Link& link : links)
+  {
+    for (const Index node : { link.a, link.b })
+    {
+      if (isAnchor[node])
+      {
+        anchors.push_back(node);
+      }
+    }
+  }
+  sortUnique(anchors);
+  return anchors;
+}
+
+AttachedNodes::AttachedNodes(const Mesh& rest, const NodePartition& partition)
+  : rest_(&rest)
+  , piece_{ [](Index id) { return id; }, [](Index) { return true; }, [](double*, std::size_t) {} }
+{
+  std::vector<Link> links = linksOf(rest);
+  std::vector<Index> anchors = anchorsOf(rest, links, partition.prescribed);
+  this->prepare(std::move(links), std::move(anchors));
+}
+
+AttachedNodes::AttachedNodes(
+  const Mesh& rest, std::vector<Link> links, std::vector<Index> anchors, Piece piece)
+  : rest_(&rest)
+  , piece_(std::move(piece))
+{
+  sortUnique(anchors);
+  this->prepare(std::move(links), std::move(anchors));
+}
+
+void AttachedNodes::prepare(std::vector<Link> links, std::vector<Index> anchors)
+{
+  if (links.empty())
+  {
+    return;
+  }
+  std::sort(links.begin(), links.end(),
+    [](const Link& l, const Link& r)
+    { return std::tie(l.a, l.b, l.length) < std::tie(r.a, r.b, r.length); });
+  double mean = 0;
+  std::vector<Index> all;
+  for (const Link& link : links)
+  {
+    mean += link.length / static_cast<double>(links.size());
+    all.insert(all.end(), { link.a, link.b });
+  }
+  sortUnique(all);
+  UnionFind<Index> parts(static_cast<Index>(all.size()));
+  for (const Link& link : links)
+  {
+    parts.join(placeOf(all, link.a), placeOf(all, link.b));
+  }
+  std::vector<std::uint8_t> hangs(all.size(), 0);
+  for (const Index anchor : anchors)
+  {
+    hangs[parts.root(placeOf(all, anchor))] = 1;
+  }
+  for (const Index id : all)
+  {
+    if (placeOf(anchors, id) < 0)
+    {
+      (hangs[parts.root(placeOf(all, id))] ? this->ids_ : this->loose_).push_back(id);
+    }
+  }
+  this->anchors_ = std::move(anchors);
+
+  std::vector<Eigen::Triplet<double, int>> own, coupling;
+  for (const Link& link : links)
+  {
+    const double length = std::max(link.length, LeastLength * mean);
+    const double weight = length > 0 ? mean / length : 1;
+    for (const auto& [from, to] : { std::pair(link.a, link.b), std::pair(link.b, link.a) })
+    {
+      const int row = static_cast<int>(placeOf(this->ids_, from));
+      if (row < 0)
+      {
+        continue;
+      }
+      own.emplace_back(row, row, weight);
+      if (const int other = static_cast<int>(placeOf(this->ids_, to)); other >= 0)
+      {
+        own.emplace_back(row, other, -weight);
+      }
+      else
+      {
+        coupling.emplace_back(row, static_cast<int>(placeOf(this->anchors_, to)), weight);
+      }
+    }
+  }
+  const auto rows = static_cast<int>(this->ids_.size());
+  if (rows == 0)
+  {
+    return;
+  }
+  Matrix laplace(rows, rows);
+  laplace.setFromTriplets(own.begin(), own.end());
+  this->factor_ = std::make_shared<Eigen::SimplicialLDLT<Matrix>>(laplace);
+  this->coupling_.resize(rows, static_cast<int>(this->anchors_.size()));
+  this->coupling_.setFromTriplets(coupling.begin(), coupling.end());
+  this->findRings();
+}
+
+void AttachedNodes::findRings()
+{
+  std::vector<std::vector<Index>> rings(this->anchors_.size());
+  std::vector<Index> anchorAt(this->rest_->numberOfNodes(), -1);
+  double origin[3] = { 0, 0, 0 };
+  for (std::size_t a = 0; a < rings.size(); ++a)
+  {
+    const Index node = this->piece_.nodeOf(this->anchors_[a]);
+    if (node >= 0 && this->piece_.owns(node))
+    {
+      anchorAt[node] = static_cast<Index>(a);
+      if (a == 0)
+      {
+        Eigen::Map<Row>(origin, 3) = this->rest_->points.row(node);
+      }
+    }
+  }
+  this->piece_.sum(origin, 3);
+  this->origin_ = Eigen::Map<Row>(origin, 3);
+  for (Index c = 0; c < this->rest_->numberOfCells(); ++c)
+  {
+    const Index size = isVolume(*this->rest_, c) ? this->rest_->cellSize(c) : 0;
+    const Index *first = this->rest_->cell(c), *last = first + size;
+    for (const Index* node = first; node != last; ++node)
+    {
+      if (anchorAt[*node] >= 0)
+      {
+        std::vector<Index>& ring = rings[anchorAt[*node]];
+        ring.insert(ring.end(), first, last);
+      }
+    }
+  }
+  this->nodeOfAnchor_.assign(rings.size(), -1);
+  for (std::size_t n = 0; n < anchorAt.size(); ++n)
+  {
+    if (anchorAt[n] >= 0)
+    {
+      this->nodeOfAnchor_[anchorAt[n]] = static_cast<Index>(n);
+    }
+  }
+  this->rings_.offsets.assign(1, 0);
+  for (std::vector<Index>& ring : rings)
+  {
+    sortUnique(ring);
+    this->rings_.values.insert(this->rings_.values.end(), ring.begin(), ring.end());
+    this->rings_.offsets.push_back(static_cast<Index>(this->rings_.values.size()));
+  }
+}
+
+Points AttachedNodes::ringOf(Index anchor, const Points& points) const
+{
+  const std::vector<Index> ring(this->rings_.begin(anchor), this->rings_.end(anchor));
+  return points(ring, allColumns);
+}
+
+void AttachedNodes::apply(Points& moved) const
+{
+  if (this->ids_.empty())
+  {
+    return;
+  }
+  const Points& rest = this->rest_->points;
+  Rows motion = Rows::Zero(static_cast<Index>(this->anchors_.size()), 12);
+  for (Index a = 0; a < motion.rows(); ++a)
+  {
+    const Index node = this->nodeOfAnchor_[a];
+    if (node < 0)
+    {
+      continue;
+    }
+    const Points ring = this->ringOf(a, rest), shift = this->ringOf(a, moved) - ring;
+    Square turn = Square::Zero(); // of row vectors, less the identity
+    if (!shift.isZero(0))
+    {
+      const Eigen::Matrix3d gradient = AffineLeastSquares(ring).fit(shift).gradient();
+      turn = nearestRotation(Eigen::Matrix3d::Identity() + gradient).transpose() -
+             Eigen::Matrix3d::Identity();
+    }
+    motion.row(a).head<3>() =
+      moved.row(node) - rest.row(node) - (rest.row(node) - this->origin_) * turn;
+    motion.row(a).tail<9>() = Eigen::Map<const Eigen::RowVectorXd>(turn.data(), 9);
+  }
+  this->piece_.sum(motion.data(), static_cast<std::size_t>(motion.size()));
+  const Rows own = this->factor_->solve(Rows(this->coupling_ * motion));
+  for (Index i = 0; i < own.rows(); ++i)
+  {
+    const Index node = this->piece_.nodeOf(this->ids_[i]);
+    if (node < 0)
+    {
+      continue;
+    }
+    Square turn;
+    Eigen::Map<Eigen::RowVectorXd>(turn.data(), 9) = own.row(i).tail<9>();
+    const Row shift = own.row(i).head<3>() + (rest.row(node) - this->origin_) * turn;
+    moved.row(node) = rest.row(node);
+    if (!shift.isZero(0))
+    {
+      moved.row(node) += shift;
+    }
+  }
+}
+
+void AttachedNodes::applyTranspose(Points& gradient) const
+{
+  if (this->ids_.empty())
+  {
+    return;
+  }
+  const Points& rest = this->rest_->points;
+  Rows own = Rows::Zero(static_cast<Index>(this->ids_.size()), 12);
+  for (Index i = 0; i < own.rows(); ++i)
+  {
+    const Index node = this->piece_.nodeOf(this->ids_[i]);
+    if (node >= 0 && this->piece_.owns(node))
+    {
+      const Square turn = (rest.row(node) - this->origin_).transpose() * gradient.row(node);
+      own.row(i).head<3>() = gradient.row(node);
+      own.row(i).tail<9>() = Eigen::Map<const Eigen::RowVectorXd>(turn.data(), 9);
+    }
+    if (node >= 0)
+    {
+      gradient.row(node).setZero();
+    }
+  }
+  this->piece_.sum(own.data(), static_cast<std::size_t>(own.size()));
+  const Rows motion = this->coupling_.transpose() * Rows(this->factor_->solve(own));
+  for (Index a = 0; a < motion.rows(); ++a)
+  {
+    const Index node = this->nodeOfAnchor_[a];
+    if (node < 0)
+    {
+      continue;
+    }
+    const Row shift = motion.row(a).head<3>();
+    gradient.row(node) += shift;
+    Square turn;
+    Eigen::Map<Eigen::RowVectorXd>(turn.data(), 9) = motion.row(a).tail<9>();
+    turn -= (rest.row(node) - this->origin_).transpose() * shift;
+    // To first order the rotation is that of the antisymmetric part of the fit's gradient, and this
+    // is what a fit moves at three places more than at a fourth.
+    Points places = Points::Zero(4, 3), derivatives = Points::Zero(4, 3);
+    places.topRows<3>().setIdentity();
+    derivatives.topRows<3>() = (turn - turn.transpose()) / 2;
+    derivatives.row(3) = -derivatives.topRows<3>().colwise().sum();
+    const Points ring = this->ringOf(a, rest);
+    places.rowwise() += rest.row(node);
+    Points ofRing = Points::Zero(ring.rows(), 3);
+    if (ring.rows() > 0)
+    {
+      AffineLeastSquares(ring).fitTranspose(places, derivatives, ofRing);
+    }
+    for (Index k = 0; k < ring.rows(); ++k)
+    {
+      gradient.row(this->rings_.begin(a)[k]) += ofRing.row(k);
+    }
+  }
+}
+}

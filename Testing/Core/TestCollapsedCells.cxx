@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Cells that name a corner twice.
+#include "Mesh/CollapsedCells.h"
+#include "Meshes.h"
+#include "Quality/ScaledJacobian.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+namespace
+{
+using morph::Index;
+using morph::Mesh;
+using morph::Points;
+
+/// One cell with the corners of a box, and the middle of its top.
+Mesh cellOf(std::uint8_t type, const std::vector<Index>& nodes)
+{
+  Mesh mesh;
+  mesh.offsets = { 0 };
+  mesh.points.resize(9, 3);
+  mesh.points << 0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0, 0, 1, 1, 0, 1, 1, 1, 1, 0, 1, 1, .5, .5, 1;
+  meshes::add(mesh, type, nodes);
+  return mesh;
+}
+
+morph::Quality qualityOf(const Mesh& mesh)
+{
+  morph::Monitor silent;
+  return morph::measureQuality(mesh, mesh.points, {}, {}, silent);
+}
+
+struct Kind
+{
+  std::uint8_t type;
+  std::vector<Index> nodes;
+  std::uint8_t becomes;
+};
+}
+
+TEST(CollapsedCells, BecomeTheCellsThatTheyAre)
+{
+  const std::vector<Kind> kinds = {
+    { morph::Hexahedron, { 0, 1, 2, 2, 4, 5, 6, 6 }, morph::Wedge },
+    { morph::Hexahedron, { 0, 1, 2, 3, 4, 4, 7, 7 }, morph::Wedge },
+    { morph::Voxel, { 0, 1, 3, 2, 4, 4, 7, 7 }, morph::Wedge },
+    { morph::Hexahedron, { 0, 1, 2, 3, 8, 8, 8, 8 }, morph::Pyramid },
+    { morph::Hexahedron, { 0, 1, 3, 3, 4, 4, 4, 4 }, morph::Tetra },
+    { morph::Hexahedron, { 0, 0, 1, 1, 4, 4, 6, 7 }, morph::EmptyCell },
+    { morph::Wedge, { 0, 1, 2, 0, 5, 6 }, morph::Pyramid },
+    { morph::Wedge, { 0, 1, 3, 4, 4, 4 }, morph::Tetra },
+    { morph::Pyramid, { 0, 1, 3, 3, 4 }, morph::Tetra },
+  };
+  for (const Kind& kind : kinds)
+  {
+    Mesh mesh = cellOf(kind.type, kind.nodes);
+    const bool isKnown = kind.becomes != morph::EmptyCell;
+    EXPECT_EQ(morph::replaceCollapsedCells(mesh), isKnown);
+    EXPECT_EQ(int(mesh.types[0]), int(isKnown ? kind.becomes : kind.type));
+    if (isKnown)
+    {
+      EXPECT_NO_THROW(morph::validate(mesh));
+      EXPECT_GT(qualityOf(mesh).minimum, 0.1) << int(kind.becomes);
+      EXPECT_EQ(qualityOf(mesh).degenerate, 0);
+    }
+  }
+}
+
+TEST(CollapsedCells, KeepTheirMidSideNodes)
+{
+  // Each corner and middle of a hexahedron with an edge of no length above and below.
+  Mesh mesh = meshes::quadraticHexes(1, 1, 1, false);
+  const std::vector<Index> cell(mesh.cell(0), mesh.cell(0) + 20);
+  std::vector<Index> to(mesh.numberOfNodes());
+  std::iota(to.begin(), to.end(), Index{ 0 });
+  for (const auto& [from, into] : { std::pair(3, 2), { 10, 2 }, { 7, 6 }, { 14, 6 }, { 19, 18 } })
+  {
+    to[cell[from]] = cell[into];
+  }
+  for (Index& node : mesh.connectivity)
+  {
+    node = to[node];
+  }
+  ASSERT_TRUE(morph::replaceCollapsedCells(mesh));
+  ASSERT_EQ(int(mesh.types[0]), int(morph::QuadraticWedge));
+  EXPECT_NO_THROW(morph::validate(mesh));
+  // The middle of 0 and 3 is that of 0 and 2 now.
+  const std::vector<Index> nodes(mesh.cell(0), mesh.cell(0) + 15);
+  EXPECT_EQ(std::count(nodes.begin(), nodes.end(), cell[11]), 1);
+}
+
+TEST(CollapsedCells, WithoutVolumeAreNoVolumeCells)
+{
+  const std::vector<Kind> kinds = {
+    { morph::Hexahedron, { 0, 1, 2, 3, 0, 1, 2, 3 }, morph::Polygon },
+    { morph::Tetra, { 0, 0, 2, 3 }, morph::Triangle },
+    { morph::Wedge, { 0, 1, 1, 0, 1, 1 }, morph::Line },
+    { morph::Pyramid, { 4, 4, 4, 4, 4 }, morph::Vertex },
+  };
+  for (const Kind& kind : kinds)
+  {
+    Mesh mesh = cellOf(kind.type, kind.nodes);
+    EXPECT_TRUE(morph::replaceCollapsedCells(mesh));
+    EXPECT_EQ(int(mesh.types[0]), int(kind.becomes));
+    EXPECT_NO_THROW(morph::validate(mesh));
+  }
+}
