@@ -13,7 +13,8 @@
  *   the input, onto a target surface, by handles, or by a lattice; each times ScaleFactor.
  * - Surroundings defines what the rest does. It stays, follows as with vtkMorphBoundary (curves
  *   first, then surfaces; vertices are held), or fades out with the distance from what moves.
- *   HeldPatches stay in any case, except for the nodes that they share with what moves.
+ *   HeldPatches stay in any case, except for the nodes that they share with what moves. Mid-side
+ *   and face nodes next to these keep their place between their corners.
  *
  * Port 0 takes the mesh (vtkUnstructuredGrid, or composite data, see vtkMorphAlgorithm), or its
  * boundary (vtkPolyData) as vtkExtractMorphBoundary, vtkClassifyBoundary or this filter writes it:

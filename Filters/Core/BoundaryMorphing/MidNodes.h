@@ -28,9 +28,9 @@ Eigen::RowVector3d meanBetween(
 }
 
 /// Moves mid-side and face nodes that their surface moved (state OnSurface) with their corners: by
-/// meanBetween() of the shifts of these since `before` (#nodes x 3, moved positions), and onto the `target`, if
-/// not null. `normals`: of surfaceNodeNormals(), read with a target alone. Returns the ids of moved
-/// nodes, ascending.
+/// meanBetween() of the shifts of these since `before` (#nodes x 3, moved positions), and onto the
+/// `target`, if not null. `normals`: of surfaceNodeNormals(), read with a target alone. Returns the
+/// ids of moved nodes, ascending.
 std::vector<Index> carryMidNodes(const BoundaryFaces& faces, const Classification& geometry,
   const ProjectionTarget* target, const Points& normals, const Points& before,
   BoundaryMotion& motion);

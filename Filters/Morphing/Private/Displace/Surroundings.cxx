@@ -106,7 +106,7 @@ std::vector<std::uint8_t> touched(const BoundaryModel& model, const Surroundings
 }
 
 /// Moves mid-side and face nodes of these roles with their corners. Otherwise the edges between
-/// moved and fixed corners would bend. A held node moves only beside a corner that is given a place.
+/// moved and fixed corners would bend. A held node moves only beside a corner with the role Moves.
 void moveBetween(const BoundaryModel& model, const std::vector<Surroundings::Role>& roles,
   Surroundings::Result& result)
 {
