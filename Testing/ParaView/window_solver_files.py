@@ -81,10 +81,16 @@ class SaveCoordinates(unittest.TestCase):
             for node, written in zip(self.model.order, axes[axis]):
                 self.assertAlmostEqual(written, self.model.points[node][axis] + shift, delta=1e-14)
 
-    def test_displacements_of_a_reader_are_refused(self):
+    def test_displacements_of_a_reader_become_coordinates(self):
         messages, out = self.save("displaced")
-        self.assertIn("If the reader has Apply Displacements on, switch it off", messages)
-        self.assertFalse(out.exists())
+        self.assertTrue(out.exists(), messages)
+        self.assertNotIn("ERR|", messages)
+        axes = self.dump(out)[1]
+        for axis, written in enumerate(axes):
+            for i, node in enumerate(self.model.order):
+                displacement = 1e-3 * (axis + 1) + 1e-5 * i
+                self.assertAlmostEqual(written[i], self.model.points[node][axis] + displacement,
+                                       delta=1e-14)
 
 
 if "MORPH_SCENE" in os.environ:
