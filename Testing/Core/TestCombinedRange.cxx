@@ -21,19 +21,10 @@ namespace
 {
 constexpr int Cases = 200;
 
-struct Case
+struct Case : RangeCase
 {
-  Mesh mesh;
   Points straight, first[2], second[2];
-  NodeMotion motion;
-  std::vector<std::int8_t> orientation;
 
-  Points at(double f) const { return pointsAt(this->motion, f); }
-  bool isValid(double f) const
-  {
-    Monitor monitor;
-    return invertedCells(this->mesh, this->at(f), this->orientation, monitor).empty();
-  }
   double searched(double far) const
   {
     return bisectedEnd([this](double f) { return this->isValid(f); }, 1, far / 2000, far);

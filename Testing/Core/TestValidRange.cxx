@@ -22,19 +22,10 @@ namespace
 {
 constexpr int Cases = 200;
 
-struct Case
+struct Case : RangeCase
 {
-  Mesh mesh;
   Points first, second;
-  NodeMotion motion;
-  std::vector<std::int8_t> orientation;
 
-  Points at(double s) const { return pointsAt(this->motion, s); }
-  bool isValid(double s) const
-  {
-    Monitor monitor;
-    return invertedCells(this->mesh, this->at(s), this->orientation, monitor).empty();
-  }
   double bisected(double sign) const
   {
     return sign * bisectedEnd([this](double s) { return this->isValid(s); }, sign, 0.005, 5);

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Quality/ScaledJacobian.h"
 #include "Quality/ValidRange.h"
 
 #include <cmath>
+#include <cstdint>
+#include <vector>
 
 /// Returns how far the interval around 0 in which `isValid(s)` holds reaches in the direction of
 /// `sign`. Finds its end by steps up to `far` and by bisection to 1e-10; infinite without an end.
@@ -42,3 +45,19 @@ inline morph::Points pointsAt(const morph::NodeMotion& motion, double s)
   }
   return points;
 }
+
+/// A motion of a mesh, of which the range is asked for.
+struct RangeCase
+{
+  morph::Mesh mesh;
+  morph::NodeMotion motion;
+  std::vector<std::int8_t> orientation;
+
+  morph::Points at(double s) const { return pointsAt(this->motion, s); }
+  /// By the measure of quality.
+  bool isValid(double s) const
+  {
+    morph::Monitor monitor;
+    return morph::invertedCells(this->mesh, this->at(s), this->orientation, monitor).empty();
+  }
+};

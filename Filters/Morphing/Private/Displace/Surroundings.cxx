@@ -450,6 +450,10 @@ void Surroundings::SmoothMeshes(const BoundaryModel& model, const std::vector<In
   const Points before = motion.displacement;
   const morph::SurfaceMeshSmoothing report =
     morph::smoothSurfaceMeshes(local.Faces(), local.Geometry(), &target, which, motion, monitor);
+  if (report.smoothed.empty())
+  {
+    return;
+  }
   const Points moved = motion.moved();
   const auto hasSlid = [&](Index here)
   { return motion.displacement.row(here) != before.row(here); };
@@ -461,7 +465,7 @@ void Surroundings::SmoothMeshes(const BoundaryModel& model, const std::vector<In
       result.Moved.row(local.Nodes()[i]) = moved.row(here);
     }
   }
-  if (which == morph::SmoothedSurfaces::All || report.smoothed.empty())
+  if (which == morph::SmoothedSurfaces::All)
   {
     return;
   }
