@@ -21,7 +21,6 @@ namespace
 namespace fs = std::filesystem;
 
 constexpr std::size_t LongestNumber = 20; // what CalculiX reads of a field
-constexpr int DeepestInclude = 20;
 
 class AbaqusFile : public TextFile
 {

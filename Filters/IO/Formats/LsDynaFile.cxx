@@ -14,8 +14,6 @@ namespace morph::io
 {
 namespace
 {
-constexpr int DeepestInclude = 20;
-
 class LsDynaFile : public TextFile
 {
 public:

@@ -14,8 +14,6 @@ namespace morph::io
 {
 namespace
 {
-constexpr int DeepestInclude = 20;
-
 /// An entry of elements: the cells by the number of its nodes, the first field of its nodes.
 struct Kind
 {

@@ -21,6 +21,8 @@ public:
 protected:
   using SolverFile::SolverFile;
 
+  static constexpr int DeepestInclude = 20;
+
   struct Part
   {
     std::string path;
