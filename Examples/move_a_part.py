@@ -22,7 +22,7 @@ def follow(mesh, **displacement):
 def lift(mesh):
     """Lifts the uppermost tenth by a twentieth of the height; sides follow, the bottom stays."""
     low, high = mesh.GetDataInformation().GetBounds()[4:]
-    boundary, morph = follow(mesh, Moving="Inside Region", Motion="Vector", Surroundings="Fade",
+    boundary, morph = follow(mesh, Moving="Region", Displacement="Vector", Surroundings="Fade",
                              FalloffRadius=0.5)
     boundary.Region = "Plane"
     boundary.Region.Origin = [0, 0, high - 0.1 * (high - low)]
@@ -49,7 +49,7 @@ def macro():
     mesh = GetActiveSource()
     if not mesh:
         raise RuntimeError("Select a volume mesh in the Pipeline Browser, and run the macro again.")
-    boundary, morph = follow(mesh, Moving="Inside Region", Surroundings="Fade")
+    boundary, morph = follow(mesh, Moving="Region", Surroundings="Fade")
     view = GetActiveViewOrCreate("RenderView")
     for source in (morph, OutputPort(morph, "Bad cells")):
         Show(source, view)

@@ -133,7 +133,7 @@ def morph(grid, displaced, method="FEMWARP", *, ids=None, allow_inverted=False, 
     method: FEMWARP, LBWARP, WeightedResidual, SimplexLinear, SimplexNaturalNeighbor, RadialBasis,
         Smoothing or InversionFree.
     ids: n point ids of the grid, 0-based, for an array of displaced points. Other boundary nodes
-        stay, unless HoldUnnamedBoundary=False.
+        stay, unless FixUnnamedBoundary=False.
     allow_inverted: return a mesh with cells that the morph has inverted or collapsed, or that came
         only part of the way, in place of raising MorphError.
     options: properties of the method's filter, by their VTK names: Validity="Repair",

@@ -65,7 +65,7 @@ class Drag:
         if upstream == "Transform":
             self.moved = simple.Transform(Input=ExtractMorphBoundary(Input=part))
         else:
-            self.moved = BoundaryDisplacement(Input=part, Moving="Inside Region", Region="Box",
+            self.moved = BoundaryDisplacement(Input=part, Moving="Region", Region="Box",
                                               Surroundings=surroundings)
             self.moved.Region.Position = [-0.1, -0.1, 0.9]
             self.moved.Region.Length = [1.2, 1.2, 0.2]

@@ -36,7 +36,7 @@ TYPE = re.compile(r"\b(?:class|struct|union|enum(?: class)?)\s+(?:alignas\(\w+\)
 PROPERTIES = """
     AlignTarget AutoCenter AutoLattice BoundaryIdArray Center Certify CoincidentPoints CornerAngle
     Displacement DisplacementArray Distance FalloffRadius FeatureAngle FeatureLines HandleRadius
-    HoldUnnamedBoundary KeepLayers LatticeBasis LatticeBounds LatticeSize LayersArray Live
+    FixUnnamedBoundary KeepLayers LatticeBasis LatticeBounds LatticeSize LayersArray Live
     MatchTolerance MaximumSubSteps Method Moving MovingArray NumberOfSteps NumberOfThreads
     OutputPointsPrecision PostSmooth PostSmoothIterations Quality RadiusChange RestTime Rotation
     Scale ScaleFactor SelectedHandles SlideRounds SoftStiffness StepMemoryLimit Stepping Stiffness

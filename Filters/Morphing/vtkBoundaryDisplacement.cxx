@@ -3,11 +3,10 @@
 
 #include "Private/Displace/Internals.h"
 #include "Private/Displace/Pick.h"
+#include "Private/Options.h"
 #include "Private/Pipeline/CrewMonitor.h"
 #include "Private/Pipeline/Execution.h"
 #include "Private/Pipeline/Input.h"
-#include "Private/Pipeline/NameSet.h"
-#include "Private/Pipeline/Property.h"
 #include "Private/Pipeline/Ranks.h"
 #include "Private/Pipeline/UpToDateInput.h"
 #include "Support/Error.h"
@@ -34,18 +33,11 @@ namespace filters = morph::filters;
 
 vtkStandardNewMacro(vtkBoundaryDisplacement);
 
-namespace
-{
-vtkMTimeType timeOf(vtkObject* object)
-{
-  return object ? object->GetMTime() : 0;
-}
-}
-
 vtkBoundaryDisplacement::vtkBoundaryDisplacement()
   : Internals(new vtkInternals)
 {
   this->Shared = this->Internals.get();
+  this->Options->Moving = morph::BoundaryDisplacementDefaults::Moving;
   this->ResetResults();
 }
 
@@ -64,7 +56,8 @@ int vtkBoundaryDisplacement::FillOutputPortInformation(int, vtkInformation* info
 
 vtkPolyData* vtkBoundaryDisplacement::GetFittedTarget()
 {
-  return this->Motion == MOTION_TARGET ? this->Internals->Fit.Surface() : nullptr;
+  return this->Options->Displacement == DISPLACEMENT_TARGET ? this->Internals->Fit.Surface()
+                                                            : nullptr;
 }
 
 void vtkBoundaryDisplacement::SetSelectionExtractor(vtkExtractSelection* extractor)
@@ -77,12 +70,12 @@ void vtkBoundaryDisplacement::SetSelectionExtractor(vtkExtractSelection* extract
   }
 }
 
-vtkDataArraySelection* vtkBoundaryDisplacement::GetPatchList()
+vtkDataArraySelection* vtkBoundaryDisplacement::GetSurfaceList()
 {
-  return this->Internals->PatchList;
+  return this->Internals->SurfaceList;
 }
 
-void vtkBoundaryDisplacement::FindPatches(
+void vtkBoundaryDisplacement::FindSurfaces(
   vtkDataObject* shown, vtkSelection* selection, vtkDataArraySelection* names)
 {
   vtkInternals& own = *this->Internals;
@@ -103,7 +96,7 @@ void vtkBoundaryDisplacement::FindPatches(
   }
 }
 
-void vtkBoundaryDisplacement::CopyPatches(vtkDataArraySelection* names, vtkPolyData* output)
+void vtkBoundaryDisplacement::CopySurfaces(vtkDataArraySelection* names, vtkPolyData* output)
 {
   const vtkInternals& own = *this->Internals;
   filters::Pick::Write(
@@ -129,21 +122,21 @@ int vtkBoundaryDisplacement::GetPickPort() const
   return this->Internals->Picker.Port;
 }
 
-vtkDataArraySelection* vtkBoundaryDisplacement::GetPickedPatches()
+vtkDataArraySelection* vtkBoundaryDisplacement::GetPickedSurfaces()
 {
   filters::Picker& picker = this->Internals->Picker;
-  this->FindPatches(picker.Shown(this), picker.Update(), picker.Names);
+  this->FindSurfaces(picker.Shown(this), picker.Update(), picker.Names);
   return picker.Names;
 }
 
-vtkStringArray* vtkBoundaryDisplacement::GetPatchSizes()
+vtkStringArray* vtkBoundaryDisplacement::GetSurfaceSizes()
 {
-  return this->Internals->PatchSizes;
+  return this->Internals->SurfaceSizes;
 }
 
-vtkDoubleArray* vtkBoundaryDisplacement::GetPatchBounds()
+vtkDoubleArray* vtkBoundaryDisplacement::GetSurfaceBounds()
 {
-  return this->Internals->PatchBounds;
+  return this->Internals->SurfaceBounds;
 }
 
 int vtkBoundaryDisplacement::GetClassifyCount() const
@@ -156,21 +149,6 @@ int vtkBoundaryDisplacement::GetPrepareCount() const
   return this->Internals->Spread.PrepareCount();
 }
 
-vtkMTimeType vtkBoundaryDisplacement::GetMTime()
-{
-  vtkMTimeType time = this->Superclass::GetMTime();
-  // An object that is not in use may change without an execution.
-  if (this->Motion == MOTION_TRANSFORM)
-  {
-    time = std::max(time, timeOf(this->Internals->Transform));
-  }
-  if (this->Moving == MOVE_REGION)
-  {
-    time = std::max(time, timeOf(this->Internals->Region));
-  }
-  return time;
-}
-
 int vtkBoundaryDisplacement::RequestInformation(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector*)
 {
@@ -180,11 +158,11 @@ int vtkBoundaryDisplacement::RequestInformation(
   {
     return 1;
   }
-  filters::Monitor monitor(nullptr, this->NumberOfThreads);
+  filters::Monitor monitor(nullptr, this->Options->NumberOfThreads);
   try
   {
     vtkDataObject* data = this->Internals->Blocks.Gather(filters::upToDateInput(this, inputVector),
-      this->CoincidentPoints, filters::GridMesh::UnknownCells::Refuse, monitor);
+      this->Options->CoincidentPoints, filters::GridMesh::UnknownCells::Refuse, monitor);
     monitor.TakeWarnings(); // the execution gives them
     auto* input = vtkPointSet::SafeDownCast(data);
     if (input && input->GetNumberOfCells() > 0)
@@ -212,18 +190,20 @@ int vtkBoundaryDisplacement::RequestData(
   vtkDataObject* control = vtkDataObject::GetData(inputVector[4]);
   vtkPolyData* output = vtkPolyData::GetData(outputVector);
   this->ResetResults();
-  filters::CrewMonitor monitor(this, this->NumberOfThreads);
+  filters::CrewMonitor monitor(this, this->Options->NumberOfThreads);
   const auto displace = [&]
   {
-    const filters::Input::Mesh mesh = filters::Input::TakeMesh(data, this->Internals->Blocks,
-      this->CoincidentPoints, filters::Input::Use::ToMorphOnRanks, this->GetClassName(), monitor);
+    const filters::Input::Mesh mesh =
+      filters::Input::TakeMesh(data, this->Internals->Blocks, this->Options->CoincidentPoints,
+        filters::Input::Use::ToMorphOnRanks, this->GetClassName(), monitor);
     vtkPointSet* input = nullptr;
     vtkPolyData* target = nullptr;
     const auto check = [&]
     {
       input =
         filters::Input::RequireGridOrPolyData(mesh.Data, "The input", this->Internals->Checked);
-      const bool fits = this->Motion == MOTION_TARGET && this->Moving != MOVE_NOTHING;
+      const bool fits = this->Options->Displacement == DISPLACEMENT_TARGET &&
+                        this->Options->Moving != MOVING_NOTHING;
       target = fits && given ? filters::Input::RequirePolyData(given, "The target") : nullptr;
       if (fits && !target && (mesh.IsDistributed || !mesh.IsElsewhere))
       {
@@ -266,7 +246,7 @@ int vtkBoundaryDisplacement::RequestData(
 
 void vtkBoundaryDisplacement::ResetResults()
 {
-  this->MovingPoints = this->HeldPoints = this->FollowingPoints = this->FreePoints = 0;
+  this->MovingPoints = this->FixedPoints = this->FollowingPoints = this->FreePoints = 0;
   this->ZonePoints = this->LayerPoints = 0;
   this->Internals->SlideReport = "None";
 }
@@ -274,18 +254,9 @@ void vtkBoundaryDisplacement::ResetResults()
 void vtkBoundaryDisplacement::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  const auto list = [&](const char* name, const filters::NameSet::Names& values)
-  { filters::NameSet::Print(os, indent, name, values); };
-  os << indent << "Moving: " << this->Moving << "\n";
-  list("Patches", this->Internals->Patches);
-  list("HeldPatches", this->Internals->HeldPatches);
-  list("SlidingPatches", this->Internals->SlidingPatches);
-  list("FreePatches", this->Internals->FreePatches);
-  os << indent << "Motion: " << this->Motion << "\n";
-  os << indent << "UnattachedMotion: " << this->UnattachedMotion << "\n";
   os << indent << "PickPort: " << this->GetPickPort() << "\n";
   os << indent << "MovingPoints: " << this->MovingPoints << "\n";
-  os << indent << "HeldPoints: " << this->HeldPoints << "\n";
+  os << indent << "FixedPoints: " << this->FixedPoints << "\n";
   os << indent << "FollowingPoints: " << this->FollowingPoints << "\n";
   os << indent << "FreePoints: " << this->FreePoints << "\n";
   os << indent << "ZonePoints: " << this->ZonePoints << "\n";
@@ -294,8 +265,3 @@ void vtkBoundaryDisplacement::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "ChooseCount: " << this->ChooseCount << "\n";
   os << indent << "PrepareCount: " << this->GetPrepareCount() << "\n";
 }
-
-morphNameSetMacro(vtkBoundaryDisplacement, Patch, Patches);
-morphNameSetMacro(vtkBoundaryDisplacement, HeldPatch, HeldPatches);
-morphNameSetMacro(vtkBoundaryDisplacement, SlidingPatch, SlidingPatches);
-morphNameSetMacro(vtkBoundaryDisplacement, FreePatch, FreePatches);

@@ -7,11 +7,11 @@
 #include "Private/Data/GridMesh.h"
 #include "Private/Data/Surface.h"
 #include "Private/Distributed/WholeSurface.h"
+#include "Private/Options.h"
 #include "Private/Pipeline/Execution.h"
 #include "Private/Pipeline/Input.h"
 #include "Private/Pipeline/Monitor.h"
 #include "Private/Pipeline/Ports.h"
-#include "Private/Pipeline/Property.h"
 #include "Private/Pipeline/Ranks.h"
 #include "Support/ProgressRange.h"
 
@@ -73,14 +73,12 @@ morph::Classification withBodies(morph::Classification geometry, morph::Index bo
 
 vtkClassifyBoundary::vtkClassifyBoundary()
   : Internals(new vtkInternals)
+  , Options(std::make_unique<morph::ClassifyBoundaryOptions>())
 {
   this->SetNumberOfOutputPorts(3);
 }
 
-vtkClassifyBoundary::~vtkClassifyBoundary()
-{
-  this->SetSurfaceIdArray(nullptr);
-}
+vtkClassifyBoundary::~vtkClassifyBoundary() = default;
 
 vtkPolyData* vtkClassifyBoundary::GetSurfaces()
 {
@@ -116,12 +114,13 @@ int vtkClassifyBoundary::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   vtkDataObject* input = vtkDataObject::GetData(inputVector[0]);
-  filters::Monitor monitor(this, this->NumberOfThreads);
+  filters::Monitor monitor(this, this->Options->NumberOfThreads);
   this->Clear(outputVector);
   const auto classify = [&]
   {
-    const filters::Input::Mesh mesh = filters::Input::TakeMesh(input, this->Internals->Blocks,
-      this->CoincidentPoints, filters::Input::Use::ToMorphOnRanks, this->GetClassName(), monitor);
+    const filters::Input::Mesh mesh =
+      filters::Input::TakeMesh(input, this->Internals->Blocks, this->Options->CoincidentPoints,
+        filters::Input::Use::ToMorphOnRanks, this->GetClassName(), monitor);
     vtkUnstructuredGrid* grid = nullptr;
     if (mesh.IsDistributed)
     {
@@ -175,11 +174,11 @@ filters::Geometry::Options vtkClassifyBoundary::vtkInternals::Options(
   const vtkClassifyBoundary* filter)
 {
   filters::Geometry::Options options;
-  options.FeatureAngle = filter->FeatureAngle;
-  options.CornerAngle = filter->CornerAngle;
-  options.FeaturesInside = filter->FeaturesInside;
-  options.SurfaceIdArray = filters::Input::ArrayName(filter->SurfaceIdArray);
-  options.UseGeometryArrays = filter->UseGeometryArrays;
+  options.FeatureAngle = filter->Options->FeatureAngle;
+  options.CornerAngle = filter->Options->CornerAngle;
+  options.FeaturesInside = filter->Options->FeaturesInside;
+  options.SurfaceIdArray = filters::Input::ArrayName(filter->Options->SurfaceIdArray);
+  options.UseGeometryArrays = filter->Options->UseGeometryArrays;
   return options;
 }
 
@@ -242,18 +241,8 @@ void vtkClassifyBoundary::Clear(vtkInformationVector* outputVector)
 void vtkClassifyBoundary::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "FeatureAngle: " << this->FeatureAngle << "\n";
-  os << indent << "CornerAngle: " << this->CornerAngle << "\n";
-  os << indent << "SurfaceIdArray: " << (this->SurfaceIdArray ? this->SurfaceIdArray : "(none)")
-     << "\n";
-  os << indent << "UseGeometryArrays: " << this->UseGeometryArrays << "\n";
-  os << indent << "FeaturesInside: " << this->FeaturesInside << "\n";
-  os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
-  os << indent << "CoincidentPoints: " << this->CoincidentPoints << "\n";
+  this->PrintOptions(os, indent);
   os << indent << "NumberOfVertices: " << this->NumberOfVertices << "\n";
   os << indent << "NumberOfCurves: " << this->NumberOfCurves << "\n";
   os << indent << "NumberOfSurfaces: " << this->NumberOfSurfaces << "\n";
 }
-
-morphSetNumberMacro(vtkClassifyBoundary, FeatureAngle, 0.0, 180.0)
-  morphSetNumberMacro(vtkClassifyBoundary, CornerAngle, 0.0, 180.0)

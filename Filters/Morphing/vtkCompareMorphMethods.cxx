@@ -9,11 +9,11 @@
 #include "Private/Data/GridMesh.h"
 #include "Private/Data/Quality.h"
 #include "Private/Distributed/OnRanks.h"
+#include "Private/Options.h"
 #include "Private/Pipeline/Follower.h"
 #include "Private/Pipeline/Input.h"
 #include "Private/Pipeline/Monitor.h"
 #include "Private/Pipeline/Ports.h"
-#include "Private/Pipeline/Property.h"
 #include "Private/Pipeline/Ranks.h"
 #include "Private/Pipeline/Steps.h"
 #include "Quality/ScaledJacobian.h"
@@ -57,13 +57,7 @@ using Pipeline = vtkStreamingDemandDrivenPipeline;
 
 vtkStandardNewMacro(vtkCompareMorphMethods);
 
-morphSetNumberMacro(vtkCompareMorphMethods, Percentile, 0.0, 100.0)
-  morphSetNumberMacro(vtkCompareMorphMethods, StiffnessExponent, 0.0, 4.0)
-    morphSetNumberMacro(vtkCompareMorphMethods, MatchTolerance, 0.0, 1.0)
-      morphSetNumberMacro(vtkCompareMorphMethods, ScaleFactor)
-        morphSetNumberMacro(vtkCompareMorphMethods, RestTime)
-
-          struct vtkCompareMorphMethods::vtkInternals
+struct vtkCompareMorphMethods::vtkInternals
 {
   filters::Ports Ports;
   filters::Steps Steps;
@@ -189,16 +183,13 @@ void follow(vtkMorphAlgorithm* filter, const std::vector<double>& times, double 
 
 vtkCompareMorphMethods::vtkCompareMorphMethods()
   : Internals(new vtkInternals(this))
+  , Options(std::make_unique<morph::CompareMorphMethodsOptions>())
 {
   this->SetNumberOfInputPorts(2);
   this->SetNumberOfOutputPorts(3);
 }
 
-vtkCompareMorphMethods::~vtkCompareMorphMethods()
-{
-  this->SetBoundaryIdArray(nullptr);
-  this->SetDisplacementArray(nullptr);
-}
+vtkCompareMorphMethods::~vtkCompareMorphMethods() = default;
 
 void vtkCompareMorphMethods::SetBoundaryConnection(vtkAlgorithmOutput* output)
 {
@@ -232,13 +223,13 @@ int vtkCompareMorphMethods::RequestUpdateExtent(
 {
   vtkInternals& kept = *this->Internals;
   vtkInformation* boundary = inputVector[1]->GetInformationObject(0);
-  kept.Steps = filters::Steps(this->NumberOfSteps, boundary);
+  kept.Steps = filters::Steps(this->Options->NumberOfSteps, boundary);
   std::optional<double> asked;
   if (kept.Steps.FromBoundary())
   {
     asked = kept.Steps.Time(0);
   }
-  return kept.Ports.RequestUpdateExtent(this->RestTime, asked, inputVector);
+  return kept.Ports.RequestUpdateExtent(this->Options->RestTime, asked, inputVector);
 }
 
 int vtkCompareMorphMethods::RequestData(
@@ -287,26 +278,27 @@ int vtkCompareMorphMethods::RequestData(
       this->Compare(grid, boundaries, onRanks, outputVector, monitor);
     };
   };
-  const filters::Ports::Task task = { "compare methods on this mesh", this->NumberOfThreads,
-    this->CoincidentPoints, reset, compare(false), {}, compare(true), true };
+  const filters::Ports::Task task = { "compare methods on this mesh",
+    this->Options->NumberOfThreads, this->Options->CoincidentPoints, reset, compare(false), {},
+    compare(true), true };
   return kept.Ports.RequestData(task, inputVector, outputVector);
 }
 
 void vtkCompareMorphMethods::Configure(vtkMorphAlgorithm* filter) const
 {
   filter->SetValidityToNone();
-  filter->SetNumberOfSteps(this->NumberOfSteps);
+  filter->SetNumberOfSteps(this->Options->NumberOfSteps);
   filter->SetStepMemoryLimit(0); // steps are taken in order
-  filter->SetBoundaryIdArray(this->BoundaryIdArray);
-  filter->SetDisplacementArray(this->DisplacementArray);
-  filter->SetScaleFactor(this->ScaleFactor);
-  filter->SetMatchTolerance(this->MatchTolerance);
-  filter->SetHoldUnnamedBoundary(this->HoldUnnamedBoundary);
-  filter->SetNumberOfThreads(this->NumberOfThreads);
+  filter->SetBoundaryIdArray(this->Options->BoundaryIdArray.c_str());
+  filter->SetDisplacementArray(this->Options->DisplacementArray.c_str());
+  filter->SetScaleFactor(this->Options->ScaleFactor);
+  filter->SetMatchTolerance(this->Options->MatchTolerance);
+  filter->SetFixUnnamedBoundary(this->Options->FixUnnamedBoundary);
+  filter->SetNumberOfThreads(this->Options->NumberOfThreads);
   if (auto* stiff = vtkFEMWarpMorph::SafeDownCast(filter))
   {
-    stiff->SetStiffness(this->Stiffness);
-    stiff->SetStiffnessExponent(this->StiffnessExponent);
+    stiff->SetStiffness(this->Options->Stiffness);
+    stiff->SetStiffnessExponent(this->Options->StiffnessExponent);
   }
 }
 
@@ -315,16 +307,16 @@ void vtkCompareMorphMethods::Compare(vtkUnstructuredGrid* grid,
   vtkInformationVector* outputVector, morph::Monitor& monitor)
 {
   const filters::RankGroup processes(groupOf(onRanks));
-  const std::pair<bool, Method> methods[] = { { this->Smoothing,
+  const std::pair<bool, Method> methods[] = { { this->Options->Smoothing,
                                                 { "Smoothing", make<vtkSmoothingMorph> } },
-    { this->WeightedResidual, { "Weighted residual", make<vtkWeightedResidualMorph> } },
-    { this->SimplexLinear, { "Simplex-linear", make<vtkSimplexLinearMorph> } },
-    { this->SimplexNaturalNeighbor,
+    { this->Options->WeightedResidual, { "Weighted residual", make<vtkWeightedResidualMorph> } },
+    { this->Options->SimplexLinear, { "Simplex-linear", make<vtkSimplexLinearMorph> } },
+    { this->Options->SimplexNaturalNeighbor,
       { "Simplex-natural neighbor", make<vtkSimplexNaturalNeighborMorph> } },
-    { this->RadialBasis, { "Radial basis", make<vtkRadialBasisMorph> } },
-    { this->FEMWARP, { "FEMWARP", make<vtkFEMWarpMorph> } },
-    { this->LBWARP, { "LBWARP", make<vtkLBWarpMorph> } },
-    { this->InversionFree, { "Inversion-free", make<vtkInversionFreeMorph> } } };
+    { this->Options->RadialBasis, { "Radial basis", make<vtkRadialBasisMorph> } },
+    { this->Options->FEMWARP, { "FEMWARP", make<vtkFEMWarpMorph> } },
+    { this->Options->LBWARP, { "LBWARP", make<vtkLBWarpMorph> } },
+    { this->Options->InversionFree, { "Inversion-free", make<vtkInversionFreeMorph> } } };
   std::vector<Method> chosen;
   for (const auto& [on, method] : methods)
   {
@@ -333,14 +325,14 @@ void vtkCompareMorphMethods::Compare(vtkUnstructuredGrid* grid,
       chosen.push_back(method);
     }
   }
-  if (chosen.empty() || !(this->Absolute || this->Relative))
+  if (chosen.empty() || !(this->Options->Absolute || this->Options->Relative))
   {
     throw morph::Error(chosen.empty() ? "No method is chosen. Switch one on."
                                       : "Neither absolute nor relative steps are chosen. Switch "
                                         "one on.");
   }
 
-  filters::Quality::ReadCriteria(this->Criteria); // an error before the work
+  filters::Quality::ReadCriteria(this->Options->Criteria); // an error before the work
   vtkInternals& kept = *this->Internals;
   const std::vector<double> times = kept.Times();
   vtkNew<filters::BoundarySeries> source;
@@ -357,12 +349,13 @@ void vtkCompareMorphMethods::Compare(vtkUnstructuredGrid* grid,
       "more than that.");
   }
   std::vector<filters::MethodRun> runs;
-  const double number = static_cast<double>(chosen.size()) * (this->Absolute + this->Relative);
+  const double number =
+    static_cast<double>(chosen.size()) * (this->Options->Absolute + this->Options->Relative);
   for (const bool relative : { false, true })
   {
-    for (const Method& method : relative         ? this->Relative ? chosen : std::vector<Method>()
-                                        : this->Absolute ? chosen
-                                                 : std::vector<Method>())
+    for (const Method& method : relative ? this->Options->Relative ? chosen : std::vector<Method>()
+                                : this->Options->Absolute ? chosen
+                                                          : std::vector<Method>())
     {
       const double done = static_cast<double>(runs.size());
       morph::ProgressRange part(monitor, done / number, (done + 1) / number);
@@ -376,7 +369,8 @@ void vtkCompareMorphMethods::Compare(vtkUnstructuredGrid* grid,
       this->Configure(filter);
       filter->SetStepping(
         relative ? vtkMorphAlgorithm::STEPPING_RELATIVE : vtkMorphAlgorithm::STEPPING_ABSOLUTE);
-      follow(filter, times, this->Percentile, this->Criteria, processes, run, part);
+      follow(
+        filter, times, this->Options->Percentile, this->Options->Criteria, processes, run, part);
       runs.push_back(std::move(run));
     }
   }
@@ -397,16 +391,6 @@ void vtkCompareMorphMethods::Compare(vtkUnstructuredGrid* grid,
   kept.BestStepping = best->Stepping;
 }
 
-void vtkCompareMorphMethods::SetCriteria(const char* text)
-{
-  const std::string criteria = text ? text : "";
-  if (criteria != this->Criteria)
-  {
-    this->Criteria = criteria;
-    this->Modified();
-  }
-}
-
 const char* vtkCompareMorphMethods::GetBestMethod() const
 {
   return this->Internals->BestMethod.c_str();
@@ -420,30 +404,7 @@ const char* vtkCompareMorphMethods::GetBestStepping() const
 void vtkCompareMorphMethods::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  const auto text = [](const char* name) { return name ? name : "(none)"; };
-  os << indent << "Smoothing: " << this->Smoothing << "\n";
-  os << indent << "WeightedResidual: " << this->WeightedResidual << "\n";
-  os << indent << "SimplexLinear: " << this->SimplexLinear << "\n";
-  os << indent << "SimplexNaturalNeighbor: " << this->SimplexNaturalNeighbor << "\n";
-  os << indent << "RadialBasis: " << this->RadialBasis << "\n";
-  os << indent << "FEMWARP: " << this->FEMWARP << "\n";
-  os << indent << "LBWARP: " << this->LBWARP << "\n";
-  os << indent << "InversionFree: " << this->InversionFree << "\n";
-  os << indent << "Absolute: " << this->Absolute << "\n";
-  os << indent << "Relative: " << this->Relative << "\n";
-  os << indent << "NumberOfSteps: " << this->NumberOfSteps << "\n";
-  os << indent << "Percentile: " << this->Percentile << "\n";
-  os << indent << "Criteria: " << this->Criteria << "\n";
-  os << indent << "Stiffness: " << this->Stiffness << "\n";
-  os << indent << "StiffnessExponent: " << this->StiffnessExponent << "\n";
-  os << indent << "BoundaryIdArray: " << text(this->BoundaryIdArray) << "\n";
-  os << indent << "DisplacementArray: " << text(this->DisplacementArray) << "\n";
-  os << indent << "ScaleFactor: " << this->ScaleFactor << "\n";
-  os << indent << "MatchTolerance: " << this->MatchTolerance << "\n";
-  os << indent << "HoldUnnamedBoundary: " << this->HoldUnnamedBoundary << "\n";
-  os << indent << "RestTime: " << this->RestTime << "\n";
-  os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
-  os << indent << "CoincidentPoints: " << this->CoincidentPoints << "\n";
+  this->PrintOptions(os, indent);
   os << indent << "BestMethod: " << this->GetBestMethod() << "\n";
   os << indent << "BestStepping: " << this->GetBestStepping() << "\n";
 }

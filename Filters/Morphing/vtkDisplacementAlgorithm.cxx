@@ -2,7 +2,7 @@
 #include "vtkDisplacementAlgorithm.h"
 
 #include "Private/Displace/SharedProperties.h"
-#include "Private/Pipeline/NameSet.h"
+#include "Private/Options.h"
 #include "Private/Pipeline/Property.h"
 
 #include <vtkInformation.h>
@@ -12,49 +12,13 @@
 
 namespace filters = morph::filters;
 
-namespace
-{
-/// Returns whether `kept` was another object.
-template <typename Object>
-bool replaced(vtkSmartPointer<Object>& kept, Object* given)
-{
-  if (kept == given)
-  {
-    return false;
-  }
-  kept = given;
-  return true;
-}
-
-template <typename List>
-bool replaced(List& kept, const List& given)
-{
-  if (kept == given)
-  {
-    return false;
-  }
-  kept = given;
-  return true;
-}
-
-vtkMTimeType timeOf(vtkObject* object)
-{
-  return object ? object->GetMTime() : 0;
-}
-}
-
 vtkDisplacementAlgorithm::vtkDisplacementAlgorithm()
+  : Options(std::make_unique<morph::DisplacementOptions>())
 {
   this->SetNumberOfInputPorts(5);
 }
 
-vtkDisplacementAlgorithm::~vtkDisplacementAlgorithm()
-{
-  this->SetMovingArray(nullptr);
-  this->SetLayersArray(nullptr);
-  this->SetDisplacementArray(nullptr);
-  this->SetSurfaceIdArray(nullptr);
-}
+vtkDisplacementAlgorithm::~vtkDisplacementAlgorithm() = default;
 
 int vtkDisplacementAlgorithm::FillInputPortInformation(int port, vtkInformation* info)
 {
@@ -70,13 +34,14 @@ int vtkDisplacementAlgorithm::FillInputPortInformation(int port, vtkInformation*
 
 vtkMTimeType vtkDisplacementAlgorithm::GetMTime()
 {
-  vtkMTimeType time = this->Superclass::GetMTime();
   // An object that is not in use may change without an execution.
-  if (this->ZoneRegionType != ZONE_NONE)
-  {
-    time = std::max(time, timeOf(this->Shared->ZoneRegion));
-  }
-  return std::max(time, timeOf(this->Shared->RigidTransform));
+  const auto ofUsed = [](bool isUsed, vtkObject* object)
+  { return isUsed && object ? object->GetMTime() : 0; };
+  return std::max({ this->Superclass::GetMTime(),
+    ofUsed(this->Options->ZoneRegionType != ZONE_NONE, this->Shared->ZoneRegion),
+    ofUsed(this->Options->Displacement == DISPLACEMENT_TRANSFORM, this->Shared->Transform),
+    ofUsed(this->Options->Moving == MOVING_REGION, this->Shared->Region),
+    ofUsed(true, this->Shared->RigidTransform) });
 }
 
 void vtkDisplacementAlgorithm::SetSelectionConnection(vtkAlgorithmOutput* output)
@@ -121,23 +86,17 @@ void vtkDisplacementAlgorithm::SetControlPointsData(vtkDataObject* points)
 
 void vtkDisplacementAlgorithm::SetSelectionExtractor(vtkExtractSelection* extractor)
 {
-  if (replaced(this->Shared->Extractor, extractor))
-  {
-    this->Modified();
-  }
+  filters::Property::Set(this, this->Shared->Extractor, extractor);
 }
 
-#define morphObjectMacro(name, type)                     \
-  void vtkDisplacementAlgorithm::Set##name(type* object) \
-  {                                                      \
-    if (replaced(this->Shared->name, object))            \
-    {                                                    \
-      this->Modified();                                  \
-    }                                                    \
-  }                                                      \
-  type* vtkDisplacementAlgorithm::Get##name()            \
-  {                                                      \
-    return this->Shared->name;                           \
+#define morphObjectMacro(name, type)                          \
+  void vtkDisplacementAlgorithm::Set##name(type* object)      \
+  {                                                           \
+    filters::Property::Set(this, this->Shared->name, object); \
+  }                                                           \
+  type* vtkDisplacementAlgorithm::Get##name()                 \
+  {                                                           \
+    return this->Shared->name;                                \
   }
 morphObjectMacro(Region, vtkImplicitFunction);
 morphObjectMacro(ZoneRegion, vtkImplicitFunction);
@@ -147,26 +106,6 @@ morphObjectMacro(RigidTransform, vtkAbstractTransform);
 const char* vtkDisplacementAlgorithm::GetSlideReport() const
 {
   return this->Shared->SlideReport.c_str();
-}
-
-void vtkDisplacementAlgorithm::SetZoneRegionType(int type)
-{
-  const int known = std::clamp(type, int(ZONE_NONE), this->LargestZoneType);
-  if (this->ZoneRegionType != known)
-  {
-    this->ZoneRegionType = known;
-    this->Modified();
-  }
-}
-
-void vtkDisplacementAlgorithm::SetZoneSelectionType(int type)
-{
-  const int known = std::clamp(type, int(ZONE_NONE), this->LargestZoneType);
-  if (this->ZoneSelectionType != known)
-  {
-    this->ZoneSelectionType = known;
-    this->Modified();
-  }
 }
 
 void vtkDisplacementAlgorithm::AddHandle(
@@ -184,10 +123,7 @@ void vtkDisplacementAlgorithm::AddHandle(const double v[7])
 
 void vtkDisplacementAlgorithm::RemoveAllHandles()
 {
-  if (replaced(this->Shared->Handles, {}))
-  {
-    this->Modified();
-  }
+  filters::Property::Set(this, this->Shared->Handles, {});
 }
 
 int vtkDisplacementAlgorithm::GetNumberOfHandles() const
@@ -209,10 +145,7 @@ void vtkDisplacementAlgorithm::AddLatticeDisplacement(const double v[6])
 
 void vtkDisplacementAlgorithm::RemoveAllLatticeDisplacements()
 {
-  if (replaced(this->Shared->LatticeDisplacements, {}))
-  {
-    this->Modified();
-  }
+  filters::Property::Set(this, this->Shared->LatticeDisplacements, {});
 }
 
 int vtkDisplacementAlgorithm::GetNumberOfLatticeDisplacements() const
@@ -220,182 +153,40 @@ int vtkDisplacementAlgorithm::GetNumberOfLatticeDisplacements() const
   return static_cast<int>(this->Shared->LatticeDisplacements.size());
 }
 
-void vtkDisplacementAlgorithm::SetLatticeSize(int l, int m, int n)
+void vtkDisplacementAlgorithm::TakeDisplacement(
+  const morph::DisplacementOptions& options, const vtkShared& objects)
 {
-  const int size[3] = { std::clamp(l, 2, 30), std::clamp(m, 2, 30), std::clamp(n, 2, 30) };
-  if (!std::equal(size, size + 3, this->LatticeSize))
-  {
-    std::copy(size, size + 3, this->LatticeSize);
-    this->Modified();
-  }
-}
-
-void vtkDisplacementAlgorithm::SetLatticeSize(const int size[3])
-{
-  this->SetLatticeSize(size[0], size[1], size[2]);
-}
-
-void vtkDisplacementAlgorithm::SetLatticeBounds(
-  double xmin, double xmax, double ymin, double ymax, double zmin, double zmax)
-{
-  const double bounds[6] = { xmin, xmax, ymin, ymax, zmin, zmax };
-  for (int i = 0; i < 6; ++i)
-  {
-    if (!filters::Property::Accepts(this, "LatticeBounds", bounds[i], this->LatticeBounds[i]))
-    {
-      return;
-    }
-  }
-  if (!std::equal(bounds, bounds + 6, this->LatticeBounds))
-  {
-    std::copy(bounds, bounds + 6, this->LatticeBounds);
-    this->Modified();
-  }
-}
-
-void vtkDisplacementAlgorithm::SetLatticeBounds(const double b[6])
-{
-  this->SetLatticeBounds(b[0], b[1], b[2], b[3], b[4], b[5]);
-}
-
-void vtkDisplacementAlgorithm::CopyDisplacement(vtkDisplacementAlgorithm* from)
-{
-  vtkShared& own = *this->Shared;
-  const vtkShared& theirs = *from->Shared;
-  bool isNew = replaced(own.FrozenZones, theirs.FrozenZones);
-  isNew = replaced(own.RigidZones, theirs.RigidZones) || isNew;
-  isNew = replaced(own.Handles, theirs.Handles) || isNew;
-  isNew = replaced(own.LatticeDisplacements, theirs.LatticeDisplacements) || isNew;
-  if (isNew)
-  {
-    this->Modified();
-  }
-  this->SetSelectionExtractor(theirs.Extractor);
-  this->SetRegion(theirs.Region);
-  this->SetZoneRegion(theirs.ZoneRegion);
-  this->SetTransform(theirs.Transform);
-  this->SetRigidTransform(theirs.RigidTransform);
-  // Soft zones prescribe nothing.
-  const auto prescribed = [](int type) { return type == ZONE_SOFT ? int(ZONE_NONE) : type; };
-  this->SetZoneRegionType(prescribed(from->ZoneRegionType));
-  this->SetZoneSelectionType(prescribed(from->ZoneSelectionType));
-  this->SetMovingArray(from->MovingArray);
-  this->SetKeepLayers(from->KeepLayers);
-  this->SetLayersArray(from->LayersArray);
-  this->SetVector(from->Vector);
-  this->SetDistance(from->Distance);
-  this->SetDisplacementArray(from->DisplacementArray);
-  this->SetTranslation(from->Translation);
-  this->SetRotation(from->Rotation);
-  this->SetScale(from->Scale);
-  this->SetAutoCenter(from->AutoCenter);
-  this->SetCenter(from->Center);
-  this->SetTransformAboutCenter(from->TransformAboutCenter);
-  this->SetRadiusChange(from->RadiusChange);
-  this->SetAlignTarget(from->AlignTarget);
-  this->SetTargetReach(from->TargetReach);
-  this->SetTargetAngle(from->TargetAngle);
-  this->SetProjectAlong(from->ProjectAlong);
-  this->SetProjectVector(from->ProjectVector);
-  this->SetSelectedHandles(from->SelectedHandles);
-  this->SetHandleRadius(from->HandleRadius);
-  this->SetLatticeBasis(from->LatticeBasis);
-  this->SetLatticeSize(from->LatticeSize);
-  this->SetAutoLattice(from->AutoLattice);
-  this->SetLatticeBounds(from->LatticeBounds);
-  this->SetScaleFactor(from->ScaleFactor);
-  this->SetSurroundings(from->Surroundings);
-  this->SetSurfaceMethod(from->SurfaceMethod);
-  this->SetFalloffRadius(from->FalloffRadius);
-  this->SetSlideRounds(from->SlideRounds);
-  this->SetFeatureAngle(from->FeatureAngle);
-  this->SetCornerAngle(from->CornerAngle);
-  this->SetSurfaceIdArray(from->SurfaceIdArray);
-  this->SetUseGeometryArrays(from->UseGeometryArrays);
-  this->SetNumberOfThreads(from->NumberOfThreads);
-  this->SetCoincidentPoints(from->CoincidentPoints);
+  filters::Property::Set(this, *this->Options, options);
+  this->SetSelectionExtractor(objects.Extractor);
+  this->SetRegion(objects.Region);
+  this->SetZoneRegion(objects.ZoneRegion);
+  this->SetTransform(objects.Transform);
+  this->SetRigidTransform(objects.RigidTransform);
+  filters::Property::Set(this, this->Shared->Handles, objects.Handles);
+  filters::Property::Set(this, this->Shared->LatticeDisplacements, objects.LatticeDisplacements);
 }
 
 void vtkDisplacementAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   const vtkShared& own = *this->Shared;
-  const auto text = [](const char* name) { return name ? name : "(none)"; };
-  const auto numbers = [&](const char* name, const auto* v, int count)
+  this->PrintOptions(os, indent);
+  os << indent << "ZoneRegion: " << own.ZoneRegion.Get() << "\n";
+  os << indent << "RigidTransform: " << own.RigidTransform.Get() << "\n";
+  os << indent << "Region: " << own.Region.Get() << "\n";
+  os << indent << "Transform: " << own.Transform.Get() << "\n";
+  const auto lists = [&](const char* name, const auto& values)
   {
-    os << indent << name << ": ";
-    for (int i = 0; i < count; ++i)
+    os << indent << name << ":";
+    for (const auto& one : values)
     {
-      os << (i > 0 ? " " : "") << v[i];
+      for (const double number : one)
+      {
+        os << " " << number;
+      }
     }
     os << "\n";
   };
-  filters::NameSet::Print(os, indent, "FrozenZones", own.FrozenZones);
-  filters::NameSet::Print(os, indent, "RigidZones", own.RigidZones);
-  os << indent << "ZoneRegion: " << own.ZoneRegion.Get() << "\n";
-  os << indent << "ZoneRegionType: " << this->ZoneRegionType << "\n";
-  os << indent << "ZoneSelectionType: " << this->ZoneSelectionType << "\n";
-  os << indent << "RigidTransform: " << own.RigidTransform.Get() << "\n";
-  os << indent << "KeepLayers: " << this->KeepLayers << "\n";
-  os << indent << "LayersArray: " << text(this->LayersArray) << "\n";
-  os << indent << "Region: " << own.Region.Get() << "\n";
-  os << indent << "MovingArray: " << text(this->MovingArray) << "\n";
-  os << indent << "Transform: " << own.Transform.Get() << "\n";
-  numbers("Vector", this->Vector, 3);
-  os << indent << "Distance: " << this->Distance << "\n";
-  os << indent << "DisplacementArray: " << text(this->DisplacementArray) << "\n";
-  numbers("Translation", this->Translation, 3);
-  numbers("Rotation", this->Rotation, 3);
-  numbers("Scale", this->Scale, 3);
-  os << indent << "AutoCenter: " << this->AutoCenter << "\n";
-  numbers("Center", this->Center, 3);
-  os << indent << "TransformAboutCenter: " << this->TransformAboutCenter << "\n";
-  os << indent << "RadiusChange: " << this->RadiusChange << "\n";
-  os << indent << "AlignTarget: " << this->AlignTarget << "\n";
-  os << indent << "TargetReach: " << this->TargetReach << "\n";
-  os << indent << "TargetAngle: " << this->TargetAngle << "\n";
-  os << indent << "ProjectAlong: " << this->ProjectAlong << "\n";
-  numbers("ProjectVector", this->ProjectVector, 3);
-  // A std::vector of arrays of numbers has them without gaps.
-  numbers("Handles", own.Handles.empty() ? nullptr : own.Handles.front().data(),
-    7 * this->GetNumberOfHandles());
-  os << indent << "SelectedHandles: " << this->SelectedHandles << "\n";
-  os << indent << "HandleRadius: " << this->HandleRadius << "\n";
-  os << indent << "LatticeBasis: " << this->LatticeBasis << "\n";
-  numbers("LatticeSize", this->LatticeSize, 3);
-  os << indent << "AutoLattice: " << this->AutoLattice << "\n";
-  numbers("LatticeBounds", this->LatticeBounds, 6);
-  numbers("LatticeDisplacements",
-    own.LatticeDisplacements.empty() ? nullptr : own.LatticeDisplacements.front().data(),
-    6 * this->GetNumberOfLatticeDisplacements());
-  os << indent << "ScaleFactor: " << this->ScaleFactor << "\n";
-  os << indent << "Surroundings: " << this->Surroundings << "\n";
-  os << indent << "SurfaceMethod: " << this->SurfaceMethod << "\n";
-  os << indent << "FalloffRadius: " << this->FalloffRadius << "\n";
-  os << indent << "SlideRounds: " << this->SlideRounds << "\n";
-  os << indent << "FeatureAngle: " << this->FeatureAngle << "\n";
-  os << indent << "CornerAngle: " << this->CornerAngle << "\n";
-  os << indent << "SurfaceIdArray: " << text(this->SurfaceIdArray) << "\n";
-  os << indent << "UseGeometryArrays: " << this->UseGeometryArrays << "\n";
-  os << indent << "OutputPointsPrecision: " << this->OutputPointsPrecision << "\n";
-  os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
-  os << indent << "CoincidentPoints: " << this->CoincidentPoints << "\n";
+  lists("Handles", own.Handles);
+  lists("LatticeDisplacements", own.LatticeDisplacements);
 }
-
-morphNameSetOfMacro(vtkDisplacementAlgorithm, Shared, FrozenZone, FrozenZones);
-morphNameSetOfMacro(vtkDisplacementAlgorithm, Shared, RigidZone, RigidZones);
-morphSetNumberMacro(vtkDisplacementAlgorithm, Distance);
-morphSetNumberMacro(vtkDisplacementAlgorithm, ScaleFactor);
-morphSetNumberMacro(vtkDisplacementAlgorithm, RadiusChange);
-morphSetNumberMacro(vtkDisplacementAlgorithm, HandleRadius, 0.0, 1e50);
-morphSetNumberMacro(vtkDisplacementAlgorithm, TargetReach, 0.0, 10.0);
-morphSetNumberMacro(vtkDisplacementAlgorithm, TargetAngle, 0.0, 180.0);
-morphSetNumberMacro(vtkDisplacementAlgorithm, FalloffRadius, 0.0, 10.0);
-morphSetNumberMacro(vtkDisplacementAlgorithm, FeatureAngle, 0.0, 180.0);
-morphSetNumberMacro(vtkDisplacementAlgorithm, CornerAngle, 0.0, 180.0);
-morphSetVectorMacro(vtkDisplacementAlgorithm, Vector);
-morphSetVectorMacro(vtkDisplacementAlgorithm, ProjectVector);
-morphSetVectorMacro(vtkDisplacementAlgorithm, Translation);
-morphSetVectorMacro(vtkDisplacementAlgorithm, Rotation);
-morphSetVectorMacro(vtkDisplacementAlgorithm, Scale);
-morphSetVectorMacro(vtkDisplacementAlgorithm, Center);

@@ -6,6 +6,7 @@
 #include "Private/Data/GridMesh.h"
 #include "Private/Data/Surface.h"
 #include "Private/Distributed/OnRanks.h"
+#include "Private/Options.h"
 #include "Private/Pipeline/Execution.h"
 #include "Private/Pipeline/Input.h"
 #include "Private/Pipeline/Monitor.h"
@@ -31,6 +32,7 @@ public:
 
 vtkExtractMorphBoundary::vtkExtractMorphBoundary()
   : Internals(new vtkInternals)
+  , Options(std::make_unique<morph::ExtractMorphBoundaryOptions>())
 {
 }
 
@@ -48,11 +50,12 @@ int vtkExtractMorphBoundary::RequestData(
 {
   vtkDataObject* input = vtkDataObject::GetData(inputVector[0]);
   vtkPolyData* output = vtkPolyData::GetData(outputVector);
-  filters::Monitor monitor(this, this->NumberOfThreads);
+  filters::Monitor monitor(this, this->Options->NumberOfThreads);
   const auto extract = [&]
   {
-    const filters::Input::Mesh mesh = filters::Input::TakeMesh(input, this->Internals->Blocks,
-      this->CoincidentPoints, filters::Input::Use::ToMorphOnRanks, this->GetClassName(), monitor);
+    const filters::Input::Mesh mesh =
+      filters::Input::TakeMesh(input, this->Internals->Blocks, this->Options->CoincidentPoints,
+        filters::Input::Use::ToMorphOnRanks, this->GetClassName(), monitor);
     if (mesh.IsDistributed)
     {
       vtkUnstructuredGrid* piece = nullptr;
@@ -92,6 +95,5 @@ void vtkExtractMorphBoundary::Extract(
 void vtkExtractMorphBoundary::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
-  os << indent << "CoincidentPoints: " << this->CoincidentPoints << "\n";
+  this->PrintOptions(os, indent);
 }

@@ -3,8 +3,8 @@
 
 #include "LinearMethods/FemWarp.h"
 #include "Private/Data/Surface.h"
+#include "Private/Options.h"
 #include "Private/Pipeline/Input.h"
-#include "Private/Pipeline/Property.h"
 #include "Support/Error.h"
 
 #include <vtkCellData.h>
@@ -82,19 +82,13 @@ void multiply(vtkDataArray* by, vtkIdType cells, std::vector<double>& values)
 
 vtkStandardNewMacro(vtkFEMWarpMorph);
 
-morphSetNumberMacro(vtkFEMWarpMorph, Tolerance, 1e-15, 0.999);
-morphSetNumberMacro(vtkFEMWarpMorph, StiffnessExponent, 0.0, 4.0);
-
 vtkFEMWarpMorph::vtkFEMWarpMorph()
   : Taken(new vtkTaken)
+  , Options(std::make_unique<morph::FEMWarpMorphOptions>())
 {
 }
 
-vtkFEMWarpMorph::~vtkFEMWarpMorph()
-{
-  this->SetStiffnessArray(nullptr);
-  this->SetWallArray(nullptr);
-}
+vtkFEMWarpMorph::~vtkFEMWarpMorph() = default;
 
 void vtkFEMWarpMorph::SetStiffnessValues(vtkDataArray* values)
 {
@@ -108,10 +102,10 @@ void vtkFEMWarpMorph::SetStiffnessValues(vtkDataArray* values)
 void vtkFEMWarpMorph::TakeInputs(vtkUnstructuredGrid* rest, vtkDataObject* boundary)
 {
   morph::CellStiffness next;
-  next.kind = static_cast<morph::CellStiffness::Kind>(this->Stiffness);
-  next.exponent = this->StiffnessExponent;
+  next.kind = static_cast<morph::CellStiffness::Kind>(this->Options->Stiffness);
+  next.exponent = this->Options->StiffnessExponent;
   const vtkIdType cells = rest->GetNumberOfCells(), nodes = rest->GetNumberOfPoints();
-  const std::string name = filters::Input::ArrayName(this->StiffnessArray);
+  const std::string name = filters::Input::ArrayName(this->Options->StiffnessArray);
   if (cells > 0 && !name.empty()) // a rank without cells has no arrays
   {
     multiply(require(rest->GetCellData(), name, cells, "StiffnessArray"), cells, next.values);
@@ -120,9 +114,9 @@ void vtkFEMWarpMorph::TakeInputs(vtkUnstructuredGrid* rest, vtkDataObject* bound
   {
     multiply(this->StiffnessValues, cells, next.values);
   }
-  if (this->Stiffness == STIFFNESS_WALL_DISTANCE)
+  if (this->Options->Stiffness == STIFFNESS_WALL_DISTANCE)
   {
-    const std::string walls = filters::Input::ArrayName(this->WallArray);
+    const std::string walls = filters::Input::ArrayName(this->Options->WallArray);
     if (walls.empty())
     {
       next.walls = movingNodes(boundary);
@@ -168,25 +162,20 @@ std::string vtkFEMWarpMorph::PrepareOptions()
 
 void vtkFEMWarpMorph::SetEvaluateOptions(morph::Morpher& morpher)
 {
-  static_cast<morph::FemWarp&>(morpher).setTolerance(this->Tolerance);
+  static_cast<morph::FemWarp&>(morpher).setTolerance(this->Options->Tolerance);
 }
 
 std::string vtkFEMWarpMorph::EvaluateOptions()
 {
   std::ostringstream text;
   text.precision(17);
-  text << this->Tolerance;
+  text << this->Options->Tolerance;
   return text.str();
 }
 
 void vtkFEMWarpMorph::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  const auto text = [](const char* name) { return name ? name : "(none)"; };
-  os << indent << "Tolerance: " << this->Tolerance << "\n";
-  os << indent << "Stiffness: " << this->Stiffness << "\n";
-  os << indent << "StiffnessExponent: " << this->StiffnessExponent << "\n";
-  os << indent << "StiffnessArray: " << text(this->StiffnessArray) << "\n";
-  os << indent << "WallArray: " << text(this->WallArray) << "\n";
+  this->PrintOptions(os, indent);
   os << indent << "StiffnessValues: " << this->StiffnessValues.Get() << "\n";
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkInversionFreeMorph.h"
 
+#include "Private/Options.h"
 #include "Untangling/InversionFree.h"
 
 #include <vtkObjectFactory.h>
@@ -8,9 +9,10 @@
 vtkStandardNewMacro(vtkInversionFreeMorph);
 
 vtkInversionFreeMorph::vtkInversionFreeMorph()
+  : Options(std::make_unique<morph::InversionFreeMorphOptions>())
 {
-  this->Validity = VALIDITY_SUB_STEP;
-  this->Certify = true;
+  this->SetValidity(morph::InversionFreeMorphDefaults::Validity);
+  this->SetCertify(morph::InversionFreeMorphDefaults::Certify);
 }
 
 vtkInversionFreeMorph::~vtkInversionFreeMorph() = default;
@@ -24,11 +26,11 @@ void vtkInversionFreeMorph::SetEvaluateOptions(morph::Morpher& morpher)
 {
   using Steps = morph::RaisingSteps;
   constexpr int steps[] = { Steps::Quick, Steps::Default, Steps::Thorough };
-  static_cast<morph::InversionFree&>(morpher).setSteps(steps[this->Effort]);
+  static_cast<morph::InversionFree&>(morpher).setSteps(steps[this->Options->Effort]);
 }
 
 void vtkInversionFreeMorph::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "Effort: " << this->Effort << "\n";
+  this->PrintOptions(os, indent);
 }

@@ -2,7 +2,7 @@
 #include "vtkLBWarpMorph.h"
 
 #include "LinearMethods/LogBarrierWarp.h"
-#include "Private/Pipeline/Property.h"
+#include "Private/Options.h"
 
 #include <vtkObjectFactory.h>
 
@@ -10,15 +10,17 @@
 
 vtkStandardNewMacro(vtkLBWarpMorph);
 
-morphSetNumberMacro(vtkLBWarpMorph, Tolerance, 1e-15, 0.999)
+vtkLBWarpMorph::vtkLBWarpMorph()
+  : Options(std::make_unique<morph::LBWarpMorphOptions>())
+{
+}
 
-  vtkLBWarpMorph::vtkLBWarpMorph() = default;
 vtkLBWarpMorph::~vtkLBWarpMorph() = default;
 
 std::unique_ptr<morph::Morpher> vtkLBWarpMorph::CreateMorpher()
 {
   auto morpher = std::make_unique<morph::LogBarrierWarp>();
-  morpher->setOutsideHull(this->OutsideHull == OUTSIDE_HULL_RELAX
+  morpher->setOutsideHull(this->Options->OutsideHull == OUTSIDE_HULL_RELAX
                             ? morph::LogBarrierWarp::OutsideHull::Relax
                             : morph::LogBarrierWarp::OutsideHull::Error);
   return morpher;
@@ -26,25 +28,24 @@ std::unique_ptr<morph::Morpher> vtkLBWarpMorph::CreateMorpher()
 
 std::string vtkLBWarpMorph::PrepareOptions()
 {
-  return std::to_string(this->OutsideHull);
+  return std::to_string(this->Options->OutsideHull);
 }
 
 void vtkLBWarpMorph::SetEvaluateOptions(morph::Morpher& morpher)
 {
-  static_cast<morph::LogBarrierWarp&>(morpher).setTolerance(this->Tolerance);
+  static_cast<morph::LogBarrierWarp&>(morpher).setTolerance(this->Options->Tolerance);
 }
 
 std::string vtkLBWarpMorph::EvaluateOptions()
 {
   std::ostringstream text;
   text.precision(17);
-  text << this->Tolerance;
+  text << this->Options->Tolerance;
   return text.str();
 }
 
 void vtkLBWarpMorph::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "Tolerance: " << this->Tolerance << "\n";
-  os << indent << "OutsideHull: " << this->OutsideHull << "\n";
+  this->PrintOptions(os, indent);
 }

@@ -76,7 +76,7 @@ int vtkListedSurfaces::RequestData(
   }
   else if (auto* displacement = vtkBoundaryDisplacement::SafeDownCast(this->Filter))
   {
-    displacement->CopyPatches(this->Names, output);
+    displacement->CopySurfaces(this->Names, output);
   }
   return 1;
 }

@@ -3,6 +3,7 @@
 
 #include "Private/Data/DataCheck.h"
 #include "Private/Data/GridMesh.h"
+#include "Private/Options.h"
 #include "Private/Pipeline/Input.h"
 #include "Private/Pipeline/Monitor.h"
 #include "Private/Pipeline/Ports.h"
@@ -92,14 +93,12 @@ vtkDataArray* requireGradient(vtkPointSet* carrier, const std::string& name)
 
 vtkMorphAdjoint::vtkMorphAdjoint()
   : Internals(new vtkInternals{ filters::Ports(this) })
+  , Options(std::make_unique<morph::MorphAdjointOptions>())
 {
   this->SetNumberOfInputPorts(3);
 }
 
-vtkMorphAdjoint::~vtkMorphAdjoint()
-{
-  this->SetGradientArray(nullptr);
-}
+vtkMorphAdjoint::~vtkMorphAdjoint() = default;
 
 void vtkMorphAdjoint::SetBoundaryConnection(vtkAlgorithmOutput* output)
 {
@@ -214,7 +213,7 @@ int vtkMorphAdjoint::RequestData(
     [] {},
     [&](vtkUnstructuredGrid* rest, vtkDataObject* boundary, filters::Monitor& monitor)
     {
-      const std::string name = filters::Input::ArrayName(this->GradientArray);
+      const std::string name = filters::Input::ArrayName(this->Options->GradientArray);
       vtkDataObject* holder =
         carrier ? this->Internals->Ports.AsOne(carrier, "The gradient's data set", name.c_str())
                 : rest;
@@ -269,7 +268,7 @@ void vtkMorphAdjoint::ExecuteShapes(vtkMorphShapes* shapes, vtkUnstructuredGrid*
       carrier == rest ? rest : filters::Input::RequirePointSet(carrier, "The gradient's data set");
     if (!onRanks || rest->GetNumberOfPoints() > 0) // a rank without points has no arrays
     {
-      gradient = requireGradient(holder, filters::Input::ArrayName(this->GradientArray));
+      gradient = requireGradient(holder, filters::Input::ArrayName(this->Options->GradientArray));
     }
   };
   filters::RankGroup(onRanks ? filters::RankGroup::Of::All : filters::RankGroup::Of::One)
@@ -306,7 +305,7 @@ void vtkMorphAdjoint::Execute(vtkMorphAlgorithm* morph, vtkUnstructuredGrid* res
       carrier == rest ? rest : filters::Input::RequirePointSet(carrier, "The gradient's data set");
     if (!onRanks || rest->GetNumberOfPoints() > 0) // a rank without points has no arrays
     {
-      gradient = requireGradient(holder, filters::Input::ArrayName(this->GradientArray));
+      gradient = requireGradient(holder, filters::Input::ArrayName(this->Options->GradientArray));
     }
     // With a DisplacementArray the method does not use the points, but the output has them.
     if (const auto wrong =
@@ -339,6 +338,5 @@ void vtkMorphAdjoint::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Morph: " << (this->Morph ? this->Morph->GetClassName() : "(none)") << "\n";
   os << indent << "MorphShapes: " << (this->MorphShapes ? "set" : "(none)") << "\n";
-  os << indent << "GradientArray: " << (this->GradientArray ? this->GradientArray : "(none)")
-     << "\n";
+  this->PrintOptions(os, indent);
 }

@@ -9,11 +9,11 @@
 #include "Private/Morph/MorphOutput.h"
 #include "Private/Morph/Session.h"
 #include "Private/Morph/Validity.h"
+#include "Private/Options.h"
 #include "Private/Pipeline/CrewMonitor.h"
 #include "Private/Pipeline/Execution.h"
 #include "Private/Pipeline/Input.h"
 #include "Private/Pipeline/Ports.h"
-#include "Private/Pipeline/Property.h"
 #include "Private/Pipeline/Ranks.h"
 #include "Private/Pipeline/Steps.h"
 #include "Support/Error.h"
@@ -60,11 +60,15 @@ public:
   {
   }
 
-  bool IsSeries() const { return this->Filter->Stepping == STEPPING_RELATIVE && this->Steps.Any(); }
+  bool IsSeries() const
+  {
+    return this->Filter->Options->Stepping == STEPPING_RELATIVE && this->Steps.Any();
+  }
   /// Whether all cells are measured. What a valid mesh needs comes before Quality.
   bool MeasuresAll() const
   {
-    return this->Filter->Quality == QUALITY_ALL || this->Filter->Validity >= VALIDITY_SUB_STEP;
+    return this->Filter->Options->Quality == QUALITY_ALL ||
+           this->Filter->Options->Validity >= VALIDITY_SUB_STEP;
   }
   filters::Session::Options Options(vtkUnstructuredGrid* grid, vtkDataObject* boundary) const;
   /// Returns an error that comes with a result, or nothing.
@@ -88,24 +92,16 @@ private:
     vtkPointSet* displaced, const filters::Session::Options& options, morph::Monitor& monitor);
 };
 
-morphSetNumberMacro(vtkMorphAlgorithm, StepMemoryLimit, 0.0, 1e12)
-  morphSetNumberMacro(vtkMorphAlgorithm, MatchTolerance, 0.0, 1.0)
-    morphSetNumberMacro(vtkMorphAlgorithm, ScaleFactor)
-      morphSetNumberMacro(vtkMorphAlgorithm, RestTime)
-
-        vtkMorphAlgorithm::vtkMorphAlgorithm()
+vtkMorphAlgorithm::vtkMorphAlgorithm()
   : Internals(new vtkInternals(this))
+  , Options(std::make_unique<morph::MorphOptions>())
 {
   this->SetNumberOfInputPorts(2);
   this->SetNumberOfOutputPorts(3);
   this->Internals->Results.Reset();
 }
 
-vtkMorphAlgorithm::~vtkMorphAlgorithm()
-{
-  this->SetBoundaryIdArray(nullptr);
-  this->SetDisplacementArray(nullptr);
-}
+vtkMorphAlgorithm::~vtkMorphAlgorithm() = default;
 
 void vtkMorphAlgorithm::SetBoundaryConnection(vtkAlgorithmOutput* output)
 {
@@ -138,7 +134,7 @@ int vtkMorphAlgorithm::RequestInformation(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   const int done = filters::Ports::RequestInformation(inputVector, outputVector);
-  const filters::Steps steps(this->NumberOfSteps, inputVector[1]->GetInformationObject(0));
+  const filters::Steps steps(this->Options->NumberOfSteps, inputVector[1]->GetInformationObject(0));
   for (int port = 0; port < this->GetNumberOfOutputPorts(); ++port)
   {
     steps.Write(outputVector->GetInformationObject(port));
@@ -153,7 +149,7 @@ int vtkMorphAlgorithm::RequestUpdateExtent(
   vtkInformation* boundary = inputVector[1]->GetInformationObject(0);
   vtkInformation* asked = filters::Ports::Asked(request, outputVector);
   std::optional<double> time = filters::Ports::AskedTime(asked);
-  kept.Steps = filters::Steps(this->NumberOfSteps, boundary);
+  kept.Steps = filters::Steps(this->Options->NumberOfSteps, boundary);
   kept.Step = kept.Steps.Asked(asked);
   kept.BoundaryStep = kept.Step;
   if (kept.IsSeries())
@@ -180,7 +176,7 @@ int vtkMorphAlgorithm::RequestUpdateExtent(
   {
     time.reset(); // it is not the boundary's
   }
-  return kept.Ports.RequestUpdateExtent(this->RestTime, time, inputVector);
+  return kept.Ports.RequestUpdateExtent(this->Options->RestTime, time, inputVector);
 }
 
 int vtkMorphAlgorithm::RequestData(
@@ -203,8 +199,8 @@ int vtkMorphAlgorithm::RequestData(
       throw;
     }
   };
-  const filters::Ports::Task task = { "morph this mesh", this->NumberOfThreads,
-    this->CoincidentPoints, [&] { kept.Results.Reset(); },
+  const filters::Ports::Task task = { "morph this mesh", this->Options->NumberOfThreads,
+    this->Options->CoincidentPoints, [&] { kept.Results.Reset(); },
     [&](vtkUnstructuredGrid* grid, vtkDataObject* boundary, filters::Monitor& monitor)
     {
       noteInfeasible(
@@ -259,18 +255,19 @@ filters::Session::Options vtkMorphAlgorithm::vtkInternals::Options(
   filter->TakeInputs(grid, boundary);
   filters::Session::Options options;
   options.Method = filter->GetClassName();
-  options.Matching.BoundaryIdArray = filters::Input::ArrayName(filter->BoundaryIdArray);
-  options.Matching.DisplacementArray = filters::Input::ArrayName(filter->DisplacementArray);
-  options.Matching.ScaleFactor = filter->ScaleFactor;
-  options.Matching.MatchTolerance = filter->MatchTolerance;
-  options.Matching.HoldUnnamedBoundary = filter->HoldUnnamedBoundary;
-  options.Validity = filter->Validity;
+  options.Matching.BoundaryIdArray = filters::Input::ArrayName(filter->Options->BoundaryIdArray);
+  options.Matching.DisplacementArray =
+    filters::Input::ArrayName(filter->Options->DisplacementArray);
+  options.Matching.ScaleFactor = filter->Options->ScaleFactor;
+  options.Matching.MatchTolerance = filter->Options->MatchTolerance;
+  options.Matching.FixUnnamedBoundary = filter->Options->FixUnnamedBoundary;
+  options.Validity = filter->Options->Validity;
   options.MeasureAll = this->MeasuresAll();
-  options.MaximumSubSteps = filter->MaximumSubSteps;
-  options.PostSmooth = filter->PostSmooth;
-  options.PostSmoothIterations = filter->PostSmoothIterations;
-  options.StepMemoryLimit = filter->StepMemoryLimit;
-  options.IsFloat = filters::Output::IsFloat(grid, filter->OutputPointsPrecision);
+  options.MaximumSubSteps = filter->Options->MaximumSubSteps;
+  options.PostSmooth = filter->Options->PostSmooth;
+  options.PostSmoothIterations = filter->Options->PostSmoothIterations;
+  options.StepMemoryLimit = filter->Options->StepMemoryLimit;
+  options.IsFloat = filters::Output::IsFloat(grid, filter->Options->OutputPointsPrecision);
   options.PrepareOptions = filter->PrepareOptions();
   options.CreateMorpher = [filter] { return filter->CreateMorpher(); };
   options.EvaluateOptions = filter->EvaluateOptions();
@@ -286,7 +283,7 @@ std::string vtkMorphAlgorithm::vtkInternals::Morph(vtkUnstructuredGrid* grid,
   this->IsOnRanks = false;
   vtkPointSet* displaced = filters::Input::RequireBoundary(boundary);
   this->Session.SetGrid(grid, monitor);
-  this->Session.SetFeatureLines(this->Filter->FeatureLines);
+  this->Session.SetFeatureLines(this->Filter->Options->FeatureLines);
   const double fraction = this->Steps.Any() ? this->Steps.Fraction(this->Step) : 1;
   const filters::Session::Options options = this->Options(grid, displaced);
   this->Session.ReportMesh(options, monitor);
@@ -306,15 +303,15 @@ std::string vtkMorphAlgorithm::vtkInternals::Morph(vtkUnstructuredGrid* grid,
     monitor.warn(result->Valid.Warning);
   }
   morph::ProgressRange writing(monitor, 0.9, 1);
-  filters::MorphOutput::WriteMesh(
-    this->Session, result->Moved, this->Filter->OutputPointsPrecision, grid, output, writing);
+  filters::MorphOutput::WriteMesh(this->Session, result->Moved,
+    this->Filter->Options->OutputPointsPrecision, grid, output, writing);
   if (single)
   {
     single->Moved.resize(0, 3); // 24 bytes a node, which the measures need
   }
   filters::MorphOutput::WriteMeasures(this->Session, *result,
-    { options.MeasureAll, this->Filter->Certify }, this->Results, output, badCells, surface,
-    writing);
+    { options.MeasureAll, this->Filter->Options->Certify }, this->Results, output, badCells,
+    surface, writing);
   return result->Valid.Error;
 }
 
@@ -342,10 +339,10 @@ std::string vtkMorphAlgorithm::vtkInternals::MorphOnRanks(vtkUnstructuredGrid* g
       return filters::Input::RequireBoundary(
         this->Steps.FromBoundary() ? this->Ports.Fetch(1, this->Steps.Time(step)) : boundary);
     });
-  return this->OnRanks().Run(
-    { grid, boundary, fraction, this->IsSeries() ? &motion : nullptr,
-      this->Filter->OutputPointsPrecision, { options.MeasureAll, this->Filter->Certify },
-      this->Filter->FeatureLines, output, badCells, surface },
+  return this->OnRanks().Run({ grid, boundary, fraction, this->IsSeries() ? &motion : nullptr,
+                               this->Filter->Options->OutputPointsPrecision,
+                               { options.MeasureAll, this->Filter->Options->Certify },
+                               this->Filter->Options->FeatureLines, output, badCells, surface },
     options, monitor);
 }
 
@@ -386,7 +383,7 @@ std::shared_ptr<const filters::StepResult> vtkMorphAlgorithm::vtkInternals::Morp
 bool vtkMorphAlgorithm::ApplyTranspose(vtkUnstructuredGrid* rest, vtkPointSet* boundary,
   vtkDataArray* gradient, vtkDoubleArray* boundaryGradient)
 {
-  filters::CrewMonitor monitor(this, this->NumberOfThreads);
+  filters::CrewMonitor monitor(this, this->Options->NumberOfThreads);
   const filters::Execution::Outcome outcome = filters::Execution::Run(
     this, "apply the adjoint",
     [&]
@@ -406,7 +403,8 @@ void vtkMorphAlgorithm::Transpose(vtkUnstructuredGrid* rest, vtkDataObject* boun
   vtkDataArray* gradient, vtkDoubleArray* boundaryGradient, bool onRanks, morph::Monitor& monitor)
 {
   vtkInternals& kept = *this->Internals;
-  if (this->Stepping == STEPPING_RELATIVE && (this->NumberOfSteps > 0 || kept.Steps.Any()))
+  if (this->Options->Stepping == STEPPING_RELATIVE &&
+      (this->Options->NumberOfSteps > 0 || kept.Steps.Any()))
   {
     throw morph::Error("Relative steps have no adjoint: each depends on those before it. Set "
                        "Stepping to Absolute.");
@@ -445,25 +443,6 @@ const char* vtkMorphAlgorithm::GetMorphStatus() const
 void vtkMorphAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  const auto text = [](const char* name) { return name ? name : "(none)"; };
-  os << indent << "BoundaryIdArray: " << text(this->BoundaryIdArray) << "\n";
-  os << indent << "DisplacementArray: " << text(this->DisplacementArray) << "\n";
-  os << indent << "ScaleFactor: " << this->ScaleFactor << "\n";
-  os << indent << "NumberOfSteps: " << this->NumberOfSteps << "\n";
-  os << indent << "Stepping: " << this->Stepping << "\n";
-  os << indent << "StepMemoryLimit: " << this->StepMemoryLimit << "\n";
-  os << indent << "MatchTolerance: " << this->MatchTolerance << "\n";
-  os << indent << "HoldUnnamedBoundary: " << this->HoldUnnamedBoundary << "\n";
-  os << indent << "Validity: " << this->Validity << "\n";
-  os << indent << "Quality: " << this->Quality << "\n";
-  os << indent << "FeatureLines: " << this->FeatureLines << "\n";
-  os << indent << "Certify: " << this->Certify << "\n";
-  os << indent << "MaximumSubSteps: " << this->MaximumSubSteps << "\n";
-  os << indent << "PostSmooth: " << this->PostSmooth << "\n";
-  os << indent << "PostSmoothIterations: " << this->PostSmoothIterations << "\n";
-  os << indent << "RestTime: " << this->RestTime << "\n";
-  os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
-  os << indent << "CoincidentPoints: " << this->CoincidentPoints << "\n";
-  os << indent << "OutputPointsPrecision: " << this->OutputPointsPrecision << "\n";
+  this->PrintOptions(os, indent);
   this->Internals->Results.Print(os, indent);
 }

@@ -15,10 +15,10 @@
 #include "Private/Data/Surface.h"
 #include "Private/Distributed/WholeSurface.h"
 #include "Private/Morph/BoundaryMatch.h"
+#include "Private/Options.h"
 #include "Private/Pipeline/Input.h"
 #include "Private/Pipeline/Monitor.h"
 #include "Private/Pipeline/Ports.h"
-#include "Private/Pipeline/Property.h"
 #include "Private/Pipeline/Ranks.h"
 #include "Private/Project/Target.h"
 #include "Support/Error.h"
@@ -46,15 +46,7 @@ namespace filters = morph::filters;
 
 vtkStandardNewMacro(vtkMorphBoundary);
 
-morphSetNumberMacro(vtkMorphBoundary, FeatureAngle, 0.0, 180.0)
-  morphSetNumberMacro(vtkMorphBoundary, CornerAngle, 0.0, 180.0)
-    morphSetNumberMacro(vtkMorphBoundary, MatchTolerance, 0.0, 1.0)
-      morphSetNumberMacro(vtkMorphBoundary, ProjectionDistance, 0.0, 10.0)
-        morphSetNumberMacro(vtkMorphBoundary, ProjectionAngle, 0.0, 180.0)
-          morphSetNumberMacro(vtkMorphBoundary, ScaleFactor)
-            morphSetNumberMacro(vtkMorphBoundary, RestTime)
-
-              class vtkMorphBoundary::vtkInternals
+class vtkMorphBoundary::vtkInternals
 {
   using Index = morph::Index;
 
@@ -216,16 +208,12 @@ void warnOfNodes(morph::Monitor& monitor, const std::vector<Index>& nodes, const
 
 vtkMorphBoundary::vtkMorphBoundary()
   : Internals(new vtkInternals(this))
+  , Options(std::make_unique<morph::MorphBoundaryOptions>())
 {
   this->SetNumberOfInputPorts(3);
 }
 
-vtkMorphBoundary::~vtkMorphBoundary()
-{
-  this->SetSurfaceIdArray(nullptr);
-  this->SetBoundaryIdArray(nullptr);
-  this->SetDisplacementArray(nullptr);
-}
+vtkMorphBoundary::~vtkMorphBoundary() = default;
 
 void vtkMorphBoundary::SetBoundaryConnection(vtkAlgorithmOutput* output)
 {
@@ -261,8 +249,8 @@ int vtkMorphBoundary::RequestInformation(
 int vtkMorphBoundary::RequestUpdateExtent(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  return this->Internals->Ports.RequestUpdateExtent(
-    this->RestTime, filters::Ports::AskedTime(outputVector->GetInformationObject(0)), inputVector);
+  return this->Internals->Ports.RequestUpdateExtent(this->Options->RestTime,
+    filters::Ports::AskedTime(outputVector->GetInformationObject(0)), inputVector);
 }
 
 int vtkMorphBoundary::RequestData(
@@ -271,8 +259,8 @@ int vtkMorphBoundary::RequestData(
   vtkDataObject* target = vtkDataObject::GetData(inputVector[2]);
   vtkPolyData* output = vtkPolyData::GetData(outputVector);
   vtkInternals& kept = *this->Internals;
-  const filters::Ports::Task task = { "morph this mesh's boundary", this->NumberOfThreads,
-    this->CoincidentPoints, [&] { kept.Results.Reset(); },
+  const filters::Ports::Task task = { "morph this mesh's boundary", this->Options->NumberOfThreads,
+    this->Options->CoincidentPoints, [&] { kept.Results.Reset(); },
     [&](vtkUnstructuredGrid* grid, vtkDataObject* boundary, filters::Monitor& monitor)
     { kept.Morph(grid, boundary, target, output, monitor); },
     [&](vtkDataObject*, const char*) { kept.Results.Write(output); },
@@ -301,7 +289,7 @@ void vtkMorphBoundary::vtkInternals::MorphOnRanks(vtkUnstructuredGrid* piece,
   vtkDataObject* boundary, vtkDataObject* target, vtkPolyData* output, filters::Monitor& given)
 {
   // All processes find the same, and the first one tells it.
-  filters::Monitor silent(this->Filter, this->Filter->NumberOfThreads);
+  filters::Monitor silent(this->Filter, this->Filter->Options->NumberOfThreads);
   filters::Monitor& monitor = filters::Ranks::IsFirst() ? given : silent;
   if (!this->Whole)
   {
@@ -335,11 +323,11 @@ void vtkMorphBoundary::vtkInternals::MorphOnRanks(vtkUnstructuredGrid* piece,
 filters::BoundaryMatch::Options vtkMorphBoundary::vtkInternals::Matching() const
 {
   filters::BoundaryMatch::Options matching;
-  matching.BoundaryIdArray = filters::Input::ArrayName(this->Filter->BoundaryIdArray);
-  matching.DisplacementArray = filters::Input::ArrayName(this->Filter->DisplacementArray);
-  matching.ScaleFactor = this->Filter->ScaleFactor;
-  matching.MatchTolerance = this->Filter->MatchTolerance;
-  matching.HoldUnnamedBoundary = false;
+  matching.BoundaryIdArray = filters::Input::ArrayName(this->Filter->Options->BoundaryIdArray);
+  matching.DisplacementArray = filters::Input::ArrayName(this->Filter->Options->DisplacementArray);
+  matching.ScaleFactor = this->Filter->Options->ScaleFactor;
+  matching.MatchTolerance = this->Filter->Options->MatchTolerance;
+  matching.FixUnnamedBoundary = false;
   return matching;
 }
 
@@ -351,11 +339,11 @@ void vtkMorphBoundary::vtkInternals::Run(
   filters::Surface::WarnOfNone(faces, monitor);
   monitor.SetRange(0.1, 0.2);
   filters::Geometry::Options options;
-  options.FeatureAngle = this->Filter->FeatureAngle;
-  options.CornerAngle = this->Filter->CornerAngle;
-  options.FeaturesInside = this->Filter->FeaturesInside;
-  options.SurfaceIdArray = filters::Input::ArrayName(this->Filter->SurfaceIdArray);
-  options.UseGeometryArrays = this->Filter->UseGeometryArrays;
+  options.FeatureAngle = this->Filter->Options->FeatureAngle;
+  options.CornerAngle = this->Filter->Options->CornerAngle;
+  options.FeaturesInside = this->Filter->Options->FeaturesInside;
+  options.SurfaceIdArray = filters::Input::ArrayName(this->Filter->Options->SurfaceIdArray);
+  options.UseGeometryArrays = this->Filter->Options->UseGeometryArrays;
   const morph::Classification geometry =
     filters::Geometry::Classify(task.Grid, mesh, faces, options, monitor);
 
@@ -365,16 +353,17 @@ void vtkMorphBoundary::vtkInternals::Run(
     monitor.warn(warning);
   }
   const filters::BoundaryMatch::Result match =
-    upTo(named, geometry, this->Filter->PrescribedDimension);
+    upTo(named, geometry, this->Filter->Options->PrescribedDimension);
 
   morph::SurfaceMorphOptions how;
-  how.method = static_cast<morph::SurfaceMorphOptions::Method>(this->Filter->SurfaceMethod);
-  how.neighbors = this->Filter->NumberOfNeighbors;
-  how.unattached = static_cast<morph::UnattachedMotion>(this->Filter->UnattachedMotion);
+  how.method =
+    static_cast<morph::SurfaceMorphOptions::Method>(this->Filter->Options->SurfaceMethod);
+  how.neighbors = this->Filter->Options->NumberOfNeighbors;
+  how.unattached = static_cast<morph::UnattachedMotion>(this->Filter->Options->UnattachedMotion);
   morph::BoundaryMotion motion =
     morph::beginMotion(mesh.points, task.BodyOfNode, faces, geometry, match.Ids, match.Targets);
   this->Results.SetInteger("GivenPoints", static_cast<vtkIdType>(match.Ids.size()));
-  this->Results.SetInteger("HeldVertices", motion.count(morph::BoundaryMotion::Held));
+  this->Results.SetInteger("FixedVertices", motion.count(morph::BoundaryMotion::Held));
   this->Results.SetInteger("ProjectedPoints", 0);
   this->Results.SetInteger("UnprojectedPoints", 0);
   this->Results.SetInteger("SmoothedSurfaces", 0);
@@ -387,8 +376,9 @@ void vtkMorphBoundary::vtkInternals::Run(
   if (task.Target)
   {
     monitor.SetRange(0.3, 0.4);
-    place = std::make_unique<filters::Target>(task.Target, mesh.points, this->Filter->FeatureAngle,
-      this->Filter->ProjectionAngle, this->Filter->ProjectionDistance * task.Size, monitor);
+    place = std::make_unique<filters::Target>(task.Target, mesh.points,
+      this->Filter->Options->FeatureAngle, this->Filter->Options->TargetAngle,
+      this->Filter->Options->TargetReach * task.Size, monitor);
     place->WarnOfRounding(task.Size, monitor);
     onCurves = morph::projectCurves(geometry, *place, motion, monitor);
   }
@@ -423,7 +413,8 @@ void vtkMorphBoundary::vtkInternals::Run(
   }
   monitor.SetRange(0.95, 1);
 
-  const bool isFloat = filters::Output::IsFloat(task.Grid, this->Filter->OutputPointsPrecision);
+  const bool isFloat =
+    filters::Output::IsFloat(task.Grid, this->Filter->Options->OutputPointsPrecision);
   morph::Points moved = motion.moved();
   filters::Output::RequireWritable(mesh.points, moved, isFloat, "the boundary's nodes");
   if (isFloat)
@@ -468,7 +459,7 @@ void vtkMorphBoundary::vtkInternals::ReportProjection(const morph::ProjectionRep
   {
     warnOfNodes(monitor, onCurves.missed,
       "Curve nodes are not projected, since no feature edge of the target is within "
-      "ProjectionDistance: node ids ");
+      "TargetReach: node ids ");
   }
   else
   {
@@ -479,8 +470,8 @@ void vtkMorphBoundary::vtkInternals::ReportProjection(const morph::ProjectionRep
   warnOfNodes(monitor, onCurves.kept,
     "Curve nodes are not projected, since their curve would turn back: node ids ");
   warnOfNodes(monitor, onSurfaces.missed,
-    "Surface nodes are not projected, since the target has no place within ProjectionDistance "
-    "whose normal is within ProjectionAngle: node ids ");
+    "Surface nodes are not projected, since the target has no place within TargetReach "
+    "whose normal is within TargetAngle: node ids ");
   warnOfNodes(
     monitor, onSurfaces.kept, "Surface nodes are not projected, since faces would fold: node ids ");
 }
@@ -503,25 +494,6 @@ vtkIdType vtkMorphBoundary::GetInteger(const char* name) const
 void vtkMorphBoundary::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  const auto text = [](const char* name) { return name ? name : "(none)"; };
-  os << indent << "PrescribedDimension: " << this->PrescribedDimension << "\n";
-  os << indent << "SurfaceMethod: " << this->SurfaceMethod << "\n";
-  os << indent << "NumberOfNeighbors: " << this->NumberOfNeighbors << "\n";
-  os << indent << "UnattachedMotion: " << this->UnattachedMotion << "\n";
-  os << indent << "FeatureAngle: " << this->FeatureAngle << "\n";
-  os << indent << "CornerAngle: " << this->CornerAngle << "\n";
-  os << indent << "SurfaceIdArray: " << text(this->SurfaceIdArray) << "\n";
-  os << indent << "UseGeometryArrays: " << this->UseGeometryArrays << "\n";
-  os << indent << "FeaturesInside: " << this->FeaturesInside << "\n";
-  os << indent << "BoundaryIdArray: " << text(this->BoundaryIdArray) << "\n";
-  os << indent << "DisplacementArray: " << text(this->DisplacementArray) << "\n";
-  os << indent << "ScaleFactor: " << this->ScaleFactor << "\n";
-  os << indent << "MatchTolerance: " << this->MatchTolerance << "\n";
-  os << indent << "ProjectionDistance: " << this->ProjectionDistance << "\n";
-  os << indent << "ProjectionAngle: " << this->ProjectionAngle << "\n";
-  os << indent << "RestTime: " << this->RestTime << "\n";
-  os << indent << "OutputPointsPrecision: " << this->OutputPointsPrecision << "\n";
-  os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
-  os << indent << "CoincidentPoints: " << this->CoincidentPoints << "\n";
+  this->PrintOptions(os, indent);
   this->Internals->Results.Print(os, indent);
 }

@@ -2,12 +2,11 @@
 #include "vtkMorphMesh.h"
 
 #include "Private/MorphMesh/Internals.h"
+#include "Private/Options.h"
 #include "Private/Pipeline/Execution.h"
 #include "Private/Pipeline/Input.h"
 #include "Private/Pipeline/Monitor.h"
-#include "Private/Pipeline/NameSet.h"
 #include "Private/Pipeline/Ports.h"
-#include "Private/Pipeline/Property.h"
 #include "Private/Pipeline/Ranks.h"
 #include "Private/Pipeline/Steps.h"
 #include "Private/Pipeline/Time.h"
@@ -74,18 +73,14 @@ vtkSmartPointer<vtkMorphAlgorithm> makeMethod(int method)
 
 vtkMorphMesh::vtkMorphMesh()
   : Internals(new vtkInternals(this))
+  , MeshOptions(std::make_unique<morph::MorphMeshOptions>())
 {
   this->Shared = this->Internals.get();
-  this->LargestZoneType = ZONE_SOFT;
   this->SetNumberOfOutputPorts(3);
   this->Internals->Results.Reset();
 }
 
-vtkMorphMesh::~vtkMorphMesh()
-{
-  this->SetStiffnessArray(nullptr);
-  this->SetWallArray(nullptr);
-}
+vtkMorphMesh::~vtkMorphMesh() = default;
 
 vtkUnstructuredGrid* vtkMorphMesh::GetOutput()
 {
@@ -99,7 +94,7 @@ vtkUnstructuredGrid* vtkMorphMesh::GetOutput(int port)
 
 vtkDataArraySelection* vtkMorphMesh::GetSurfaceList()
 {
-  return this->Internals->Displacement->GetPatchList();
+  return this->Internals->Displacement->GetSurfaceList();
 }
 
 void vtkMorphMesh::FindSurfaces(
@@ -110,7 +105,7 @@ void vtkMorphMesh::FindSurfaces(
   try
   {
     const filters::BlockPick::OnGrid ofBlocks = own.OfBlocks(shown, selection);
-    own.Displacement->FindPatches(ofBlocks.Shown ? ofBlocks.Shown.Get() : shown,
+    own.Displacement->FindSurfaces(ofBlocks.Shown ? ofBlocks.Shown.Get() : shown,
       ofBlocks.Shown ? ofBlocks.Selection.Get() : selection, names);
   }
   catch (const std::exception& error)
@@ -148,12 +143,12 @@ vtkDataArraySelection* vtkMorphMesh::GetPickedSurfaces()
 
 vtkStringArray* vtkMorphMesh::GetSurfaceSizes()
 {
-  return this->Internals->Displacement->GetPatchSizes();
+  return this->Internals->Displacement->GetSurfaceSizes();
 }
 
 vtkDoubleArray* vtkMorphMesh::GetSurfaceBounds()
 {
-  return this->Internals->Displacement->GetPatchBounds();
+  return this->Internals->Displacement->GetSurfaceBounds();
 }
 
 vtkIdType vtkMorphMesh::GetZonePoints() const
@@ -166,23 +161,13 @@ vtkIdType vtkMorphMesh::GetLayerPoints() const
   return this->Internals->Displacement->GetLayerPoints();
 }
 
-void vtkMorphMesh::SetMethod(int method)
-{
-  const int known = std::min(std::max(method, int(METHOD_FEMWARP)), int(METHOD_RADIAL_BASIS));
-  if (this->Method != known)
-  {
-    this->Method = known;
-    this->Internals->Morph = nullptr;
-    this->Modified();
-  }
-}
-
 vtkMorphAlgorithm* vtkMorphMesh::GetMethodFilter()
 {
   vtkInternals& own = *this->Internals;
-  if (!own.Morph)
+  if (!own.Morph || own.MorphMethod != this->MeshOptions->Method)
   {
-    own.Morph = makeMethod(this->Method);
+    own.MorphMethod = this->MeshOptions->Method;
+    own.Morph = makeMethod(own.MorphMethod);
     own.MorphTime = own.Morph->GetMTime();
   }
   return own.Morph;
@@ -197,16 +182,7 @@ vtkMTimeType vtkMorphMesh::GetMTime()
     own.MorphTime = own.Morph->GetMTime();
     this->Modified();
   }
-  vtkMTimeType time = this->Superclass::GetMTime();
-  if (this->Displacement == DISPLACEMENT_TRANSFORM && own.Transform)
-  {
-    time = std::max(time, own.Transform->GetMTime());
-  }
-  if (this->Moving == MOVE_REGION && own.Region)
-  {
-    time = std::max(time, own.Region->GetMTime());
-  }
-  return time;
+  return this->Superclass::GetMTime();
 }
 
 vtkTypeBool vtkMorphMesh::ProcessRequest(
@@ -224,7 +200,7 @@ int vtkMorphMesh::FillOutputPortInformation(int port, vtkInformation* info)
 int vtkMorphMesh::RequestInformation(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  const filters::Steps steps(this->NumberOfSteps, nullptr);
+  const filters::Steps steps(this->MeshOptions->NumberOfSteps, nullptr);
   for (int port = 0; port < this->GetNumberOfOutputPorts(); ++port)
   {
     vtkInformation* output = outputVector->GetInformationObject(port);
@@ -244,7 +220,7 @@ int vtkMorphMesh::RequestInformation(
 int vtkMorphMesh::RequestUpdateExtent(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector*)
 {
-  filters::Time::AskRest(this->RestTime, inputVector[0]->GetInformationObject(0));
+  filters::Time::AskRest(this->MeshOptions->RestTime, inputVector[0]->GetInformationObject(0));
   return 1;
 }
 
@@ -260,14 +236,15 @@ int vtkMorphMesh::RequestData(
   vtkUnstructuredGrid* output = own.Blocks.Output(outputVector);
   vtkUnstructuredGrid* badCells = vtkUnstructuredGrid::GetData(outputVector, 1);
   vtkPolyData* surface = vtkPolyData::GetData(outputVector, 2);
-  filters::Monitor monitor(this, this->NumberOfThreads);
+  filters::Monitor monitor(this, this->Options->NumberOfThreads);
   std::string partial;
   own.Results.Reset();
   own.SlideReport = "None";
   const auto work = [&]
   {
-    const filters::Input::Mesh mesh = filters::Input::TakeMesh(input, own.Blocks,
-      this->CoincidentPoints, filters::Input::Use::ToMorphOnRanks, this->GetClassName(), monitor);
+    const filters::Input::Mesh mesh =
+      filters::Input::TakeMesh(input, own.Blocks, this->Options->CoincidentPoints,
+        filters::Input::Use::ToMorphOnRanks, this->GetClassName(), monitor);
     input = mesh.Data;
     vtkSelection* ofGrid = nullptr;
     filters::Ranks::Together(
@@ -299,7 +276,7 @@ int vtkMorphMesh::RequestData(
     filters::Execution::Run(this, "morph this mesh", work, clear);
   for (const std::string& warning : monitor.TakeWarnings())
   {
-    if (!this->Live) // they would come with every step of a drag
+    if (!this->MeshOptions->Live) // they would come with every step of a drag
     {
       vtkWarningMacro(<< warning);
     }
@@ -368,38 +345,7 @@ morphResultMacro(MeanTargetDistance, double, Number);
 void vtkMorphMesh::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  const auto text = [](const char* name) { return name ? name : "(none)"; };
-  const auto list = [&](const char* name, const filters::NameSet::Names& values)
-  { filters::NameSet::Print(os, indent, name, values); };
-  os << indent << "Moving: " << this->Moving << "\n";
-  list("Surfaces", this->Internals->Surfaces);
-  list("FixedSurfaces", this->Internals->FixedSurfaces);
-  list("SlidingSurfaces", this->Internals->SlidingSurfaces);
-  list("FreeSurfaces", this->Internals->FreeSurfaces);
-  list("SoftZones", this->Internals->SoftZones);
-  os << indent << "SoftStiffness: " << this->SoftStiffness << "\n";
-  os << indent << "Stiffness: " << this->Stiffness << "\n";
-  os << indent << "StiffnessExponent: " << this->StiffnessExponent << "\n";
-  os << indent << "StiffnessArray: " << text(this->StiffnessArray) << "\n";
-  os << indent << "WallArray: " << text(this->WallArray) << "\n";
-  os << indent << "Displacement: " << this->Displacement << "\n";
-  os << indent << "Method: " << this->Method << "\n";
-  os << indent << "Validity: " << this->Validity << "\n";
-  os << indent << "Quality: " << this->Quality << "\n";
-  os << indent << "FeatureLines: " << this->FeatureLines << "\n";
-  os << indent << "Live: " << this->Live << "\n";
-  os << indent << "NumberOfSteps: " << this->NumberOfSteps << "\n";
-  os << indent << "Stepping: " << this->Stepping << "\n";
-  os << indent << "RestTime: " << this->RestTime << "\n";
+  this->PrintOptions(os, indent);
   os << indent << "PickPort: " << this->GetPickPort() << "\n";
   this->Internals->Results.Print(os, indent);
 }
-
-morphNameSetMacro(vtkMorphMesh, Surface, Surfaces);
-morphNameSetMacro(vtkMorphMesh, FixedSurface, FixedSurfaces);
-morphNameSetMacro(vtkMorphMesh, SlidingSurface, SlidingSurfaces);
-morphNameSetMacro(vtkMorphMesh, FreeSurface, FreeSurfaces);
-morphNameSetMacro(vtkMorphMesh, SoftZone, SoftZones);
-morphSetNumberMacro(vtkMorphMesh, SoftStiffness, 1e-6, 1.0);
-morphSetNumberMacro(vtkMorphMesh, StiffnessExponent, 0.0, 4.0);
-morphSetNumberMacro(vtkMorphMesh, RestTime);

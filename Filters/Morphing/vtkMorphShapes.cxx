@@ -4,9 +4,10 @@
 #include "Private/Data/Gradient.h"
 #include "Private/Data/Version.h"
 #include "Private/Morph/MorphOutput.h"
+#include "Private/Options.h"
+#include "Private/Pipeline/Property.h"
 #include "Private/Pipeline/CrewMonitor.h"
 #include "Private/Pipeline/Execution.h"
-#include "Private/Pipeline/Property.h"
 #include "Private/Shapes/Internals.h"
 #include "Support/Error.h"
 
@@ -31,49 +32,43 @@ namespace filters = morph::filters;
 
 vtkStandardNewMacro(vtkMorphShapes);
 
-morphSetNumberMacro(vtkMorphShapes, Tolerance, 1e-15, 0.999)
-  morphSetNumberMacro(vtkMorphShapes, MatchTolerance, 0.0, 1.0)
-
-    namespace
+namespace
 {
-  /// Sets element `i` of a list, which grows if need be; returns whether that changed it.
-  template <typename Value>
-  bool setElement(std::vector<Value> & list, int i, const Value& value)
+/// Sets element `i` of a list, which grows if need be; returns whether that changed it.
+template <typename Value>
+bool setElement(std::vector<Value>& list, int i, const Value& value)
+{
+  if (i < 0)
   {
-    if (i < 0)
-    {
-      return false;
-    }
-    const std::size_t place = i;
-    if (place < list.size() && list[place] == value)
-    {
-      return false;
-    }
-    list.resize(std::max(list.size(), place + 1));
-    list[place] = value;
-    return true;
+    return false;
   }
+  const std::size_t place = i;
+  if (place < list.size() && list[place] == value)
+  {
+    return false;
+  }
+  list.resize(std::max(list.size(), place + 1));
+  list[place] = value;
+  return true;
+}
 
-  template <typename Value>
-  Value element(const std::vector<Value>& list, int i)
-  {
-    return i >= 0 && static_cast<std::size_t>(i) < list.size() ? list[i] : Value();
-  }
+template <typename Value>
+Value element(const std::vector<Value>& list, int i)
+{
+  return i >= 0 && static_cast<std::size_t>(i) < list.size() ? list[i] : Value();
+}
 }
 
 vtkMorphShapes::vtkMorphShapes()
   : Internals(new vtkInternals(this))
+  , Options(std::make_unique<morph::MorphShapesOptions>())
 {
   this->SetNumberOfInputPorts(3);
   this->SetNumberOfOutputPorts(3);
   this->Internals->Results.Reset();
 }
 
-vtkMorphShapes::~vtkMorphShapes()
-{
-  this->SetBoundaryIdArray(nullptr);
-  this->SetDisplacementArray(nullptr);
-}
+vtkMorphShapes::~vtkMorphShapes() = default;
 
 void vtkMorphShapes::AddShapeConnection(vtkAlgorithmOutput* output)
 {
@@ -117,7 +112,8 @@ void vtkMorphShapes::SetNumberOfWeights(int number)
 
 void vtkMorphShapes::SetWeight(int shape, double weight)
 {
-  if (filters::Property::Accepts(this, "Weight", weight, this->GetWeight(shape)) &&
+  if (filters::Property::Accepts(this, "Weight", weight, this->GetWeight(shape),
+        -filters::Property::Any, filters::Property::Any) &&
       setElement(this->Weights, shape, weight))
   {
     this->Modified();
@@ -263,8 +259,8 @@ int vtkMorphShapes::RequestData(
       kept.Morph(grid, processes, inputVector[1], table, outputVector, monitor);
     };
   };
-  const filters::Ports::Task task = { "morph this mesh", this->NumberOfThreads,
-    this->CoincidentPoints,
+  const filters::Ports::Task task = { "morph this mesh", this->Options->NumberOfThreads,
+    this->Options->CoincidentPoints,
     [&]
     {
       kept.Results.Reset();
@@ -332,7 +328,7 @@ const char* vtkMorphShapes::GetInvertingDesigns() const
 
 bool vtkMorphShapes::ComputeDerivatives(vtkDataArray* gradient, vtkDoubleArray* derivatives)
 {
-  filters::CrewMonitor monitor(this, this->NumberOfThreads);
+  filters::CrewMonitor monitor(this, this->Options->NumberOfThreads);
   const filters::Execution::Outcome outcome = filters::Execution::Run(
     this, "compute derivatives", [&] { this->Differentiate(gradient, derivatives, monitor); },
     [&] { derivatives->Initialize(); });
@@ -383,7 +379,6 @@ const char* vtkMorphShapes::GetMorphStatus() const
 void vtkMorphShapes::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  const auto text = [](const char* name) { return name ? name : "(none)"; };
   const auto list = [&](const char* name, const auto& values)
   {
     os << indent << name << ":";
@@ -397,18 +392,6 @@ void vtkMorphShapes::PrintSelf(ostream& os, vtkIndent indent)
   list("ShapeNames", this->ShapeNames);
   list("Weights", this->Weights);
   list("Motions", this->Motions);
-  os << indent << "Method: " << this->Method << "\n";
-  os << indent << "Tolerance: " << this->Tolerance << "\n";
-  os << indent << "BoundaryIdArray: " << text(this->BoundaryIdArray) << "\n";
-  os << indent << "DisplacementArray: " << text(this->DisplacementArray) << "\n";
-  os << indent << "MatchTolerance: " << this->MatchTolerance << "\n";
-  os << indent << "HoldUnnamedBoundary: " << this->HoldUnnamedBoundary << "\n";
-  os << indent << "FindValidRanges: " << this->FindValidRanges << "\n";
-  os << indent << "CheckDesigns: " << this->CheckDesigns << "\n";
-  os << indent << "Quality: " << this->Quality << "\n";
-  os << indent << "FeatureLines: " << this->FeatureLines << "\n";
-  os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
-  os << indent << "CoincidentPoints: " << this->CoincidentPoints << "\n";
-  os << indent << "OutputPointsPrecision: " << this->OutputPointsPrecision << "\n";
+  this->PrintOptions(os, indent);
   this->Internals->Results.Print(os, indent);
 }

@@ -2,7 +2,7 @@
 #include "vtkRadialBasisMorph.h"
 
 #include "LinearMethods/RadialBasis.h"
-#include "Private/Pipeline/Property.h"
+#include "Private/Options.h"
 
 #include <vtkObjectFactory.h>
 
@@ -11,22 +11,24 @@
 
 vtkStandardNewMacro(vtkRadialBasisMorph);
 
-morphSetNumberMacro(vtkRadialBasisMorph, SupportRadius, 1e-3, 1e3)
+vtkRadialBasisMorph::vtkRadialBasisMorph()
+  : Options(std::make_unique<morph::RadialBasisMorphOptions>())
+{
+}
 
-  vtkRadialBasisMorph::vtkRadialBasisMorph() = default;
 vtkRadialBasisMorph::~vtkRadialBasisMorph() = default;
 
 std::unique_ptr<morph::Morpher> vtkRadialBasisMorph::CreateMorpher()
 {
   using Kind = morph::RadialKernel::Kind;
   auto morpher = std::make_unique<morph::RadialBasis>();
-  morpher->setKernel(this->Kernel == KERNEL_THIN_PLATE    ? Kind::ThinPlate
-                     : this->Kernel == KERNEL_WENDLAND_C2 ? Kind::WendlandC2
-                                                          : Kind::Triharmonic);
-  morpher->setSupportRadius(this->SupportRadius);
+  morpher->setKernel(this->Options->Kernel == KERNEL_THIN_PLATE    ? Kind::ThinPlate
+                     : this->Options->Kernel == KERNEL_WENDLAND_C2 ? Kind::WendlandC2
+                                                                   : Kind::Triharmonic);
+  morpher->setSupportRadius(this->Options->SupportRadius);
   morpher->setNumberOfCentres(
-    this->NumberOfCenters > 0
-      ? std::max<morph::Index>(this->NumberOfCenters, morph::RadialBasis::FewestCentres)
+    this->Options->NumberOfCenters > 0
+      ? std::max<morph::Index>(this->Options->NumberOfCenters, morph::RadialBasis::FewestCentres)
       : 0);
   return morpher;
 }
@@ -35,14 +37,13 @@ std::string vtkRadialBasisMorph::PrepareOptions()
 {
   std::ostringstream text;
   text.precision(17);
-  text << this->Kernel << " " << this->SupportRadius << " " << this->NumberOfCenters;
+  text << this->Options->Kernel << " " << this->Options->SupportRadius << " "
+       << this->Options->NumberOfCenters;
   return text.str();
 }
 
 void vtkRadialBasisMorph::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "Kernel: " << this->Kernel << "\n";
-  os << indent << "SupportRadius: " << this->SupportRadius << "\n";
-  os << indent << "NumberOfCenters: " << this->NumberOfCenters << "\n";
+  this->PrintOptions(os, indent);
 }

@@ -9,6 +9,7 @@
 #include "Private/Data/Results.h"
 #include "Private/Data/Version.h"
 #include "Private/Distributed/OnRanks.h"
+#include "Private/Options.h"
 #include "Private/Pipeline/Execution.h"
 #include "Private/Pipeline/Input.h"
 #include "Private/Pipeline/Monitor.h"
@@ -107,6 +108,7 @@ void measureOnRanks(vtkScaledJacobian* filter, vtkUnstructuredGrid* input,
 
 vtkScaledJacobian::vtkScaledJacobian()
   : Internals(new vtkInternals)
+  , Options(std::make_unique<morph::ScaledJacobianOptions>())
 {
   morph::Quality none;
   none.minimum = none.mean = vtkMath::Nan();
@@ -146,14 +148,15 @@ int vtkScaledJacobian::RequestData(
     this->Internals->Results.Reset();
   };
   clear();
-  filters::Monitor monitor(this, this->NumberOfThreads);
+  filters::Monitor monitor(this, this->Options->NumberOfThreads);
   bool isEmpty = false;
   const filters::Execution::Outcome outcome = filters::Execution::Run(
     this, "measure this mesh",
     [&]
     {
-      const filters::Input::Mesh mesh = filters::Input::TakeMesh(input, blocks,
-        this->CoincidentPoints, filters::Input::Use::ToMeasure, this->GetClassName(), monitor);
+      const filters::Input::Mesh mesh =
+        filters::Input::TakeMesh(input, blocks, this->Options->CoincidentPoints,
+          filters::Input::Use::ToMeasure, this->GetClassName(), monitor);
       isEmpty = mesh.IsEmpty;
       vtkUnstructuredGrid* grid = nullptr;
       const auto require = [&] { grid = filters::Input::RequireGrid(mesh.Data, "The input"); };
@@ -199,7 +202,7 @@ void vtkScaledJacobian::Measure(
     [&](std::uint8_t type) { return dimension[type] < highest; });
 
   std::vector<filters::Quality::OfCriterion> criteria =
-    filters::Quality::ReadCriteria(this->Criteria);
+    filters::Quality::ReadCriteria(this->Options->Criteria);
   output->ShallowCopy(input);
   const morph::Quality quality =
     filters::Quality::Measure(mesh, output, orientation, skip, monitor);
@@ -213,7 +216,7 @@ void vtkScaledJacobian::Measure(
   filters::Results& results = this->Internals->Results;
   results.Set(quality);
   results.SetInteger("MeasuredCells", quality.measured);
-  if (this->Certify)
+  if (this->Options->Certify)
   {
     const morph::CertificateReport report = filters::Quality::Certify(mesh, output, orientation,
       highest == 3 ? skip : std::vector<std::uint8_t>(skip.size(), 1), monitor);
@@ -224,16 +227,6 @@ void vtkScaledJacobian::Measure(
   results.Write(output);
 
   reportUnmeasured(this, filters::Quality::Unmeasured(mesh, quality, skip, input), results);
-}
-
-void vtkScaledJacobian::SetCriteria(const char* text)
-{
-  const std::string criteria = text ? text : "";
-  if (criteria != this->Criteria)
-  {
-    this->Criteria = criteria;
-    this->Modified();
-  }
 }
 
 double vtkScaledJacobian::GetNumber(const char* name) const
@@ -249,9 +242,6 @@ vtkIdType vtkScaledJacobian::GetInteger(const char* name) const
 void vtkScaledJacobian::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
-  os << indent << "CoincidentPoints: " << this->CoincidentPoints << "\n";
-  os << indent << "Certify: " << this->Certify << "\n";
-  os << indent << "Criteria: " << this->Criteria << "\n";
+  this->PrintOptions(os, indent);
   this->Internals->Results.Print(os, indent);
 }

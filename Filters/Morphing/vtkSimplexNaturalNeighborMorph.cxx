@@ -2,7 +2,7 @@
 #include "vtkSimplexNaturalNeighborMorph.h"
 
 #include "LinearMethods/SimplexNaturalNeighbor.h"
-#include "Private/Pipeline/Property.h"
+#include "Private/Options.h"
 
 #include <vtkObjectFactory.h>
 
@@ -10,15 +10,17 @@
 
 vtkStandardNewMacro(vtkSimplexNaturalNeighborMorph);
 
-morphSetNumberMacro(vtkSimplexNaturalNeighborMorph, MemoryLimit, 0.0, 1e12)
+vtkSimplexNaturalNeighborMorph::vtkSimplexNaturalNeighborMorph()
+  : Options(std::make_unique<morph::SimplexNaturalNeighborMorphOptions>())
+{
+}
 
-  vtkSimplexNaturalNeighborMorph::vtkSimplexNaturalNeighborMorph() = default;
 vtkSimplexNaturalNeighborMorph::~vtkSimplexNaturalNeighborMorph() = default;
 
 std::unique_ptr<morph::Morpher> vtkSimplexNaturalNeighborMorph::CreateMorpher()
 {
   auto morpher = std::make_unique<morph::SimplexNaturalNeighbor>();
-  morpher->setMemoryLimit(static_cast<std::size_t>(1e6 * this->MemoryLimit));
+  morpher->setMemoryLimit(static_cast<std::size_t>(1e6 * this->Options->MemoryLimit));
   return morpher;
 }
 
@@ -26,12 +28,12 @@ std::string vtkSimplexNaturalNeighborMorph::PrepareOptions()
 {
   std::ostringstream text;
   text.precision(17);
-  text << this->MemoryLimit;
+  text << this->Options->MemoryLimit;
   return text.str();
 }
 
 void vtkSimplexNaturalNeighborMorph::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "MemoryLimit: " << this->MemoryLimit << "\n";
+  this->PrintOptions(os, indent);
 }

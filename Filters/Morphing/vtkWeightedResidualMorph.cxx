@@ -2,28 +2,33 @@
 #include "vtkWeightedResidualMorph.h"
 
 #include "LinearMethods/WeightedResidual.h"
+#include "Private/Options.h"
 
 #include <vtkObjectFactory.h>
 
 vtkStandardNewMacro(vtkWeightedResidualMorph);
 
-vtkWeightedResidualMorph::vtkWeightedResidualMorph() = default;
+vtkWeightedResidualMorph::vtkWeightedResidualMorph()
+  : Options(std::make_unique<morph::WeightedResidualMorphOptions>())
+{
+}
+
 vtkWeightedResidualMorph::~vtkWeightedResidualMorph() = default;
 
 std::unique_ptr<morph::Morpher> vtkWeightedResidualMorph::CreateMorpher()
 {
   auto morpher = std::make_unique<morph::WeightedResidual>();
-  morpher->setNumberOfNeighbors(this->NumberOfNeighbors);
+  morpher->setNumberOfNeighbors(this->Options->NumberOfNeighbors);
   return morpher;
 }
 
 std::string vtkWeightedResidualMorph::PrepareOptions()
 {
-  return std::to_string(this->NumberOfNeighbors);
+  return std::to_string(this->Options->NumberOfNeighbors);
 }
 
 void vtkWeightedResidualMorph::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "NumberOfNeighbors: " << this->NumberOfNeighbors << "\n";
+  this->PrintOptions(os, indent);
 }

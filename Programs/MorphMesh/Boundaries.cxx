@@ -80,7 +80,7 @@ void setControlPoints(vtkBoundaryDisplacement* filter, const Motion& motion)
 {
   if (!motion.handles.empty())
   {
-    filter->SetMotionToHandles();
+    filter->SetDisplacementToHandles();
     for (const NumberLine& line :
       readNumbers(motion.handles, { "x", "y", "z", "dx", "dy", "dz", "?radius" }))
     {
@@ -88,15 +88,15 @@ void setControlPoints(vtkBoundaryDisplacement* filter, const Motion& motion)
     }
     return;
   }
-  filter->SetMotionToLattice();
+  filter->SetDisplacementToLattice();
   filter->SetLatticeSize(motion.latticeSize.data());
   if (motion.hasLatticeBox)
   {
     filter->AutoLatticeOff();
     filter->SetLatticeBounds(motion.latticeBox.data());
   }
-  filter->SetLatticeBasis(motion.bSplines ? vtkBoundaryDisplacement::LATTICE_B_SPLINE
-                                          : vtkBoundaryDisplacement::LATTICE_BERNSTEIN);
+  filter->SetLatticeBasis(motion.bSplines ? vtkBoundaryDisplacement::LATTICE_BASIS_B_SPLINE
+                                          : vtkBoundaryDisplacement::LATTICE_BASIS_BERNSTEIN);
   for (const NumberLine& line : readNumbers(motion.lattice, { "i", "j", "k", "dx", "dy", "dz" }))
   {
     filter->AddLatticeDisplacement(line.numbers.data());
@@ -289,27 +289,27 @@ vtkSmartPointer<vtkAlgorithm> makeDisplacement(
   }
   else
   {
-    filter->SetMovingToPatches();
+    filter->SetMovingToSurfaces();
   }
   for (const std::string& name : motion.moving)
   {
-    filter->AddPatch(name.c_str());
+    filter->AddSurface(name.c_str());
   }
   for (const std::string& name : motion.fixed)
   {
-    filter->AddHeldPatch(name.c_str());
+    filter->AddFixedSurface(name.c_str());
   }
   for (const std::string& name : motion.sliding)
   {
-    filter->AddSlidingPatch(name.c_str());
+    filter->AddSlidingSurface(name.c_str());
   }
   for (const std::string& name : motion.free)
   {
-    filter->AddFreePatch(name.c_str());
+    filter->AddFreeSurface(name.c_str());
   }
   for (const std::string& name : motion.frozen)
   {
-    filter->AddFrozenZone(name.c_str());
+    filter->AddFixedZone(name.c_str());
   }
   for (const std::string& name : motion.rigid)
   {
@@ -324,7 +324,7 @@ vtkSmartPointer<vtkAlgorithm> makeDisplacement(
                              : vtkBoundaryDisplacement::SURFACE_METHOD_WEIGHTED_RESIDUAL);
   if (!motion.target.empty())
   {
-    filter->SetMotionToTarget();
+    filter->SetDisplacementToTarget();
     filter->SetTargetData(readTarget(motion.target));
     filter->SetAlignTarget(motion.align);
     filter->SetTargetReach(motion.targetReach.value_or(filter->GetTargetReach()));
@@ -338,12 +338,12 @@ vtkSmartPointer<vtkAlgorithm> makeDisplacement(
   }
   else if (motion.radius)
   {
-    filter->SetMotionToRadius();
+    filter->SetDisplacementToRadius();
     filter->SetRadiusChange(*motion.radius);
   }
   else
   {
-    filter->SetMotionToPlacement();
+    filter->SetDisplacementToTranslateRotateScale();
     if (motion.translation)
     {
       filter->SetTranslation(motion.translation->data());

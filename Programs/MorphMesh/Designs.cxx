@@ -198,7 +198,7 @@ vtkSmartPointer<vtkMorphShapes> makeFilter(
   setShapesMethod(filter, arguments.method, arguments.options);
   filter->SetBoundaryIdArray(arguments.boundaryIdArray.c_str());
   filter->SetDisplacementArray(arguments.displacementArray.c_str());
-  filter->SetHoldUnnamedBoundary(!arguments.freeUnnamedBoundary);
+  filter->SetFixUnnamedBoundary(!arguments.freeUnnamedBoundary);
   filter->SetNumberOfThreads(arguments.threads);
   filter->FindValidRangesOff();
   for (std::size_t i = 0; i < names.size(); ++i)

@@ -69,7 +69,7 @@ vtkSmartPointer<vtkMorphAlgorithm> makeFilter(const Arguments& arguments)
   filter->SetBoundaryIdArray(arguments.boundaryIdArray.c_str());
   filter->SetDisplacementArray(arguments.displacementArray.c_str());
   filter->SetScaleFactor(arguments.scaleFactor);
-  filter->SetHoldUnnamedBoundary(!arguments.freeUnnamedBoundary);
+  filter->SetFixUnnamedBoundary(!arguments.freeUnnamedBoundary);
   filter->SetNumberOfThreads(arguments.threads);
   return filter;
 }

@@ -102,7 +102,7 @@ TEST(RankBlockChoices, ZonesAreBlocksThatOtherRanksHave)
     filter->SetSelectionData(upperPointsOfB(data));
     filter->SetDisplacementToVector();
     filter->SetVector(0.02, -0.03, 0.05);
-    isFrozen ? filter->AddFrozenZone("C") : filter->AddSoftZone("C");
+    isFrozen ? filter->AddFixedZone("C") : filter->AddSoftZone("C");
     vtkFEMWarpMorph::SafeDownCast(filter->GetMethodFilter())->SetTolerance(1e-12);
   };
   for (const bool isFrozen : { true, false })
@@ -164,7 +164,7 @@ TEST(RankBlockChoices, AZoneThatNoRankHasIsOneError)
   filter->SetInputDataObject(mine);
   filter->SetMovingToSelection();
   filter->SetSelectionData(upperPointsOfB(mine));
-  filter->AddFrozenZone("Nowhere");
+  filter->AddFixedZone("Nowhere");
   grids::Listener listener(filter);
   filter->Update();
   EXPECT_EQ(ranks.sum(static_cast<morph::Index>(listener.Errors.size())), 1);
@@ -185,12 +185,12 @@ TEST(RankBlockChoices, SelectionsAreOfEachRanksPartOfABlock)
     filter->SetInputDataObject(data);
     filter->SetMovingToSelection();
     filter->SetSelectionData(upperPointsOfB(data));
-    filter->SetMotionToVector();
+    filter->SetDisplacementToVector();
     filter->SetVector(0.02, -0.03, 0.05);
     if (handles)
     {
       filter->SetMovingToEverything();
-      filter->SetMotionToHandles();
+      filter->SetDisplacementToHandles();
       filter->SelectedHandlesOn();
       filter->SetHandleRadius(1);
     }

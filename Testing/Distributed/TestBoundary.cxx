@@ -213,10 +213,10 @@ TEST(RankBoundary, DisplacementMovesWhatItMovesOnOneRank)
     { "surface",
       [](Filter* filter)
       {
-        filter->SetMovingToPatches();
-        filter->AddPatch("Surface 1");
-        filter->AddHeldPatch("Surface 2");
-        filter->SetMotionToPlacement();
+        filter->SetMovingToSurfaces();
+        filter->AddSurface("Surface 1");
+        filter->AddFixedSurface("Surface 2");
+        filter->SetDisplacementToTranslateRotateScale();
         filter->SetTranslation(0.1, 0.2, -0.1);
         filter->SetRotation(5, 0, 10);
       } },
@@ -225,7 +225,7 @@ TEST(RankBoundary, DisplacementMovesWhatItMovesOnOneRank)
       {
         filter->SetMovingToRegion();
         filter->SetRegion(plane);
-        filter->SetMotionToAlongNormals();
+        filter->SetDisplacementToAlongNormals();
         filter->SetDistance(0.1);
         filter->SetSurroundingsToStay();
       } },
@@ -234,16 +234,16 @@ TEST(RankBoundary, DisplacementMovesWhatItMovesOnOneRank)
       {
         filter->SetMovingToArray();
         filter->SetMovingArray("Marked");
-        filter->SetMotionToVector();
+        filter->SetDisplacementToVector();
         filter->SetVector(0.1, 0.1, 0.2);
         filter->SetSurroundingsToFade();
       } },
     { "target",
       [&](Filter* filter)
       {
-        filter->SetMovingToPatches();
-        filter->AddPatch("Surface 0");
-        filter->SetMotionToTarget();
+        filter->SetMovingToSurfaces();
+        filter->AddSurface("Surface 0");
+        filter->SetDisplacementToTarget();
         filter->SetTargetData(ball->GetOutput());
         filter->SetTargetReach(1);
         filter->SetTargetAngle(180);
@@ -251,14 +251,14 @@ TEST(RankBoundary, DisplacementMovesWhatItMovesOnOneRank)
     { "handles",
       [&](Filter* filter)
       {
-        filter->SetMotionToHandles();
+        filter->SetDisplacementToHandles();
         filter->AddHandle(0, 0, 0, 0.1, 0, 0.2, 1.5);
         filter->SetControlPointsData(handles);
       } },
     { "lattice",
       [&](Filter* filter)
       {
-        filter->SetMotionToLattice();
+        filter->SetDisplacementToLattice();
         filter->SetLatticeSize(3, 4, 2);
         filter->SetLatticeBasisToBSpline();
         filter->AddLatticeDisplacement(1, 2, 1, 0.1, 0.2, -0.1);
@@ -302,7 +302,7 @@ TEST(RankBoundary, DisplacementMovesWhatItMovesOnOneRank)
       EXPECT_EQ(listener.Warnings.size(), ranks.rank() == 0 ? serialListener.Warnings.size() : 0);
       EXPECT_EQ(filter->GetMovingPoints(), serial->GetMovingPoints());
       EXPECT_GT(filter->GetMovingPoints(), 0);
-      EXPECT_EQ(filter->GetHeldPoints(), serial->GetHeldPoints());
+      EXPECT_EQ(filter->GetFixedPoints(), serial->GetFixedPoints());
       EXPECT_EQ(filter->GetFollowingPoints(), serial->GetFollowingPoints());
       expectSameSurface(ranks, filter->GetOutput(), serial->GetOutput(),
         { "BoundaryDisplacement", "Role", "RestPosition", "GeometryId", "Number" },
@@ -310,9 +310,9 @@ TEST(RankBoundary, DisplacementMovesWhatItMovesOnOneRank)
       const auto names = [](Filter* of)
       {
         std::vector<std::string> all;
-        for (int i = 0; i < of->GetPatchList()->GetNumberOfArrays(); ++i)
+        for (int i = 0; i < of->GetSurfaceList()->GetNumberOfArrays(); ++i)
         {
-          all.emplace_back(of->GetPatchList()->GetArrayName(i));
+          all.emplace_back(of->GetSurfaceList()->GetArrayName(i));
         }
         return all;
       };
@@ -348,7 +348,7 @@ TEST(RankBoundary, EachRankSelectsInItsPiece)
   const auto configure = [](vtkBoundaryDisplacement* filter)
   {
     filter->SetMovingToSelection();
-    filter->SetMotionToVector();
+    filter->SetDisplacementToVector();
     filter->SetVector(0, 0, 1);
   };
   vtkNew<vtkBoundaryDisplacement> serial, filter;
@@ -382,9 +382,9 @@ TEST(RankBoundary, MorphBoundaryMovesTheRestAsOnOneRank)
     // Surface 1 alone is told where to go.
     vtkNew<vtkBoundaryDisplacement> displace;
     displace->SetInputData(grid);
-    displace->SetMovingToPatches();
-    displace->AddPatch("Surface 1");
-    displace->SetMotionToPlacement();
+    displace->SetMovingToSurfaces();
+    displace->AddSurface("Surface 1");
+    displace->SetDisplacementToTranslateRotateScale();
     displace->SetTranslation(0.1, 0.2, -0.1);
     displace->SetRotation(5, 0, 10);
     displace->SetSurroundingsToStay();
@@ -439,7 +439,7 @@ TEST(RankBoundary, MorphBoundaryMovesTheRestAsOnOneRank)
         EXPECT_EQ(run(filter, piece), ranks.rank() == 0 ? warnings : 0);
         EXPECT_GT(serial->GetGivenPoints(), 0);
         EXPECT_EQ(filter->GetGivenPoints(), serial->GetGivenPoints());
-        EXPECT_EQ(filter->GetHeldVertices(), serial->GetHeldVertices());
+        EXPECT_EQ(filter->GetFixedVertices(), serial->GetFixedVertices());
         EXPECT_EQ(filter->GetProjectedPoints(), serial->GetProjectedPoints());
         EXPECT_EQ(filter->GetMinScaledJacobian(), serial->GetMinScaledJacobian());
         EXPECT_EQ(filter->GetFoldedFaces(), serial->GetFoldedFaces());

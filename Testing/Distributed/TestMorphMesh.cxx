@@ -40,7 +40,7 @@ void turnAndShift(vtkMorphMesh* filter)
 {
   filter->AddSurface("Surface 1");
   filter->AddFixedSurface("Surface 3");
-  filter->SetDisplacementToPlacement();
+  filter->SetDisplacementToTranslateRotateScale();
   filter->SetTranslation(0.1, 0.2, -0.1);
   filter->SetRotation(5, 0, 10);
 }
@@ -152,7 +152,7 @@ TEST(RankMorphMesh, ReproducesAffineMotions)
   vtkNew<vtkMorphMesh> filter;
   filter->SetInputData(rank_grids::piece(ranks, mesh));
   filter->SetMovingToEverything();
-  filter->SetDisplacementToPlacement();
+  filter->SetDisplacementToTranslateRotateScale();
   filter->SetTranslation(1, 2, 3);
   filter->SetRotation(20, 30, 40);
   filter->SetScale(1.2, 0.8, 1.1);
@@ -160,7 +160,7 @@ TEST(RankMorphMesh, ReproducesAffineMotions)
   vtkNew<vtkMorphMesh> serial;
   serial->SetInputData(grids::make(mesh));
   serial->SetMovingToEverything();
-  serial->SetDisplacementToPlacement();
+  serial->SetDisplacementToTranslateRotateScale();
   serial->SetTranslation(1, 2, 3);
   serial->SetRotation(20, 30, 40);
   serial->SetScale(1.2, 0.8, 1.1);

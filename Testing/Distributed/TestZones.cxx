@@ -103,7 +103,7 @@ void bump(vtkMorphMesh* filter)
 {
   vtkFEMWarpMorph::SafeDownCast(filter->GetMethodFilter())->SetTolerance(1e-12);
   filter->SetValidity(vtkMorphAlgorithm::VALIDITY_REPORT);
-  filter->SetMoving(vtkMorphMesh::MOVE_ARRAY);
+  filter->SetMoving(vtkMorphMesh::MOVING_ARRAY);
   filter->SetMovingArray("Wall");
   filter->SetDisplacement(vtkMorphMesh::DISPLACEMENT_ARRAY);
   filter->SetDisplacementArray("Bump");
@@ -159,7 +159,7 @@ std::vector<Case> zones()
   {
     return [what = std::string(what), array](vtkMorphMesh* filter)
     {
-      what == "frozen"  ? filter->AddFrozenZone(array)
+      what == "frozen"  ? filter->AddFixedZone(array)
       : what == "rigid" ? filter->AddRigidZone(array)
                         : filter->AddSoftZone(array);
     };
@@ -177,7 +177,7 @@ std::vector<Case> zones()
   return { { "frozen cells inside", named("frozen", "Blade") },
     { "frozen cells on the wall", named("frozen", "Foot") },
     { "frozen nodes at a side", named("frozen", "Clamp") },
-    { "a frozen region", region(vtkMorphMesh::ZONE_FROZEN) },
+    { "a frozen region", region(vtkMorphMesh::ZONE_FIXED) },
     { "rigid cells inside", named("rigid", "Blade") },
     { "rigid cells on the wall", named("rigid", "Foot") },
     { "rigid nodes at a side", named("rigid", "Clamp") },
@@ -196,7 +196,7 @@ std::vector<Case> zones()
     { "a soft region", region(vtkMorphMesh::ZONE_SOFT) },
     { "one of each", [](vtkMorphMesh* filter)
       {
-        filter->AddFrozenZone("Clamp");
+        filter->AddFixedZone("Clamp");
         filter->AddRigidZone("Foot");
         filter->AddRigidZone("Blade");
         filter->AddSoftZone("Left");
@@ -286,7 +286,7 @@ TEST(RankZones, SelectionsAreOfEachRanksPiece)
     }
     return vtkSmartPointer<vtkSelection>(selection);
   };
-  for (const int type : { vtkMorphMesh::ZONE_FROZEN, vtkMorphMesh::ZONE_SOFT })
+  for (const int type : { vtkMorphMesh::ZONE_FIXED, vtkMorphMesh::ZONE_SOFT })
   {
     for (const bool byCells : { false, true })
     {
@@ -330,7 +330,7 @@ TEST(RankKeepLayers, AgreeWithTheSerialOnes)
       {
         filter->SetKeepLayers(2);
         filter->AddRigidZone("Blade");
-        filter->AddFrozenZone("Clamp");
+        filter->AddFixedZone("Clamp");
       } } };
   unsigned seed = meshes::seed();
   for (const auto& [name, mesh] : meshesOfBox())
@@ -361,7 +361,7 @@ TEST(RankSlideRounds, AgreeWithTheSerialOnes)
     { "sliding with zones and layers", [&](vtkMorphMesh* filter)
       {
         slide(filter);
-        filter->AddFrozenZone("Clamp");
+        filter->AddFixedZone("Clamp");
         filter->AddRigidZone("Blade");
       } } };
   unsigned seed = meshes::seed();
@@ -382,13 +382,13 @@ TEST(RankZones, CountsAndOutputsAreThoseOfTheWholeMesh)
   const auto run = [](vtkBoundaryDisplacement* filter, vtkUnstructuredGrid* grid)
   {
     filter->SetInputData(grid);
-    filter->SetMoving(vtkBoundaryDisplacement::MOVE_ARRAY);
+    filter->SetMoving(vtkBoundaryDisplacement::MOVING_ARRAY);
     filter->SetMovingArray("Wall");
-    filter->SetMotion(vtkBoundaryDisplacement::MOTION_ARRAY);
+    filter->SetMotion(vtkBoundaryDisplacement::DISPLACEMENT_ARRAY);
     filter->SetDisplacementArray("Bump");
     filter->SetKeepLayers(2);
     filter->AddRigidZone("Blade");
-    filter->AddFrozenZone("Clamp");
+    filter->AddFixedZone("Clamp");
     filter->Update();
   };
   vtkNew<vtkBoundaryDisplacement> serial, filter;
@@ -397,7 +397,7 @@ TEST(RankZones, CountsAndOutputsAreThoseOfTheWholeMesh)
   EXPECT_GT(serial->GetZonePoints(), 0);
   EXPECT_GT(serial->GetLayerPoints(), 0);
   EXPECT_EQ(filter->GetMovingPoints(), serial->GetMovingPoints());
-  EXPECT_EQ(filter->GetHeldPoints(), serial->GetHeldPoints());
+  EXPECT_EQ(filter->GetFixedPoints(), serial->GetFixedPoints());
   EXPECT_EQ(filter->GetFollowingPoints(), serial->GetFollowingPoints());
   EXPECT_EQ(filter->GetZonePoints(), serial->GetZonePoints());
   EXPECT_EQ(filter->GetLayerPoints(), serial->GetLayerPoints());
@@ -440,13 +440,13 @@ TEST(RankZones, OneErrorEndsAllRanks)
                     polyhedra = polyhedraAbove();
   const std::vector<std::tuple<std::string, const morph::Mesh*, Configure>> cases = {
     { "The zone 'Nowhere' is neither", &hexes,
-      [](vtkMorphMesh* filter) { filter->AddFrozenZone("Nowhere"); } },
+      [](vtkMorphMesh* filter) { filter->AddFixedZone("Nowhere"); } },
     { "The zone 'Empty' has no node", &hexes,
       [](vtkMorphMesh* filter) { filter->AddRigidZone("Empty"); } },
     { "The zone 'Empty' has no node", &hexes,
       [](vtkMorphMesh* filter) { filter->AddSoftZone("Empty"); } },
     { "No region is given", &hexes,
-      [](vtkMorphMesh* filter) { filter->SetZoneRegionType(vtkMorphMesh::ZONE_FROZEN); } },
+      [](vtkMorphMesh* filter) { filter->SetZoneRegionType(vtkMorphMesh::ZONE_FIXED); } },
     { "There are no layers to keep", &tets,
       [](vtkMorphMesh* filter) { filter->SetKeepLayers(2); } },
     { "LayersArray names 'Nowhere'", &hexes,

@@ -226,10 +226,10 @@ TEST(AffineHandleOf, IsThereForEveryAffineMotionAndNoOther)
   EXPECT_TRUE(described() && reproduces());
   filter->SetScaleFactor(-0.7);
   EXPECT_TRUE(described() && reproduces());
-  filter->SetMotionToVector();
+  filter->SetDisplacementToVector();
   filter->SetVector(0, 0, 0.2);
   EXPECT_TRUE(described() && reproduces());
-  filter->SetMotionToPlacement();
+  filter->SetDisplacementToTranslateRotateScale();
   filter->SetTranslation(0.1, 0, 0.1);
   filter->SetRotation(10, 20, 30);
   filter->SetScale(1.1, 1, 0.9);
@@ -247,7 +247,7 @@ TEST(AffineHandleOf, IsThereForEveryAffineMotionAndNoOther)
   filter->SetSurfaceMethodToSmoothing(); // solved to a tolerance
   EXPECT_FALSE(described());
   filter->SetSurroundingsToStay();
-  filter->SetMotionToAlongNormals();
+  filter->SetDisplacementToAlongNormals();
   filter->SetDistance(0.1);
   EXPECT_FALSE(described());
 }
@@ -262,11 +262,11 @@ TEST(AffineHandleOf, PlanesThatFollowIsUsedUnlessTheyAreMadeToSlide)
     return displaced::surfaceName(
       filter, [&](const Row& x) { return std::abs(x[axis] - at) < 1e-9; });
   };
-  filter->SetMovingToPatches();
-  filter->AddPatch(name(2, 5).c_str());
-  filter->AddSlidingPatch(name(0, 0).c_str());
-  filter->AddSlidingPatch(name(0, 5).c_str());
-  filter->SetMotionToPlacement();
+  filter->SetMovingToSurfaces();
+  filter->AddSurface(name(2, 5).c_str());
+  filter->AddSlidingSurface(name(0, 0).c_str());
+  filter->AddSlidingSurface(name(0, 5).c_str());
+  filter->SetDisplacementToTranslateRotateScale();
   vtkNew<vtkFEMWarpMorph> morph, direct;
   const auto compare = [&]
   {
@@ -300,8 +300,8 @@ TEST(AffineHandleOf, CurvedWallsIsUsedForMotionsThatTheyFollowLinearly)
   // about it, which the walls follow along circles.
   auto grid = grids::make(meshes::ring(24, 3, 0.2));
   auto filter = displaced::make(grid);
-  filter->SetMovingToPatches();
-  filter->AddPatch(displaced::surfaceName(filter,
+  filter->SetMovingToSurfaces();
+  filter->AddSurface(displaced::surfaceName(filter,
     [](const Row& x) {
       return std::abs(x[2] - 0.8) < 1e-9;
     }).c_str());
@@ -310,10 +310,10 @@ TEST(AffineHandleOf, CurvedWallsIsUsedForMotionsThatTheyFollowLinearly)
     filter->Update();
     return filter->GetOutput()->GetPointData()->HasArray(Fields) == 1;
   };
-  filter->SetMotionToVector();
+  filter->SetDisplacementToVector();
   filter->SetVector(0, 0, 0.2);
   EXPECT_TRUE(described());
-  filter->SetMotionToPlacement();
+  filter->SetDisplacementToTranslateRotateScale();
   filter->SetRotation(0, 0, 20);
   EXPECT_FALSE(described());
   filter->SetRotation(0, 0, 0);

@@ -60,7 +60,7 @@ void expectMoved(vtkBoundaryDisplacement* filter, const std::function<bool(const
 vtkSmartPointer<vtkBoundaryDisplacement> movesUp(vtkDataObject* input)
 {
   auto filter = displaced::make(input);
-  filter->SetMotionToVector();
+  filter->SetDisplacementToVector();
   filter->SetVector(Up[0], Up[1], Up[2]);
   filter->SetSurroundingsToStay();
   return filter;
@@ -79,9 +79,9 @@ TEST(BoundaryDisplacement, NothingMovesBitForBit)
       for (int motion = 0; motion < 3; ++motion)
       {
         auto filter = displaced::make(grid);
-        filter->SetMovingToPatches();
-        filter->AddPatch("Surface 2");
-        filter->SetMotion(motion);
+        filter->SetMovingToSurfaces();
+        filter->AddSurface("Surface 2");
+        filter->SetDisplacement(motion);
         filter->SetSurroundings(surroundings);
         filter->Update();
         vtkPolyData* output = filter->GetOutput();
@@ -141,18 +141,18 @@ TEST(BoundaryDisplacement, WaysToChoose)
   {
     SCOPED_TRACE("surfaces and curves");
     auto filter = movesUp(grid);
-    filter->SetMovingToPatches();
-    filter->AddPatch(surfaceName(filter, onTop).c_str());
+    filter->SetMovingToSurfaces();
+    filter->AddSurface(surfaceName(filter, onTop).c_str());
     filter->Update();
     expectMoved(filter, onTop);
-    filter->AddPatch(surfaceName(filter, [](const Row& x) { return x[0] == 0; }).c_str());
+    filter->AddSurface(surfaceName(filter, [](const Row& x) { return x[0] == 0; }).c_str());
     filter->Update();
     expectMoved(filter, [](const Row& x) { return x[2] == 4 || x[0] == 0; });
-    filter->SetPatchStatus(surfaceName(filter, onTop).c_str(), 0);
+    filter->SetSurfaceStatus(surfaceName(filter, onTop).c_str(), 0);
     filter->Update();
     expectMoved(filter, [](const Row& x) { return x[0] == 0; });
-    filter->RemoveAllPatches();
-    filter->AddPatch("Curve 0"); // by lowest node: along x from the origin
+    filter->RemoveAllSurfaces();
+    filter->AddSurface("Curve 0"); // by lowest node: along x from the origin
     filter->Update();
     expectMoved(filter, [](const Row& x) { return x[1] == 0 && x[2] == 0; });
   }
@@ -249,10 +249,10 @@ TEST(BoundaryDisplacement, AlongNormals)
   // that do.
   auto flat = grids::make(meshes::hexes(3, 3, 1));
   auto filter = displaced::make(flat);
-  filter->SetMovingToPatches();
-  filter->AddPatch(surfaceName(filter, [](const Row& x) { return x[2] == 0; }).c_str());
-  filter->AddPatch(surfaceName(filter, [](const Row& x) { return x[2] == 1; }).c_str());
-  filter->SetMotionToAlongNormals();
+  filter->SetMovingToSurfaces();
+  filter->AddSurface(surfaceName(filter, [](const Row& x) { return x[2] == 0; }).c_str());
+  filter->AddSurface(surfaceName(filter, [](const Row& x) { return x[2] == 1; }).c_str());
+  filter->SetDisplacementToAlongNormals();
   filter->SetDistance(0.25);
   filter->Update();
   EXPECT_EQ(filter->GetMovingPoints(), 32);
@@ -272,7 +272,7 @@ TEST(BoundaryDisplacement, AlongNormals)
       meshes::transform(box, [](const Row& p) { return Row(2 - p[0], p[1], p[2]); });
     }
     filter = displaced::make(grids::make(box));
-    filter->SetMotionToAlongNormals();
+    filter->SetDisplacementToAlongNormals();
     filter->SetDistance(0.5);
     filter->SetScaleFactor(-2);
     filter->Update();
@@ -309,7 +309,7 @@ TEST(BoundaryDisplacement, ByAnArrayAndScaled)
     classify->Update();
     auto filter =
       displaced::make(asBoundary ? vtkDataObject::SafeDownCast(classify->GetSurfaces()) : grid);
-    filter->SetMotionToArray();
+    filter->SetDisplacementToArray();
     filter->SetDisplacementArray("Shift");
     for (const double scale : { 1., 0.25, 0., -3. })
     {
@@ -335,10 +335,10 @@ TEST(BoundaryDisplacement, FollowsAsMorphBoundaryDoes)
     for (int method = 0; method < 3; ++method)
     {
       auto filter = displaced::make(grid);
-      filter->SetMovingToPatches();
-      filter->AddPatch("Surface 1");
-      filter->AddPatch("Curve 3");
-      filter->SetSurroundingsToFollowAll();
+      filter->SetMovingToSurfaces();
+      filter->AddSurface("Surface 1");
+      filter->AddSurface("Curve 3");
+      filter->SetSurroundingsToFollowEverywhere();
       filter->SetSurfaceMethod(method);
       vtkNew<vtkTransform> transform;
       transform->RotateWXYZ(20, 1, 2, 3);
@@ -346,7 +346,7 @@ TEST(BoundaryDisplacement, FollowsAsMorphBoundaryDoes)
       filter->SetTransform(transform);
       filter->Update();
       vtkPolyData* output = filter->GetOutput();
-      EXPECT_EQ(filter->GetMovingPoints() + filter->GetHeldPoints() + filter->GetFollowingPoints(),
+      EXPECT_EQ(filter->GetMovingPoints() + filter->GetFixedPoints() + filter->GetFollowingPoints(),
         output->GetNumberOfPoints());
 
       // The same nodes given to the other filter.
@@ -376,7 +376,7 @@ TEST(BoundaryDisplacement, FollowsAsMorphBoundaryDoes)
       grids::Listener silence(reference);
       reference->Update();
       EXPECT_EQ(grids::points(output), grids::points(reference->GetOutput()));
-      EXPECT_EQ(filter->GetHeldPoints(), reference->GetHeldVertices());
+      EXPECT_EQ(filter->GetFixedPoints(), reference->GetFixedVertices());
     }
   }
 }
@@ -385,9 +385,9 @@ TEST(BoundaryDisplacement, HeldPatchesStayButForSharedNodes)
 {
   auto grid = grids::hexes(4);
   auto filter = movesUp(grid);
-  filter->SetMovingToPatches();
-  filter->AddPatch(surfaceName(filter, onTop).c_str());
-  filter->AddHeldPatch(surfaceName(filter, [](const Row& x) { return x[0] == 0; }).c_str());
+  filter->SetMovingToSurfaces();
+  filter->AddSurface(surfaceName(filter, onTop).c_str());
+  filter->AddFixedSurface(surfaceName(filter, [](const Row& x) { return x[0] == 0; }).c_str());
   for (int surroundings = 0; surroundings < 3; ++surroundings)
   {
     filter->SetSurroundings(surroundings);
@@ -414,7 +414,7 @@ TEST(BoundaryDisplacement, HeldPatchesStayButForSharedNodes)
       }
     }
     EXPECT_EQ(followed > 0, surroundings != vtkBoundaryDisplacement::SURROUNDINGS_STAY);
-    EXPECT_GE(filter->GetHeldPoints(), 20);
+    EXPECT_GE(filter->GetFixedPoints(), 20);
   }
 }
 
@@ -422,8 +422,8 @@ TEST(BoundaryDisplacement, FadesWithTheDistance)
 {
   auto grid = grids::hexes(4);
   auto filter = movesUp(grid);
-  filter->SetMovingToPatches();
-  filter->AddPatch(surfaceName(filter, onTop).c_str());
+  filter->SetMovingToSurfaces();
+  filter->AddSurface(surfaceName(filter, onTop).c_str());
   filter->SetSurroundingsToFade();
   const double radius = 2.5;
   filter->SetFalloffRadius(radius / std::sqrt(48.));
@@ -528,8 +528,8 @@ TEST(BoundaryDisplacement, ABoundaryIsAsGoodAsTheMesh)
         vtkDataObject::SafeDownCast(classify->GetSurfaces()) })
     {
       auto filter = movesUp(input);
-      filter->SetMovingToPatches();
-      filter->AddPatch("Surface 2");
+      filter->SetMovingToSurfaces();
+      filter->AddSurface("Surface 2");
       filter->SetSurroundings(surroundings);
       filter->SetFalloffRadius(0.3);
       filter->Update();
@@ -546,13 +546,13 @@ TEST(BoundaryDisplacement, OneAfterTheOtherMoveTwoParts)
 {
   auto grid = grids::hexes(4);
   auto first = movesUp(grid);
-  first->SetMovingToPatches();
-  first->AddPatch(surfaceName(first, onTop).c_str());
+  first->SetMovingToSurfaces();
+  first->AddSurface(surfaceName(first, onTop).c_str());
   auto second = displaced::make(nullptr);
   second->SetInputConnection(first->GetOutputPort());
-  second->SetMovingToPatches();
-  second->AddPatch(surfaceName(first, [](const Row& x) { return x[0] == 0; }).c_str());
-  second->SetMotionToVector();
+  second->SetMovingToSurfaces();
+  second->AddSurface(surfaceName(first, [](const Row& x) { return x[0] == 0; }).c_str());
+  second->SetDisplacementToVector();
   second->SetVector(-1, 0, 0);
   second->SetSurroundingsToStay();
   for (const double height : { 0.7, 1.5, 2.5 })
@@ -607,9 +607,9 @@ TEST(BoundaryDisplacement, ThreadsDoNotShow)
   for (int surroundings = 0; surroundings < 3; ++surroundings)
   {
     auto filter = movesUp(grid);
-    filter->SetMovingToPatches();
-    filter->AddPatch("Surface 0");
-    filter->SetMotionToAlongNormals();
+    filter->SetMovingToSurfaces();
+    filter->AddSurface("Surface 0");
+    filter->SetDisplacementToAlongNormals();
     filter->SetDistance(0.3);
     filter->SetSurroundings(surroundings);
     filter->SetFalloffRadius(0.5);
@@ -617,9 +617,9 @@ TEST(BoundaryDisplacement, ThreadsDoNotShow)
     filter->Update();
     const morph::Points one = grids::points(filter->GetOutput());
     auto other = movesUp(grid);
-    other->SetMovingToPatches();
-    other->AddPatch("Surface 0");
-    other->SetMotionToAlongNormals();
+    other->SetMovingToSurfaces();
+    other->AddSurface("Surface 0");
+    other->SetDisplacementToAlongNormals();
     other->SetDistance(0.3);
     other->SetSurroundings(surroundings);
     other->SetFalloffRadius(0.5);
@@ -633,17 +633,17 @@ TEST(BoundaryDisplacement, NamesOfPatchesAreKnownBeforeAnExecution)
 {
   auto grid = grids::hexes(3);
   auto filter = displaced::make(grid);
-  EXPECT_EQ(filter->GetPatchList()->GetNumberOfArrays(), 0);
+  EXPECT_EQ(filter->GetSurfaceList()->GetNumberOfArrays(), 0);
   filter->UpdateInformation();
-  ASSERT_EQ(filter->GetPatchList()->GetNumberOfArrays(), 6 + 12);
-  EXPECT_STREQ(filter->GetPatchList()->GetArrayName(0), "Surface 0");
-  EXPECT_STREQ(filter->GetPatchList()->GetArrayName(5), "Surface 5");
-  EXPECT_STREQ(filter->GetPatchList()->GetArrayName(17), "Curve 11");
+  ASSERT_EQ(filter->GetSurfaceList()->GetNumberOfArrays(), 6 + 12);
+  EXPECT_STREQ(filter->GetSurfaceList()->GetArrayName(0), "Surface 0");
+  EXPECT_STREQ(filter->GetSurfaceList()->GetArrayName(5), "Surface 5");
+  EXPECT_STREQ(filter->GetSurfaceList()->GetArrayName(17), "Curve 11");
   filter->Update();
   EXPECT_EQ(filter->GetClassifyCount(), 1);
   filter->SetFeatureAngle(180);
   filter->UpdateInformation();
-  EXPECT_EQ(filter->GetPatchList()->GetNumberOfArrays(), 1);
+  EXPECT_EQ(filter->GetSurfaceList()->GetNumberOfArrays(), 1);
 
   // Data that an update would replace say nothing.
   vtkNew<vtkExtractMorphBoundary> extract;
@@ -651,9 +651,9 @@ TEST(BoundaryDisplacement, NamesOfPatchesAreKnownBeforeAnExecution)
   auto second = displaced::make(nullptr);
   second->SetInputConnection(extract->GetOutputPort());
   second->UpdateInformation();
-  EXPECT_EQ(second->GetPatchList()->GetNumberOfArrays(), 0);
+  EXPECT_EQ(second->GetSurfaceList()->GetNumberOfArrays(), 0);
   extract->Update();
   second->Modified(); // or the executive sees nothing to do
   second->UpdateInformation();
-  EXPECT_EQ(second->GetPatchList()->GetNumberOfArrays(), 18);
+  EXPECT_EQ(second->GetSurfaceList()->GetNumberOfArrays(), 18);
 }

@@ -58,8 +58,8 @@ std::ostream& operator<<(std::ostream& stream, const Counts& counts)
 vtkSmartPointer<vtkBoundaryDisplacement> dragged(vtkDataObject* input, vtkTransform* transform)
 {
   auto filter = displaced::make(input);
-  filter->SetMovingToPatches();
-  filter->AddPatch("Surface 1");
+  filter->SetMovingToSurfaces();
+  filter->AddSurface("Surface 1");
   filter->SetTransform(transform);
   return filter;
 }
@@ -138,8 +138,8 @@ TEST(BoundaryDisplacementCaching, TheLastMotionLeavesNoTrace)
   {
     transform->Translate(0.1, 0.02 * step, 0.1);
     filter->SetSurroundings(step % 3);
-    filter->SetMoving(step % 2 == 0 ? vtkBoundaryDisplacement::MOVE_PATCHES
-                                    : vtkBoundaryDisplacement::MOVE_NOTHING);
+    filter->SetMoving(step % 2 == 0 ? vtkBoundaryDisplacement::MOVING_SURFACES
+                                    : vtkBoundaryDisplacement::MOVING_NOTHING);
     if (step % 4 == 0)
     {
       // Stopped on its way, with what it had in hand.
@@ -165,20 +165,20 @@ TEST(BoundaryDisplacementCaching, WhatIsChosenAnewPreparesAlone)
   auto filter = dragged(grid, transform);
   filter->Update();
   const Counts first(filter);
-  filter->AddPatch("Surface 2");
+  filter->AddSurface("Surface 2");
   const morph::Points both = result(filter);
   EXPECT_EQ(filter->GetClassifyCount(), 1);
   EXPECT_EQ(filter->GetChooseCount(), 2);
   EXPECT_GT(filter->GetPrepareCount(), first.prepare);
   auto fresh = dragged(grid, transform);
-  fresh->AddPatch("Surface 2");
+  fresh->AddSurface("Surface 2");
   EXPECT_EQ(result(fresh), both);
 
   // A list that is sent again, as ParaView does.
   const Counts second(filter);
-  filter->RemoveAllPatches();
-  filter->AddPatch("Surface 2");
-  filter->AddPatch("Surface 1");
+  filter->RemoveAllSurfaces();
+  filter->AddSurface("Surface 2");
+  filter->AddSurface("Surface 1");
   EXPECT_EQ(result(filter), both);
   EXPECT_EQ(Counts(filter), second);
 }
@@ -232,10 +232,10 @@ TEST(BoundaryDisplacementCaching, AnErrorLeavesNothingBehind)
   auto filter = dragged(grid, transform);
   const morph::Points moved = result(filter);
   grids::Listener listener(filter);
-  filter->AddPatch("Surface 99");
+  filter->AddSurface("Surface 99");
   filter->Update();
-  filter->RemoveAllPatches();
-  filter->AddPatch("Surface 1");
+  filter->RemoveAllSurfaces();
+  filter->AddSurface("Surface 1");
   EXPECT_EQ(result(filter), moved);
   auto broken = grids::copy(grid);
   broken->GetPoints()->SetPoint(0, NAN, 0, 0);
@@ -253,13 +253,13 @@ TEST(BoundaryDisplacementCaching, WhatIsNotInUseExecutesNothing)
   auto grid = grids::hexes(3);
   vtkNew<vtkTransform> transform;
   auto filter = dragged(grid, transform);
-  filter->SetMotionToVector();
+  filter->SetDisplacementToVector();
   filter->Update();
   const vtkMTimeType time = filter->GetOutput()->GetMTime();
   transform->Translate(1, 2, 3);
   filter->Update();
   EXPECT_EQ(filter->GetOutput()->GetMTime(), time);
-  filter->SetMotionToTransform();
+  filter->SetDisplacementToTransform();
   filter->Update();
   EXPECT_GT(filter->GetOutput()->GetMTime(), time);
 }
@@ -273,7 +273,7 @@ TEST(BoundaryDisplacementCaching, ASelectionThatChangesIsEvaluatedAgain)
   filter->SetSelectionData(selection);
   filter->Update();
   EXPECT_EQ(filter->GetMovingPoints(), 2);
-  filter->SetMotionToVector();
+  filter->SetDisplacementToVector();
   filter->SetVector(1, 0, 0);
   filter->Update();
   EXPECT_EQ(filter->GetChooseCount(), 1);
@@ -304,7 +304,7 @@ TEST(BoundaryDisplacementCaching, AnotherExtractorEvaluatesTheSelectionAgain)
   const vtkMTimeType time = filter->GetMTime();
   filter->SetSelectionExtractor(extractor);
   EXPECT_EQ(filter->GetMTime(), time);
-  filter->SetMotionToVector();
+  filter->SetDisplacementToVector();
   filter->SetVector(1, 0, 0);
   filter->Update();
   EXPECT_EQ(extractor->Executions, 1);

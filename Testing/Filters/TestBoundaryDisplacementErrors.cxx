@@ -63,8 +63,8 @@ void expectError(vtkBoundaryDisplacement* filter, const std::string& telling)
   EXPECT_EQ(filter->GetMovingPoints(), 0);
   filter->SetInputData(grids::hexes(2));
   filter->SetMovingToEverything();
-  filter->SetMotionToVector();
-  filter->RemoveAllHeldPatches();
+  filter->SetDisplacementToVector();
+  filter->RemoveAllFixedSurfaces();
   filter->SetSurfaceIdArray(nullptr);
   filter->SetScaleFactor(1);
   filter->SetVector(1, 1, 1);
@@ -108,15 +108,15 @@ TEST(BoundaryDisplacementErrors, WhatIsChosen)
         f->SetMovingToSelection();
         f->SetSelectionData(indices(vtkSelectionNode::ROW, { 0 }));
       } },
-    { "No patch is chosen", [](auto* f) { f->SetMovingToPatches(); } },
+    { "No patch is chosen", [](auto* f) { f->SetMovingToSurfaces(); } },
     { "'Surface 99', which the boundary does not have; it has Surface 0, Surface 1",
       [](auto* f)
       {
-        f->SetMovingToPatches();
-        f->AddPatch("Surface 0");
-        f->AddPatch("Surface 99");
+        f->SetMovingToSurfaces();
+        f->AddSurface("Surface 0");
+        f->AddSurface("Surface 99");
       } },
-    { "HeldPatches names 'Top'", [](auto* f) { f->AddHeldPatch("Top"); } },
+    { "FixedSurfaces names 'Top'", [](auto* f) { f->AddFixedSurface("Top"); } },
     { "No region", [](auto* f) { f->SetMovingToRegion(); } },
     { "inside the region",
       [](auto* f)
@@ -146,41 +146,41 @@ TEST(BoundaryDisplacementErrors, TheMotion)
     { "Vector moves nodes beyond 1e50",
       [](auto* f)
       {
-        f->SetMotionToVector();
+        f->SetDisplacementToVector();
         f->SetVector(0, 1e60, 0);
       } },
     { "Distance moves nodes beyond 1e50",
       [](auto* f)
       {
-        f->SetMotionToAlongNormals();
+        f->SetDisplacementToAlongNormals();
         f->SetDistance(1e60);
       } },
-    { "No array is named", [](auto* f) { f->SetMotionToArray(); } },
+    { "No array is named", [](auto* f) { f->SetDisplacementToArray(); } },
     { "'Gone', which the input does not have",
       [](auto* f)
       {
-        f->SetMotionToArray();
+        f->SetDisplacementToArray();
         f->SetDisplacementArray("Gone");
       } },
     { "has 2 components",
       [](auto* f)
       {
         addNumbers(vtkDataSet::SafeDownCast(f->GetInputDataObject(0, 0)), "Two", 2, 27, 1);
-        f->SetMotionToArray();
+        f->SetDisplacementToArray();
         f->SetDisplacementArray("Two");
       } },
     { "has 26 tuples for 27 points",
       [](auto* f)
       {
         addNumbers(vtkDataSet::SafeDownCast(f->GetInputDataObject(0, 0)), "Short", 3, 26, 1);
-        f->SetMotionToArray();
+        f->SetDisplacementToArray();
         f->SetDisplacementArray("Short");
       } },
     { "'Wild' is NaN, or vtkValidPointMask 0, at all",
       [](auto* f)
       {
         addNumbers(vtkDataSet::SafeDownCast(f->GetInputDataObject(0, 0)), "Wild", 3, 27, NAN);
-        f->SetMotionToArray();
+        f->SetDisplacementToArray();
         f->SetDisplacementArray("Wild");
       } },
     { "DisplacementArray moves nodes to places that are not finite (NaN or infinite): point ids 0, "
@@ -188,7 +188,7 @@ TEST(BoundaryDisplacementErrors, TheMotion)
       [](auto* f)
       {
         addNumbers(vtkDataSet::SafeDownCast(f->GetInputDataObject(0, 0)), "Wild", 3, 27, INFINITY);
-        f->SetMotionToArray();
+        f->SetDisplacementToArray();
         f->SetDisplacementArray("Wild");
       } },
     { "is not numeric",
@@ -198,7 +198,7 @@ TEST(BoundaryDisplacementErrors, TheMotion)
         text->SetName("Text");
         text->SetNumberOfValues(27);
         vtkDataSet::SafeDownCast(f->GetInputDataObject(0, 0))->GetPointData()->AddArray(text);
-        f->SetMotionToArray();
+        f->SetDisplacementToArray();
         f->SetDisplacementArray("Text");
       } },
   };
@@ -252,8 +252,8 @@ TEST(BoundaryDisplacementErrors, TheInput)
 TEST(BoundaryDisplacementErrors, ACollapseIsAllowedAndNamed)
 {
   auto filter = displaced::make(grids::make(meshes::hexes(2, 2, 2)));
-  filter->SetMovingToPatches();
-  filter->AddPatch(surfaceName(filter, [](const Row& x) { return x[2] == 2; }).c_str());
+  filter->SetMovingToSurfaces();
+  filter->AddSurface(surfaceName(filter, [](const Row& x) { return x[2] == 2; }).c_str());
   vtkNew<vtkTransform> transform;
   transform->Scale(0, 1, 1);
   filter->SetTransform(transform);

@@ -92,7 +92,7 @@ TEST(BoundarySliding, PlanesOfSymmetryStayPlanarWhileAHoleGrows)
     vtkNew<vtkMorphMesh> filter;
     filter->SetInputData(grid);
     filter->AddSurface(hole.c_str());
-    filter->SetDisplacementToNormals();
+    filter->SetDisplacementToAlongNormals();
     filter->SetDistance(-0.3); // against the normal that points out of the mesh
     filter->AddSlidingSurface(first.c_str());
     filter->AddSlidingSurface(second.c_str());
@@ -143,9 +143,9 @@ TEST(BoundarySliding, TheOuterWallStaysWhereAHoleGrows)
   // Two halves of a pipe, whose ends meet: no vertex, and closed curves.
   auto grid = sector(180, 8);
   auto filter = displaced::make(grid);
-  filter->SetMovingToPatches();
-  filter->AddPatch(surface(grid, onHole).c_str());
-  filter->SetMotionToTransform();
+  filter->SetMovingToSurfaces();
+  filter->AddSurface(surface(grid, onHole).c_str());
+  filter->SetDisplacementToTransform();
   vtkNew<vtkTransform> grow;
   grow->Scale(1.2, 1.2, 1);
   filter->SetTransform(grow);
@@ -174,14 +174,14 @@ TEST(BoundarySliding, ACylinderStaysACylinderWhereItsEndMoves)
 {
   auto grid = sector(90, 5);
   auto filter = displaced::make(grid);
-  filter->SetMovingToPatches();
-  filter->AddPatch(surface(grid, [](const Row& x) { return isAt(x[2], 1); }).c_str());
+  filter->SetMovingToSurfaces();
+  filter->AddSurface(surface(grid, [](const Row& x) { return isAt(x[2], 1); }).c_str());
   vtkNew<vtkTransform> turn;
   turn->Translate(0, 0, 0.5);
   turn->RotateZ(10);
   filter->SetTransform(turn);
-  filter->AddSlidingPatch(surface(grid, onHole).c_str());
-  filter->AddSlidingPatch(surface(grid, onOuterWall).c_str());
+  filter->AddSlidingSurface(surface(grid, onHole).c_str());
+  filter->AddSlidingSurface(surface(grid, onOuterWall).c_str());
   grids::Listener listener(filter);
   filter->Update();
   const morph::Points x = displaced::restPositions(filter->GetOutput());
@@ -215,10 +215,10 @@ TEST(BoundarySliding, NodesOfABumpySurfaceStayWhereNothingMoves)
       });
     auto grid = grids::make(mesh);
     auto filter = displaced::make(grid);
-    filter->SetMovingToPatches();
-    filter->AddPatch(surface(grid, [](const Row& x) { return x[0] == 6; }).c_str());
-    filter->AddSlidingPatch(surface(grid, [](const Row& x) { return x[2] > 3.5; }).c_str());
-    filter->SetMotionToVector();
+    filter->SetMovingToSurfaces();
+    filter->AddSurface(surface(grid, [](const Row& x) { return x[0] == 6; }).c_str());
+    filter->AddSlidingSurface(surface(grid, [](const Row& x) { return x[2] > 3.5; }).c_str());
+    filter->SetDisplacementToVector();
     filter->SetVector(0, 1e-9, 0);
     filter->Update();
     const morph::Points x = displaced::restPositions(filter->GetOutput());
@@ -236,9 +236,9 @@ TEST(BoundarySliding, SaysHowFarASurfaceLeavesItsShape)
 {
   auto grid = grids::make(meshes::hexes(4, 4, 4));
   auto filter = displaced::make(grid);
-  filter->SetMovingToPatches();
-  filter->AddPatch(surface(grid, [](const Row& x) { return x[2] == 4; }).c_str());
-  filter->SetMotionToVector();
+  filter->SetMovingToSurfaces();
+  filter->AddSurface(surface(grid, [](const Row& x) { return x[2] == 4; }).c_str());
+  filter->SetDisplacementToVector();
   filter->SetVector(0.3, 0, 0.4);
   grids::Listener listener(filter);
   filter->Update();
@@ -251,7 +251,7 @@ TEST(BoundarySliding, SaysHowFarASurfaceLeavesItsShape)
   filter->Update();
   EXPECT_EQ(listener.Warnings.size(), 1u);
   filter->SetVector(0.3, 0, 0.4);
-  filter->SetSurroundingsToFollowAll();
+  filter->SetSurroundingsToFollowEverywhere();
   filter->Update();
   EXPECT_EQ(listener.Warnings.size(), 1u);
 }
@@ -260,9 +260,9 @@ TEST(BoundarySliding, AVertexIsNoTouchUnlessItMovesAlone)
 {
   auto grid = grids::make(meshes::hexes(4, 4, 4));
   auto filter = displaced::make(grid);
-  filter->SetMovingToPatches();
-  filter->AddPatch(surface(grid, [](const Row& x) { return x[2] == 4; }).c_str());
-  filter->SetMotionToVector();
+  filter->SetMovingToSurfaces();
+  filter->AddSurface(surface(grid, [](const Row& x) { return x[2] == 4; }).c_str());
+  filter->SetDisplacementToVector();
   filter->SetVector(0, 0, 0.4);
   filter->Update();
   const auto followers = [&](const std::function<bool(const Row&)>& is)
@@ -322,10 +322,10 @@ TEST(BoundarySliding, ScalesAndTurnsAboutTheCentreOfWhatMoves)
 {
   auto grid = grids::make(meshes::hexes(4, 4, 4));
   auto filter = displaced::make(grid);
-  filter->SetMovingToPatches();
-  filter->AddPatch(surface(grid, [](const Row& x) { return x[2] == 4; }).c_str());
+  filter->SetMovingToSurfaces();
+  filter->AddSurface(surface(grid, [](const Row& x) { return x[2] == 4; }).c_str());
   filter->SetSurroundingsToStay();
-  filter->SetMotionToPlacement();
+  filter->SetDisplacementToTranslateRotateScale();
   filter->SetRotation(0, 0, 90);
   filter->SetScale(0.5, 1, 1);
   filter->SetTranslation(0, 0, 1);
@@ -351,7 +351,7 @@ TEST(BoundarySliding, ScalesAndTurnsAboutTheCentreOfWhatMoves)
   transform->Translate(0, 0, 1);
   transform->RotateZ(90);
   transform->Scale(0.5, 1, 1);
-  filter->SetMotionToTransform();
+  filter->SetDisplacementToTransform();
   filter->SetTransform(transform);
   check(Row(0, 0, 0));
   filter->TransformAboutCenterOn();
@@ -446,11 +446,11 @@ TEST(BoundarySliding, NodesOfFreeSurfacesAreSolvedWithTheInterior)
 
   // The same answer by the two filters, whose boundary tells which points are free.
   auto displace = displaced::make(grid);
-  displace->SetMovingToPatches();
-  displace->AddPatch(surface(grid, onHole).c_str());
-  displace->SetMotionToVector();
+  displace->SetMovingToSurfaces();
+  displace->AddSurface(surface(grid, onHole).c_str());
+  displace->SetDisplacementToVector();
   displace->SetVector(0, 0, 0.1);
-  displace->AddFreePatch(surface(grid, [](const Row& at) { return isAt(at[2], 1); }).c_str());
+  displace->AddFreeSurface(surface(grid, [](const Row& at) { return isAt(at[2], 1); }).c_str());
   displace->Update();
   EXPECT_EQ(displace->GetFreePoints(), freed / 2);
   for (vtkIdType i = 0; i < displace->GetOutput()->GetNumberOfPoints(); ++i)
@@ -462,8 +462,8 @@ TEST(BoundarySliding, NodesOfFreeSurfacesAreSolvedWithTheInterior)
   // A fixed or sliding surface beside it keeps its nodes, and so does a second filter its freedom.
   vtkNew<vtkBoundaryDisplacement> second;
   second->SetInputConnection(displace->GetOutputPort());
-  second->SetMovingToPatches();
-  second->AddPatch(surface(grid, onOuterWall).c_str());
+  second->SetMovingToSurfaces();
+  second->AddSurface(surface(grid, onOuterWall).c_str());
   second->SetSurroundingsToStay();
   second->Update();
   EXPECT_TRUE(second->GetOutput()->GetPointData()->GetArray("MorphFree"));
@@ -506,9 +506,9 @@ TEST(BoundarySliding, SurfacesThatFoldAsTheyFollowSlideUntilTheyDoNot)
 {
   auto grid = grids::make(shapes::boxWithHole(24, 5, 2));
   auto filter = displaced::make(grid);
-  filter->SetMovingToPatches();
-  filter->AddPatch(displaced::surfaceName(filter, onHole).c_str());
-  filter->SetMotionToVector();
+  filter->SetMovingToSurfaces();
+  filter->AddSurface(displaced::surfaceName(filter, onHole).c_str());
+  filter->SetDisplacementToVector();
   filter->SetVector(0.85, 0, 0);
   const grids::Listener listener(filter);
   filter->Update();

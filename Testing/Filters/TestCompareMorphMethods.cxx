@@ -304,7 +304,7 @@ TEST_F(CompareMorphMethods, AMethodThatFailsEndsItsRun)
   this->Choose(true, true);
   this->Filter->SetInputData(grid);
   this->Filter->SetBoundaryData(boundary);
-  this->Filter->SetHoldUnnamedBoundary(false);
+  this->Filter->SetFixUnnamedBoundary(false);
   grids::Listener listener(this->Filter);
   this->Filter->Update();
   EXPECT_TRUE(listener.Errors.empty());

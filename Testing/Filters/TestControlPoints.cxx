@@ -79,7 +79,7 @@ double largest(const Points& points)
 TEST(Handles, OfAnAffineMotionMoveTheBoundaryAffinely)
 {
   auto filter = displaced::make(grids::hexes());
-  filter->SetMotionToHandles();
+  filter->SetDisplacementToHandles();
   for (int i = 0; i < 8; ++i)
   {
     const Row from = corner(i), by = shiftedAffine(from) - from;
@@ -98,7 +98,7 @@ TEST(Handles, OfAnAffineMotionMoveTheBoundaryAffinely)
 TEST(Handles, AreTheThinPlateSplineOfVtk)
 {
   auto filter = displaced::make(grids::hexes());
-  filter->SetMotionToHandles();
+  filter->SetDisplacementToHandles();
   vtkNew<vtkPoints> from, to;
   from->SetDataTypeToDouble();
   to->SetDataTypeToDouble();
@@ -130,7 +130,7 @@ TEST(Handles, StayWithinTheirRadiusAndTakeTheirNode)
 {
   auto grid = grids::hexes();
   auto filter = displaced::make(grid);
-  filter->SetMotionToHandles();
+  filter->SetDisplacementToHandles();
   const Points rest = grids::points(grid);
   const Row at = rest.row(0), by(0.1, 0.2, -0.3); // a corner
   filter->SetControlPointsData(table({ "x", "y", "z", "dx", "dy", "dz", "radius" },
@@ -167,7 +167,7 @@ TEST(Handles, AreSelectedPoints)
     vtkDisplacementAlgorithm* filter =
       inMesh ? static_cast<vtkDisplacementAlgorithm*>(mesh) : boundary.Get();
     mesh->SetDisplacementToHandles();
-    boundary->SetMotionToHandles();
+    boundary->SetDisplacementToHandles();
     filter->SetInputData(grid);
     filter->SelectedHandlesOn();
     filter->SetHandleRadius(1.5);
@@ -186,7 +186,7 @@ TEST(Handles, AreSelectedPoints)
 TEST(Handles, ThatAreNoneOrWrongAreErrors)
 {
   auto filter = displaced::make(grids::hexes());
-  filter->SetMotionToHandles();
+  filter->SetDisplacementToHandles();
   EXPECT_NE(errorOf(filter).find("no handle"), std::string::npos);
   EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 0);
   filter->SetControlPointsData(grids::cloud(Points::Random(3, 3)));
@@ -210,8 +210,8 @@ TEST(Lattice, OfAnAffineMotionMovesTheBoundaryAffinely)
   auto grid = grids::hexes();
   double bounds[6];
   grid->GetBounds(bounds);
-  for (const int basis :
-    { vtkBoundaryDisplacement::LATTICE_BERNSTEIN, vtkBoundaryDisplacement::LATTICE_B_SPLINE })
+  for (const int basis : { vtkBoundaryDisplacement::LATTICE_BASIS_BERNSTEIN,
+         vtkBoundaryDisplacement::LATTICE_BASIS_B_SPLINE })
   {
     morph::LatticeMotion lattice;
     lattice.basis = static_cast<morph::LatticeMotion::Basis>(basis);
@@ -222,7 +222,7 @@ TEST(Lattice, OfAnAffineMotionMovesTheBoundaryAffinely)
     auto control = grids::cloud(points);
     grids::addVectors(control, "Displacement", grids::mapped(points, shiftedAffine) - points);
     auto filter = displaced::make(grid);
-    filter->SetMotionToLattice();
+    filter->SetDisplacementToLattice();
     filter->SetLatticeBasis(basis);
     filter->SetLatticeSize(3, 5, 4);
     filter->SetControlPointsData(control);
@@ -237,7 +237,7 @@ TEST(Lattice, TakesTablesAndListsAndLeavesWhatIsOutside)
 {
   auto grid = grids::hexes();
   auto filter = displaced::make(grid);
-  filter->SetMotionToLattice();
+  filter->SetDisplacementToLattice();
   filter->AutoLatticeOff();
   filter->SetLatticeBounds(-1, 2, -1, 2, -1, 2);
   filter->SetLatticeSize(3, 3, 3);

@@ -297,7 +297,7 @@ TEST_F(MorphBoundaryInputs, PlacesAndTargetsOfAllSizes)
       SCOPED_TRACE(std::to_string(size) + ", " + std::to_string(scale));
       this->Filter->SetTargetData(target);
       this->Filter->SetBoundaryData(grids::boundary(this->Grid, times(1 + scale)));
-      this->Filter->SetProjectionDistance(10);
+      this->Filter->SetTargetReach(10);
       grids::Listener listener(this->Filter);
       this->Filter->Update();
       const bool isFar = size > 1;
@@ -386,7 +386,7 @@ TEST(SinglePrecision, PositionsBeyondItAreAnError)
 
   vtkNew<vtkBoundaryDisplacement> displace;
   displace->SetInputData(grid);
-  displace->SetMotionToVector();
+  displace->SetDisplacementToVector();
   displace->SetVector(1e40, 0, 0);
   displace->SetOutputPointsPrecision(vtkAlgorithm::SINGLE_PRECISION);
   expectError(displace, { "Single precision does not hold", "OutputPointsPrecision to double" });
@@ -428,7 +428,7 @@ TEST(BoundaryDisplacementInputs, HugeMotions)
   auto grid = grids::hexes(3);
   vtkNew<vtkBoundaryDisplacement> filter;
   filter->SetInputData(grid);
-  filter->SetMotionToVector();
+  filter->SetDisplacementToVector();
   filter->SetVector(1e60, 0, 0);
   expectError(filter, { "Vector moves nodes beyond 1e50: point ids" });
   filter->SetVector(1e30, 0, 0);

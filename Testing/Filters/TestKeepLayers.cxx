@@ -59,7 +59,7 @@ TEST(KeepLayers, SurfacesBesideThemFollowThem)
   auto grid = channel();
   vtkNew<vtkMorphMesh> filter;
   filter->SetInputData(grid);
-  filter->SetMoving(vtkMorphMesh::MOVE_ARRAY);
+  filter->SetMoving(vtkMorphMesh::MOVING_ARRAY);
   filter->SetMovingArray("Wall");
   filter->SetDisplacement(vtkMorphMesh::DISPLACEMENT_ARRAY);
   filter->SetDisplacementArray("Bump");

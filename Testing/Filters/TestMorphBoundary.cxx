@@ -129,7 +129,7 @@ TEST(MorphBoundary, AffineMotionOfTheVerticesMovesAllAndTheVolumeFollows)
       filter->SetPrescribedDimension(0);
       filter->Update();
       EXPECT_EQ(filter->GetGivenPoints(), 8);
-      EXPECT_EQ(filter->GetHeldVertices(), 0);
+      EXPECT_EQ(filter->GetFixedVertices(), 0);
       EXPECT_LE(worst(filter->GetOutput(), grids::affine), 1e-10 * meshes::size(mesh.points));
 
       vtkNew<vtkFEMWarpMorph> volume;
@@ -245,7 +245,7 @@ TEST(MorphBoundary, AFewVerticesByIdAndClassifiedInput)
   filter->SetBoundaryIdArray("Node");
   filter->Update();
   EXPECT_EQ(filter->GetGivenPoints(), 2);
-  EXPECT_EQ(filter->GetHeldVertices(), 6);
+  EXPECT_EQ(filter->GetFixedVertices(), 6);
   const morph::Points x = grids::points(filter->GetOutput());
   for (morph::Index i = 0; i <= 4; ++i)
   {
@@ -412,7 +412,7 @@ TEST(MorphBoundary, WallsOfATubeStayApart)
   auto* grid = classify->GetOutput();
   auto filter = morpher(grid, grids::boundary(grid, same));
   filter->SetTargetData(grids::boundary(grids::make(tube(64, 64, 1.2)), same));
-  filter->SetProjectionDistance(0.5);
+  filter->SetTargetReach(0.5);
   filter->Update();
   EXPECT_EQ(filter->GetUnprojectedPoints(), 0);
   EXPECT_EQ(filter->GetProjectedPoints(), 2 * 24 * 23);
@@ -492,12 +492,12 @@ TEST(MorphBoundary, AnOpenTargetIsProjectedOntoWhereItIs)
   target->SetPolys(polygons);
   auto filter = morpher(grid, grids::boundary(grid, same));
   filter->SetTargetData(target);
-  filter->SetProjectionDistance(0.15 / std::sqrt(76.));
+  filter->SetTargetReach(0.15 / std::sqrt(76.));
   grids::Listener listener(filter);
   filter->Update();
   EXPECT_TRUE(listener.Errors.empty());
   ASSERT_EQ(listener.Warnings.size(), 1u);
-  EXPECT_NE(listener.Warnings[0].find("no place within ProjectionDistance"), std::string::npos)
+  EXPECT_NE(listener.Warnings[0].find("no place within TargetReach"), std::string::npos)
     << listener.Warnings[0];
   EXPECT_EQ(filter->GetProjectedPoints(), 3 * 5);
   EXPECT_EQ(filter->GetUnprojectedPoints(), 2 * 5 + 25 + 4 * 5);

@@ -235,7 +235,7 @@ TEST_F(MorphCaching, AnotherSetOfPrescribedNodes)
   grids::addIds(inside, "MorphPointId", { 62 });
   this->Filter->SetBoundaryData(inside);
   EXPECT_EQ(this->PreparesAfterUpdate(), 2);
-  this->Filter->HoldUnnamedBoundaryOff();
+  this->Filter->FixUnnamedBoundaryOff();
   EXPECT_EQ(this->PreparesAfterUpdate(), 3);
 }
 

@@ -428,11 +428,11 @@ TEST_F(MorphErrors, BodyWithoutPrescribedNode)
   }
   auto boundary = grids::cloud(two.points.row(0));
   grids::addIds(boundary, "MorphPointId", { 0 });
-  this->Filter->HoldUnnamedBoundaryOff();
+  this->Filter->FixUnnamedBoundaryOff();
   this->Filter->SetInputData(grids::make(two));
   this->Filter->SetBoundaryData(boundary);
   this->ExpectError({ "Body 1", "27 cells" });
-  this->Filter->HoldUnnamedBoundaryOn();
+  this->Filter->FixUnnamedBoundaryOn();
 }
 
 TEST_F(MorphErrors, InvertedRestCellsOnlyWarn)

@@ -322,7 +322,7 @@ TEST_F(MorphMatching, UnnamedBoundaryIsHeldOrSolved)
       (this->Mesh.points(id, 2) == 4 ? up : grids::Row(grids::Row::Zero()));
     EXPECT_TRUE(moved.row(id) == expected);
   }
-  this->Filter->HoldUnnamedBoundaryOff();
+  this->Filter->FixUnnamedBoundaryOff();
   this->Filter->SetTolerance(1e-12);
   moved = this->RunAgain();
   EXPECT_EQ(this->Filter->GetPrescribedPoints(), 25);

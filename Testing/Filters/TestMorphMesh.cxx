@@ -71,9 +71,9 @@ template <typename Method>
 vtkSmartPointer<vtkUnstructuredGrid> byTwoFilters(vtkUnstructuredGrid* grid, const Row& up = Up)
 {
   auto displace = displaced::make(grid);
-  displace->SetMovingToPatches();
-  displace->AddPatch(topSurface(grid).c_str());
-  displace->SetMotionToVector();
+  displace->SetMovingToSurfaces();
+  displace->AddSurface(topSurface(grid).c_str());
+  displace->SetDisplacementToVector();
   displace->SetVector(up[0], up[1], up[2]);
   vtkNew<Method> morph;
   morph->SetInputData(grid);
@@ -113,21 +113,21 @@ TEST(MorphMesh, SurfacesFollowByTheSurfaceMethod)
   {
     const double rotation[] = { 0, 0, 40 }, scale[] = { 1.5, 0.8, 1 };
     auto filter = make(grid);
-    filter->SetDisplacementToPlacement();
+    filter->SetDisplacementToTranslateRotateScale();
     filter->SetRotation(rotation);
     filter->SetScale(scale);
-    filter->SetSurroundingsToFollowAll();
+    filter->SetSurroundingsToFollowEverywhere();
     filter->SetSurfaceMethod(method);
     grids::Listener silence(filter);
     filter->Update();
 
     auto displace = displaced::make(grid);
-    displace->SetMovingToPatches();
-    displace->AddPatch(topSurface(grid).c_str());
-    displace->SetMotionToPlacement();
+    displace->SetMovingToSurfaces();
+    displace->AddSurface(topSurface(grid).c_str());
+    displace->SetDisplacementToTranslateRotateScale();
     displace->SetRotation(rotation);
     displace->SetScale(scale);
-    displace->SetSurroundingsToFollowAll();
+    displace->SetSurroundingsToFollowEverywhere();
     displace->SetSurfaceMethod(method);
     vtkNew<vtkFEMWarpMorph> morph;
     morph->SetInputData(grid);
@@ -182,11 +182,12 @@ TEST(MorphMesh, WithNothingChosenTheBoundaryIsShownAndNothingIsWrong)
     const char* Advice;
   };
   for (const Case& one :
-    { Case{ vtkMorphMesh::MOVE_SURFACES, vtkMorphMesh::DISPLACEMENT_VECTOR, "Tick surfaces" },
-      Case{ vtkMorphMesh::MOVE_SELECTION, vtkMorphMesh::DISPLACEMENT_VECTOR, "Select points" },
-      Case{ vtkMorphMesh::MOVE_SURFACES, vtkMorphMesh::DISPLACEMENT_TARGET, "Choose the Target" },
-      Case{ vtkMorphMesh::MOVE_SURFACES, vtkMorphMesh::DISPLACEMENT_HANDLES, "Give a handle" },
-      Case{ vtkMorphMesh::MOVE_EVERYTHING, vtkMorphMesh::DISPLACEMENT_HANDLES, "Give a handle" } })
+    { Case{ vtkMorphMesh::MOVING_SURFACES, vtkMorphMesh::DISPLACEMENT_VECTOR, "Tick surfaces" },
+      Case{ vtkMorphMesh::MOVING_SELECTION, vtkMorphMesh::DISPLACEMENT_VECTOR, "Select points" },
+      Case{ vtkMorphMesh::MOVING_SURFACES, vtkMorphMesh::DISPLACEMENT_TARGET, "Choose the Target" },
+      Case{ vtkMorphMesh::MOVING_SURFACES, vtkMorphMesh::DISPLACEMENT_HANDLES, "Give a handle" },
+      Case{
+        vtkMorphMesh::MOVING_EVERYTHING, vtkMorphMesh::DISPLACEMENT_HANDLES, "Give a handle" } })
   {
     filter->SetMoving(one.Moving);
     filter->SetDisplacement(one.Displacement);

@@ -186,7 +186,7 @@ TEST_F(MorphValidity, TheLargestValidStepIsTheResultWhereThereIsNoMore)
   auto boundary = grids::cloud(grids::mapped(meshes::rows(rest, ids), turnedOver));
   grids::addIds(boundary, "MorphPointId", ids);
   filter->SetBoundaryData(boundary);
-  filter->HoldUnnamedBoundaryOff();
+  filter->FixUnnamedBoundaryOff();
   filter->SetValidityToSubStep();
   grids::Listener listener(filter);
   filter->Update();
@@ -305,7 +305,7 @@ TEST_F(MorphValidity, CellsThatWereInvertedBeforeRefuseNothing)
     filter->Update();
     EXPECT_TRUE(listener.Errors.empty()) << listener.Errors[0];
     ASSERT_FALSE(listener.Warnings.empty());
-    EXPECT_NE(listener.Warnings[0].find("Repair All"), std::string::npos) << listener.Warnings[0];
+    EXPECT_NE(listener.Warnings[0].find("Repair all"), std::string::npos) << listener.Warnings[0];
     for (std::size_t i = 1; i < listener.Warnings.size(); ++i) // where the method prepares
     {
       EXPECT_NE(listener.Warnings[i].find("The reference mesh has"), std::string::npos);

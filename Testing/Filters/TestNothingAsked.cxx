@@ -48,13 +48,13 @@ const std::vector<std::pair<std::string, void (*)(vtkMorphMesh*, double)>> Motio
   { "AlongNormals",
     [](vtkMorphMesh* f, double by)
     {
-      f->SetDisplacementToNormals();
+      f->SetDisplacementToAlongNormals();
       f->SetDistance(by);
     } },
   { "Placement",
     [](vtkMorphMesh* f, double by)
     {
-      f->SetDisplacementToPlacement();
+      f->SetDisplacementToTranslateRotateScale();
       f->SetRotation(by, 0, by);
       f->SetScale(1, 1, 1 + by);
     } },

@@ -44,8 +44,8 @@ Names enabled(vtkDataArraySelection* names)
 Names pick(vtkBoundaryDisplacement* filter, vtkDataObject* shown, vtkSelection* selection)
 {
   vtkNew<vtkDataArraySelection> names;
-  filter->FindPatches(shown, selection, names);
-  EXPECT_EQ(names->GetNumberOfArrays(), filter->GetPatchList()->GetNumberOfArrays());
+  filter->FindSurfaces(shown, selection, names);
+  EXPECT_EQ(names->GetNumberOfArrays(), filter->GetSurfaceList()->GetNumberOfArrays());
   return enabled(names);
 }
 
@@ -164,12 +164,12 @@ TEST_P(Pick, NoExecutionAndNoChange)
   const vtkMTimeType before = this->Filter->GetMTime();
   this->Filter->SetPick(selection);
   this->Filter->SetPickPort(-1);
-  EXPECT_EQ(enabled(this->Filter->GetPickedPatches()), Names{ this->Top });
+  EXPECT_EQ(enabled(this->Filter->GetPickedSurfaces()), Names{ this->Top });
   selection->SetOutput(where(vtkSelectionNode::POINT, this->Filter->GetOutput(), onSide));
   this->Filter->SetPickPort(0);
-  EXPECT_EQ(enabled(this->Filter->GetPickedPatches()), Names{ this->Side });
+  EXPECT_EQ(enabled(this->Filter->GetPickedSurfaces()), Names{ this->Side });
   this->Filter->SetPick(nullptr);
-  EXPECT_EQ(enabled(this->Filter->GetPickedPatches()), Names());
+  EXPECT_EQ(enabled(this->Filter->GetPickedSurfaces()), Names());
   EXPECT_EQ(this->Filter->GetMTime(), before);
 }
 

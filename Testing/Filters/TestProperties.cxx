@@ -121,8 +121,8 @@ TEST(Properties, OfTheBoundaryFilters)
   EXPECT_REFUSED(vtkMorphBoundary, CornerAngle, 0, 180, 30);
   EXPECT_REFUSED(vtkMorphBoundary, ScaleFactor, -Any, Any, 2);
   EXPECT_REFUSED(vtkMorphBoundary, MatchTolerance, 0, 1, 0.25);
-  EXPECT_REFUSED(vtkMorphBoundary, ProjectionDistance, 0, 10, 0.5);
-  EXPECT_REFUSED(vtkMorphBoundary, ProjectionAngle, 0, 180, 30);
+  EXPECT_REFUSED(vtkMorphBoundary, TargetReach, 0, 10, 0.5);
+  EXPECT_REFUSED(vtkMorphBoundary, TargetAngle, 0, 180, 30);
   EXPECT_REFUSED(vtkMorphBoundary, RestTime, -Any, Any, 2);
   EXPECT_REFUSED(vtkBoundaryDisplacement, FeatureAngle, 0, 180, 30);
   EXPECT_REFUSED(vtkBoundaryDisplacement, CornerAngle, 0, 180, 30);

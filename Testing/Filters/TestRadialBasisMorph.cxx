@@ -68,7 +68,7 @@ TEST(RadialBasisMorph, ABoundaryInOnePlaneIsAnError)
   vtkNew<vtkRadialBasisMorph> filter;
   filter->SetInputData(grid);
   filter->SetBoundaryData(boundary);
-  filter->HoldUnnamedBoundaryOff();
+  filter->FixUnnamedBoundaryOff();
   grids::Listener listener(filter);
   filter->Update();
   ASSERT_EQ(listener.Errors.size(), 1u);

@@ -96,7 +96,7 @@ Getters gettersOf(vtkMorphBoundary* f)
     { "MeanScaledJacobian", [f] { return f->GetMeanScaledJacobian(); } },
     { "FoldedFaces", [f] { return f->GetFoldedFaces(); } },
     { "GivenPoints", [f] { return f->GetGivenPoints(); } },
-    { "HeldVertices", [f] { return f->GetHeldVertices(); } },
+    { "FixedVertices", [f] { return f->GetFixedVertices(); } },
     { "ProjectedPoints", [f] { return f->GetProjectedPoints(); } },
     { "UnprojectedPoints", [f] { return f->GetUnprojectedPoints(); } },
     { "SmoothedSurfaces", [f] { return f->GetSmoothedSurfaces(); } },

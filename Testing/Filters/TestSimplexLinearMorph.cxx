@@ -50,7 +50,7 @@ TEST(SimplexLinearMorph, PrescribedNodesInOnePlaneAreOneError)
   vtkNew<vtkSimplexLinearMorph> filter;
   filter->SetInputData(grid);
   filter->SetBoundaryData(boundary);
-  filter->HoldUnnamedBoundaryOff();
+  filter->FixUnnamedBoundaryOff();
   grids::Listener listener(filter);
   filter->Update();
   ASSERT_EQ(listener.Errors.size(), 1u);

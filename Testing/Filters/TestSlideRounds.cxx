@@ -59,7 +59,7 @@ void configure(vtkMorphMesh* filter, vtkUnstructuredGrid* grid)
 {
   addPush(grid);
   filter->SetInputData(grid);
-  filter->SetMoving(vtkMorphMesh::MOVE_ARRAY);
+  filter->SetMoving(vtkMorphMesh::MOVING_ARRAY);
   filter->SetMovingArray("Bottom");
   filter->SetDisplacementToArray();
   filter->SetDisplacementArray("Push");
@@ -176,7 +176,7 @@ TEST(SlideRounds, NodesStayOnACylinderAndTheForceFalls)
   grid->GetPointData()->AddArray(end);
   vtkNew<vtkMorphMesh> filter;
   filter->SetInputData(grid);
-  filter->SetMoving(vtkMorphMesh::MOVE_ARRAY);
+  filter->SetMoving(vtkMorphMesh::MOVING_ARRAY);
   filter->SetMovingArray("Bottom");
   filter->SetDisplacementToArray();
   filter->SetDisplacementArray("Push");
@@ -251,9 +251,9 @@ TEST(SlideRounds, WithoutMotionKeepsTheBitsAndSaysSo)
 {
   auto grid = grids::make(meshes::hexes(3, 3, 3));
   auto filter = displaced::make(grid);
-  filter->SetMovingToPatches();
-  filter->AddPatch(surface(grid, [](const Row& x) { return isAt(x[2], 0); }).c_str());
-  filter->AddSlidingPatch(surface(grid, onPlane).c_str());
+  filter->SetMovingToSurfaces();
+  filter->AddSurface(surface(grid, [](const Row& x) { return isAt(x[2], 0); }).c_str());
+  filter->AddSlidingSurface(surface(grid, onPlane).c_str());
   filter->SetSlideRounds(3);
   filter->Update();
   EXPECT_STREQ(filter->GetSlideReport(), "None");
@@ -289,13 +289,13 @@ TEST(SlideRounds, RefusesWhatItDoesNotKnow)
   const auto message = [&](vtkDataObject* input, bool slides)
   {
     auto filter = displaced::make(input);
-    filter->SetMovingToPatches();
-    filter->AddPatch(bottom.c_str());
-    filter->SetMotionToVector();
+    filter->SetMovingToSurfaces();
+    filter->AddSurface(bottom.c_str());
+    filter->SetDisplacementToVector();
     filter->SetVector(0, 0, 0.1);
     if (slides)
     {
-      filter->AddSlidingPatch(side.c_str());
+      filter->AddSlidingSurface(side.c_str());
     }
     filter->SetSlideRounds(3);
     grids::Listener listener(filter);

@@ -96,7 +96,7 @@ public:
     grids::addIds(boundary, "MorphPointId", this->Ids);
     filter->SetInputData(this->Grid);
     filter->SetBoundaryData(boundary);
-    filter->HoldUnnamedBoundaryOff();
+    filter->FixUnnamedBoundaryOff();
     filter->SetValidityToReport();
     filter->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
     grids::Listener listener(filter);

@@ -80,7 +80,7 @@ vtkSmartPointer<vtkBoundaryDisplacement> twisted(vtkDataObject* grid)
   vtkNew<vtkBox> top;
   top->SetBounds(-1, N + 1, -1, N + 1, N - 1e-6, N + 1);
   filter->SetRegion(top);
-  filter->SetMotionToPlacement();
+  filter->SetDisplacementToTranslateRotateScale();
   filter->SetRotation(0, 0, 25);
   filter->SetTranslation(0.3, 0, 0.8);
   return filter;
@@ -134,10 +134,10 @@ TEST(Zones, FrozenAndRigidOnesKeepTheirShapeUnderEveryMethod)
     auto displacement = twisted(grid);
     const Points without = morphed(method, grid, displacement);
     EXPECT_GT(offRigid(rest, without, middle), 0.01);
-    displacement->AddFrozenZone("Nodes");
+    displacement->AddFixedZone("Nodes");
     const Points frozen = morphed(method, grid, displacement);
     EXPECT_EQ(frozen(middle, morph::allColumns), rest(middle, morph::allColumns));
-    displacement->RemoveAllFrozenZones();
+    displacement->RemoveAllFixedZones();
     displacement->AddRigidZone("Cells");
     const Points rigid = morphed(method, grid, displacement);
     EXPECT_LT(offRigid(rest, rigid, middle), 1e-12);
@@ -221,11 +221,11 @@ TEST(Zones, SelectionsAndBlocksAreZonesToo)
   const std::vector<Index> middle = middleNodes(grid);
   vtkNew<vtkFEMWarpMorph> method;
   auto byArray = twisted(grid);
-  byArray->AddFrozenZone("Nodes");
+  byArray->AddFixedZone("Nodes");
   const Points expected = morphed(method, grid, byArray);
   auto bySelection = twisted(grid);
   bySelection->SetZoneSelectionData(displaced::indices(vtkSelectionNode::POINT, middle));
-  bySelection->SetZoneSelectionType(vtkBoundaryDisplacement::ZONE_FROZEN);
+  bySelection->SetZoneSelectionType(vtkBoundaryDisplacement::ZONE_FIXED);
   EXPECT_EQ(morphed(method, grid, bySelection), expected);
 
   // Two blocks: the middle's cells, and the others.
@@ -234,13 +234,13 @@ TEST(Zones, SelectionsAndBlocksAreZonesToo)
   auto multi = blocks::multiBlock(pieces);
   vtkNew<vtkMorphMesh> mesh;
   mesh->SetInputDataObject(multi);
-  mesh->SetMoving(vtkMorphMesh::MOVE_REGION);
+  mesh->SetMoving(vtkMorphMesh::MOVING_REGION);
   mesh->SetRegion(byArray->GetRegion());
-  mesh->SetDisplacement(vtkMorphMesh::DISPLACEMENT_PLACEMENT);
+  mesh->SetDisplacement(vtkMorphMesh::DISPLACEMENT_TRANSLATE_ROTATE_SCALE);
   mesh->SetRotation(0, 0, 25);
   mesh->SetTranslation(0.3, 0, 0.8);
   mesh->SetValidity(vtkMorphAlgorithm::VALIDITY_NONE);
-  mesh->AddFrozenZone("B");
+  mesh->AddFixedZone("B");
   grids::Listener listener(mesh);
   mesh->Update();
   ASSERT_TRUE(listener.Errors.empty()) << listener.Errors.front();
@@ -320,7 +320,7 @@ TEST(Zones, SoftOnesGiveWay)
   const Points rest = grids::points(grid);
   vtkNew<vtkMorphMesh> mesh;
   mesh->SetInputData(grid);
-  mesh->SetMoving(vtkMorphMesh::MOVE_EVERYTHING);
+  mesh->SetMoving(vtkMorphMesh::MOVING_EVERYTHING);
   // A motion without an affine part, which all cells would share.
   vtkNew<vtkDoubleArray> bulge;
   bulge->SetName("Bulge");
@@ -366,19 +366,19 @@ TEST(Zones, ErrorsNameWhatIsWrong)
     return listener.Errors.size() == 1 ? listener.Errors[0] : std::string();
   };
   auto unknown = twisted(grid);
-  unknown->AddFrozenZone("Bolt");
+  unknown->AddFixedZone("Bolt");
   EXPECT_NE(errorOf(unknown).find("The zone 'Bolt' is neither"), std::string::npos);
   auto empty = twisted(grid);
   vtkNew<vtkBox> far;
   far->SetBounds(100, 101, 0, 1, 0, 1);
   empty->SetZoneRegion(far);
-  empty->SetZoneRegionType(vtkBoundaryDisplacement::ZONE_FROZEN);
+  empty->SetZoneRegionType(vtkBoundaryDisplacement::ZONE_FIXED);
   EXPECT_NE(errorOf(empty).find("has no node"), std::string::npos);
   auto none = twisted(grid);
   none->SetZoneRegionType(vtkBoundaryDisplacement::ZONE_RIGID);
   EXPECT_NE(errorOf(none).find("set ZoneRegion"), std::string::npos);
   auto surface = twisted(grids::boundary(grid, [](const Row& x) { return x; }));
-  surface->AddFrozenZone("Nodes");
+  surface->AddFixedZone("Nodes");
   EXPECT_NE(errorOf(surface).find("the input is a surface"), std::string::npos);
 }
 
@@ -393,9 +393,9 @@ TEST(Zones, OneThatIsFrozenAndRigidStays)
     all->FillValue(1);
     grid->GetPointData()->AddArray(all);
     auto filter = displaced::make(grid);
-    filter->SetMotionToVector();
+    filter->SetDisplacementToVector();
     filter->SetVector(0.1, 0, 0);
-    filter->AddFrozenZone(name);
+    filter->AddFixedZone(name);
     filter->AddRigidZone(name);
     grids::Listener listener(filter);
     filter->Update();
@@ -415,7 +415,7 @@ TEST(Zones, InnerPointsHaveAllArrays)
 {
   auto grid = marked();
   auto filter = twisted(grid);
-  filter->AddFrozenZone("Nodes");
+  filter->AddFixedZone("Nodes");
   filter->Update();
   vtkPolyData* output = filter->GetOutput();
   const vtkIdType outer = (N + 1) * (N + 1) * (N + 1) - (N - 1) * (N - 1) * (N - 1);

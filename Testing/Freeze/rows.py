@@ -235,7 +235,7 @@ def option_rows():
     """Options of the morph filters, most of them on FEMWARP."""
     for name, options in {
         "scale": {"ScaleFactor": 0.5},
-        "free_rest": {"HoldUnnamedBoundary": 0},
+        "free_rest": {"FixUnnamedBoundary": 0},
         "inverse_volume": {"Stiffness": "Inverse volume"},
         "exponent": {"Stiffness": "Inverse volume", "StiffnessExponent": 0.5},
         "wall_distance": {"Stiffness": "Wall distance"},
@@ -259,7 +259,7 @@ def option_rows():
            morph("WeightedResidual", "pipe_hex", NumberOfNeighbors=20))
     yield ("LBWARP.inside/bore_hex", "exact", morph("LBWARP", "bore_hex", part=0.25))
     for name, options in {
-        "sub_step": {"Validity": "Sub Step"}, "repair": {"Validity": "Repair"},
+        "sub_step": {"Validity": "Sub step"}, "repair": {"Validity": "Repair"},
         "refuse": {"Validity": "Refuse"}, "post_smooth": {"PostSmooth": 1},
     }.items():
         yield f"FEMWARP.{name}/canister_hex", "search", morph("FEMWARP", "canister_hex", **options)
@@ -298,7 +298,7 @@ def turned(proxy):
 MOTIONS = {
     "transform": ({}, turned),
     "vector": ({"Vector": [0.05, 0.02, 0.1]}, None),
-    "normals": ({"How": "Along Normals", "Distance": 0.03}, None),
+    "normals": ({"How": "Along normals", "Distance": 0.03}, None),
     "array": ({"How": "Array", "DisplacementArray": "FinalDisplacement",
                "ScaleFactor": 0.5}, None),
     "numbers": ({"How": "Translate, rotate, scale", "Translation": [0, 0, 0.1],
@@ -330,7 +330,7 @@ def motion(options, how, default="Vector"):
 
 
 def boundary_rows():
-    chosen = {"Moving": "Patches", "Patches": ["Surface 0"]}
+    chosen = {"Moving": "Surfaces", "Surfaces": ["Surface 0"]}
     for name, (options, changes) in MOTIONS.items():
         default = "Transform" if changes else "Vector"
         yield (f"BoundaryDisplacement.{name}/canister_hex", "solved", morph_mesh(
@@ -368,7 +368,7 @@ def boundary_rows():
         yield (f"MorphMesh.{method}/pipe_hex", "search",
                morph_mesh("pipe_hex", Surfaces=["Surface 0"], Method=method, **bulge))
     far = {"Displacement": "Vector", "Vector": [0, 0, 0.8]}
-    for validity in ("Report", "Sub Step", "Repair", "Refuse"):
+    for validity in ("Report", "Sub step", "Repair", "Refuse"):
         yield (f"MorphMesh.{validity}/canister_hex", "search",
                morph_mesh("canister_hex", Surfaces=["Surface 1"], Validity=validity, **far))
 
@@ -389,9 +389,9 @@ def zone_rows():
     bulge = {"Surfaces": ["Surface 0"], "Displacement": "Translate, rotate, scale",
              "Translation": [0, 0.01, 0.02], "Rotation": [0, 0, 5]}
     for name, options in {
-        "frozen": {"FrozenZones": ["upper"]}, "rigid": {"RigidZones": ["upper"]},
-        "frozen_cells": {"FrozenZones": ["left"]}, "soft": {"SoftZones": ["left"]},
-        "both": {"FrozenZones": ["left"], "RigidZones": ["upper"]},
+        "frozen": {"FixedZones": ["upper"]}, "rigid": {"RigidZones": ["upper"]},
+        "frozen_cells": {"FixedZones": ["left"]}, "soft": {"SoftZones": ["left"]},
+        "both": {"FixedZones": ["left"], "RigidZones": ["upper"]},
         "stiff_array": {"Stiffness": "Uniform", "StiffnessArray": "stiff"},
     }.items():
         yield (f"MorphMesh.zones_{name}/canister_hex", "solved",
@@ -538,7 +538,7 @@ def composite_rows():
     for method in ("FEMWARP", "SimplexLinear", "RadialBasis"):
         yield f"{method}.blocks/bore_hex", "exact", morph(method, two_blocks, bent)
     yield "InversionFree.blocks/bore_hex", "search", morph("InversionFree", two_blocks, bent)
-    for name in ("Merge", "Merge by Position", "Keep Apart"):
+    for name in ("Merge", "Merge by position", "Keep apart"):
         yield (f"MorphMesh.blocks_{name}/bore_hex", "solved", morph_mesh(
             two_blocks, Moving="Everything", Displacement="Translate, rotate, scale",
             Rotation=[0, 0, 10], Scale=[1.2, 1, 1], CoincidentPoints=name))

@@ -99,7 +99,7 @@ Finding checkMovedBoundary(const Case& made, vtkAlgorithm* algorithm, const Run&
     made.boundary.isAffine && !made.inputs[2] && run.warnings.empty() &&
     filter->GetSurfaceMethod() == vtkMorphBoundary::SURFACE_METHOD_WEIGHTED_RESIDUAL &&
     made.choices.value("property.FeatureAngle") < 60 &&
-    filter->GetUnattachedMotion() == vtkMorphBoundary::UNATTACHED_AFFINELY &&
+    filter->GetUnattachedMotion() == vtkMorphBoundary::UNATTACHED_MOTION_FOLLOW_AFFINELY &&
     made.choices.value("hostile.mesh") == 0 && isValid(made.grid.mesh, made.grid.mesh.points, 0.02);
   for (vtkIdType p = 0; p < output->GetNumberOfPoints(); ++p)
   {

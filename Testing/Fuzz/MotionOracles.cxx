@@ -245,7 +245,7 @@ bool isUndecided(const Case& made, vtkAlgorithm* filter)
   const auto extrapolates = [](auto* morph) { return morph && morph->GetExtrapolatedNodes() > 0; };
   auto* shapes = vtkMorphShapes::SafeDownCast(filter);
   const bool isHeld =
-    made.choices.value("property.HoldUnnamedBoundary") != 0 && made.choices.value("with.mask") == 0;
+    made.choices.value("property.FixUnnamedBoundary") != 0 && made.choices.value("with.mask") == 0;
   return (vtkMorphBoundary::SafeDownCast(filter) && made.inputs[2]) ||
          (shapes && !isHeld &&
            (shapes->GetMethod() == vtkMorphShapes::METHOD_SIMPLEX_LINEAR ||

@@ -190,8 +190,8 @@ void addSurface(vtkDisplacementAlgorithm* filter, int role, const std::string& n
 {
   using Boundary = vtkBoundaryDisplacement;
   using Add = void (Boundary::*)(const char*);
-  constexpr Add ofBoundary[] = { &Boundary::AddPatch, &Boundary::AddHeldPatch,
-    &Boundary::AddSlidingPatch, &Boundary::AddFreePatch };
+  constexpr Add ofBoundary[] = { &Boundary::AddSurface, &Boundary::AddFixedSurface,
+    &Boundary::AddSlidingSurface, &Boundary::AddFreeSurface };
   using AddToMesh = void (vtkMorphMesh::*)(const char*);
   constexpr AddToMesh ofMesh[] = { &vtkMorphMesh::AddSurface, &vtkMorphMesh::AddFixedSurface,
     &vtkMorphMesh::AddSlidingSurface, &vtkMorphMesh::AddFreeSurface };
@@ -304,7 +304,7 @@ bool setMotion(Choices& choices, const RandomGrid& grid, vtkDisplacementAlgorith
     { 20, 1, 1, 1, 1, 1 });
   if (zone == 1 || zone == 3)
   {
-    filter->AddFrozenZone(random.happens(0.5) ? "Zone" : "Marked");
+    filter->AddFixedZone(random.happens(0.5) ? "Zone" : "Marked");
   }
   if (zone == 2 || zone == 3)
   {

@@ -107,15 +107,15 @@ TEST_F(SolverFiles, NamesAreSurfacesOfBoundaryDisplacement)
 {
   vtkNew<vtkBoundaryDisplacement> displacement;
   displacement->SetInputConnection(this->Reader->GetOutputPort());
-  displacement->SetMovingToPatches();
-  displacement->AddPatch("Bottom");
-  displacement->SetMotionToVector();
+  displacement->SetMovingToSurfaces();
+  displacement->AddSurface("Bottom");
+  displacement->SetDisplacementToVector();
   displacement->SetVector(0, 0, -0.5);
   displacement->Update();
   EXPECT_EQ(displacement->GetMovingPoints(), 3);
   for (const char* name : { "All", "Solid", "Bottom", "Corner", "Surface 0" })
   {
-    EXPECT_TRUE(displacement->GetPatchList()->ArrayExists(name)) << name;
+    EXPECT_TRUE(displacement->GetSurfaceList()->ArrayExists(name)) << name;
   }
 }
 
@@ -270,9 +270,9 @@ TEST_F(SolverFiles, BlocksMoveByNameAndAreWrittenAsTheGridIs)
     this->Reader->SetSetsAsBlocks(asBlocks);
     vtkNew<vtkBoundaryDisplacement> displacement;
     displacement->SetInputConnection(this->Reader->GetOutputPort());
-    displacement->SetMovingToPatches();
-    displacement->AddPatch("Bottom");
-    displacement->SetMotionToVector();
+    displacement->SetMovingToSurfaces();
+    displacement->AddSurface("Bottom");
+    displacement->SetDisplacementToVector();
     displacement->SetVector(0, 0, -0.5);
     vtkNew<vtkFEMWarpMorph> morph;
     morph->SetInputConnection(this->Reader->GetOutputPort());
@@ -281,7 +281,7 @@ TEST_F(SolverFiles, BlocksMoveByNameAndAreWrittenAsTheGridIs)
     EXPECT_EQ(displacement->GetMovingPoints(), 3);
     for (const char* name : { "All", "Solid", "Bottom", "Corner" })
     {
-      EXPECT_TRUE(displacement->GetPatchList()->ArrayExists(name)) << name;
+      EXPECT_TRUE(displacement->GetSurfaceList()->ArrayExists(name)) << name;
     }
     vtkDataObject* moved = morph->GetOutputDataObject(0);
     if (asBlocks)
@@ -312,7 +312,7 @@ TEST_F(SolverFiles, NodesOfNoElementStay)
   vtkNew<vtkBoundaryDisplacement> displacement;
   displacement->SetInputConnection(this->Reader->GetOutputPort());
   displacement->SetMovingToEverything();
-  displacement->SetMotionToVector();
+  displacement->SetDisplacementToVector();
   displacement->SetVector(0.5, 0, 0);
   vtkNew<vtkFEMWarpMorph> morph;
   morph->SetInputConnection(this->Reader->GetOutputPort());

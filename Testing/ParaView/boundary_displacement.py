@@ -72,7 +72,7 @@ class BoundaryDisplacementTests(unittest.TestCase):
 
     def test_handles_and_lattices(self):
         shift = np.array([0.5, 0.25, -1])
-        self.displacement.Motion = "Handles"
+        self.displacement.Displacement = "Handles"
         self.displacement.Handles = [1, 1, 1, *shift, 0]  # one handle translates everything
         rest = array(self.displacement, "RestPosition")[:, :3]
         np.testing.assert_allclose(points(self.displacement), rest + shift, atol=1e-12)
@@ -95,7 +95,7 @@ class BoundaryDisplacementTests(unittest.TestCase):
         with open(file, "w", encoding="utf-8") as lattice:
             lattice.write("i,j,k,dx,dy,dz\n1,1,2,0.5,0.25,-1\n")
         table = simple.CSVReader(FileName=[file])
-        self.displacement.Motion, self.displacement.ControlPoints = "Lattice", table
+        self.displacement.Displacement, self.displacement.ControlPoints = "Lattice", table
         moved = points(self.displacement) - rest
         x, y, z = (rest / CELLS).T
         weight = 2 * x * (1 - x) * 2 * y * (1 - y) * z ** 2  # Bernstein, degree 2
@@ -103,7 +103,7 @@ class BoundaryDisplacementTests(unittest.TestCase):
 
     def test_control_points_are_shapes(self):
         def lattice(*displacements):
-            return BoundaryDisplacement(Input=self.mesh, Motion="Lattice", LatticeSize=[2, 3, 4],
+            return BoundaryDisplacement(Input=self.mesh, Displacement="Lattice", LatticeSize=[2, 3, 4],
                                         LatticeBasis="B-spline", OutputPointsPrecision="Double",
                                         LatticeDisplacements=[x for row in displacements
                                                               for x in row])
@@ -119,19 +119,19 @@ class BoundaryDisplacementTests(unittest.TestCase):
         self.assertGreater(np.abs(points(shapes) - self.rest).max(), 0.05)
 
     def test_patches_are_listed_before_the_first_apply(self):
-        available = self.displacement.GetProperty("Patches").GetAvailable()
+        available = self.displacement.GetProperty("Surfaces").GetAvailable()
         self.assertEqual(available[:6], [f"Surface {i}" for i in range(6)])
         self.assertEqual(len(available), 6 + 12)
-        self.assertEqual(list(self.displacement.Patches), [])
-        self.assertEqual(list(self.displacement.HeldPatches), [])
+        self.assertEqual(list(self.displacement.Surfaces), [])
+        self.assertEqual(list(self.displacement.FixedSurfaces), [])
         self.displacement.FeatureAngle = 180
         number(self.displacement, "MovingPoints")
-        self.assertEqual(self.displacement.GetProperty("Patches").GetAvailable(), ["Surface 0"])
+        self.assertEqual(self.displacement.GetProperty("Surfaces").GetAvailable(), ["Surface 0"])
 
     def test_a_patch_by_the_box_and_the_volume_follows(self):
         move = self.displacement
-        move.Moving = "Patches"
-        move.Patches = [self.top_surface()]
+        move.Moving = "Surfaces"
+        move.Surfaces = [self.top_surface()]
         move.Transform.Translate = [1, 0, 2]
         move.Transform.Scale = [1, 1, 1.5]
         self.assert_moves(lambda x: x[:, 2] == CELLS)
@@ -146,12 +146,12 @@ class BoundaryDisplacementTests(unittest.TestCase):
 
     def test_inside_a_cylinder(self):
         """Its axis is unbounded: it goes through the top and the bottom."""
-        self.displacement.Moving = "Inside Region"
+        self.displacement.Moving = "Region"
         self.displacement.Region = "Cylinder"
         self.displacement.Region.Center = [3, 3, 0]
         self.displacement.Region.Axis = [0, 0, 1]
         self.displacement.Region.Radius = 1.5
-        self.displacement.Motion, self.displacement.Vector = "Vector", [0, 0, 0.1]
+        self.displacement.Displacement, self.displacement.Vector = "Vector", [0, 0, 0.1]
         self.assert_moves(lambda x: (x[:, 0] - 3) ** 2 + (x[:, 1] - 3) ** 2 <= 1.5 ** 2)
         self.assertEqual(number(self.displacement, "MovingPoints"), 2 * 9)
 
@@ -176,8 +176,8 @@ class BoundaryDisplacementTests(unittest.TestCase):
 
     def test_dragging_the_box_repeats_nothing(self):
         move = self.displacement
-        move.Moving = "Patches"
-        move.Patches = [self.top_surface()]
+        move.Moving = "Surfaces"
+        move.Surfaces = [self.top_surface()]
         morph = MorphFEMWARP(Input=self.mesh, Boundary=move)
         for step in range(1, 5):
             move.Transform.Rotate = [0, 0, 5 * step]
@@ -197,7 +197,7 @@ class BoundaryDisplacementTests(unittest.TestCase):
     def test_a_selection_by_find_data(self):
         """Points and cells of the mesh itself, by a query, which plain VTK does not know."""
         move = self.displacement
-        move.Motion, move.Vector, move.Surroundings = "Vector", [0, 0, 1], "Stay"
+        move.Displacement, move.Vector, move.Surroundings = "Vector", [0, 0, 1], "Stay"
         self.select("POINT", f"id >= {(CELLS + 1) ** 2 * CELLS}")
         self.assert_moves(lambda x: x[:, 2] == CELLS)
         moved = points(MorphFEMWARP(Input=self.mesh, Boundary=move))
@@ -235,7 +235,7 @@ class BoundaryDisplacementTests(unittest.TestCase):
 
     def test_inside_a_region(self):
         move = self.displacement
-        move.Moving, move.Surroundings = "Inside Region", "Stay"
+        move.Moving, move.Surroundings = "Region", "Stay"
         # The box arrives round the mesh.
         self.assert_moves(lambda x: x[:, 0] >= 0)
         move.Region.Position = [-1, -1, CELLS - 0.5]
@@ -254,23 +254,23 @@ class BoundaryDisplacementTests(unittest.TestCase):
         shift = simple.Calculator(Input=self.mesh, Function="0.25*coordsX*kHat",
                                   ResultArrayName="Shift")
         shift.UpdatePipeline()
-        first = BoundaryDisplacement(Input=shift, Moving="Patches", Motion="Array")
+        first = BoundaryDisplacement(Input=shift, Moving="Surfaces", Displacement="Array")
         self.assertIn("Shift", first.GetProperty("DisplacementArray").GetAvailable())
         first.DisplacementArray = "Shift"
         top = self.top_surface()
-        first.Patches = [top]
+        first.Surfaces = [top]
         others = [f"Surface {i}" for i in range(6) if f"Surface {i}" != top]
-        first.HeldPatches = others
+        first.FixedSurfaces = others
         moved = points(first)
         rest = array(first, "RestPosition")[:, :3]
         is_top = rest[:, 2] == CELLS
         np.testing.assert_allclose(moved[is_top, 2], CELLS + 0.25 * rest[is_top, 0], atol=1e-6)
         np.testing.assert_array_equal(moved[~is_top], rest[~is_top])
 
-        second = BoundaryDisplacement(Input=first, Moving="Patches", Motion="Along Normals",
+        second = BoundaryDisplacement(Input=first, Moving="Surfaces", Displacement="Along normals",
                                       Distance=0.5, Surroundings="Stay")
         bottom = next(name for name in others if self.bounds_of(first, name)[5] == 0)
-        second.Patches = [bottom]
+        second.Surfaces = [bottom]
         both = points(second)
         np.testing.assert_allclose(both[rest[:, 2] == 0, 2], -0.5, atol=1e-6)
         np.testing.assert_array_equal(both[rest[:, 2] > 0], moved[rest[:, 2] > 0])
@@ -288,9 +288,9 @@ class BoundaryDisplacementTests(unittest.TestCase):
 
     def test_the_scale_factor_and_fading(self):
         move = self.displacement
-        move.Moving = "Patches"
-        move.Patches = [self.top_surface()]
-        move.Motion, move.Vector, move.Surroundings = "Vector", [0, 0, 1], "Fade"
+        move.Moving = "Surfaces"
+        move.Surfaces = [self.top_surface()]
+        move.Displacement, move.Vector, move.Surroundings = "Vector", [0, 0, 1], "Fade"
         move.FalloffRadius = 2.5 / (CELLS * np.sqrt(3))
         move.ScaleFactor = 0.5
         moved, rest = points(move), array(move, "RestPosition")[:, :3]
@@ -306,9 +306,9 @@ class BoundaryDisplacementTests(unittest.TestCase):
 
     def test_every_role_has_a_name_and_a_color(self):
         move = self.displacement
-        move.Moving, move.Patches = "Patches", [self.top_surface()]
-        move.Motion, move.Vector, move.Surroundings = "Vector", [0, 0, 1], "Stay"
-        move.FreePatches = [name for name in move.GetProperty("FreePatches").Available
+        move.Moving, move.Surfaces = "Surfaces", [self.top_surface()]
+        move.Displacement, move.Vector, move.Surroundings = "Vector", [0, 0, 1], "Stay"
+        move.FreeSurfaces = [name for name in move.GetProperty("FreeSurfaces").Available
                             if name != self.top_surface()][:1]
         move.UpdatePipeline()
         simple.Show(move, simple.CreateRenderView())
@@ -362,10 +362,10 @@ class ZoneTests(unittest.TestCase):
     def test_zones(self):
         free = points(self.morph)
         self.assertGreater(np.abs(free - self.rest)[self.middle].max(), 0.1)
-        self.morph.FrozenZones = ["middle"]
+        self.morph.FixedZones = ["middle"]
         frozen = points(self.morph)
         np.testing.assert_array_equal(frozen[self.middle], self.rest[self.middle])
-        self.morph.FrozenZones = []
+        self.morph.FixedZones = []
         self.morph.RigidZones = ["middle"]
         rigid = points(self.morph)
         distance = lambda x: np.linalg.norm(x[self.middle][:, None] - x[self.middle][None], axis=2)

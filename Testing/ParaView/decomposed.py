@@ -79,8 +79,8 @@ def read(case, part):
 
 def morphed(case, part):
     reader = read(case, part)
-    boundary = BoundaryDisplacement(Input=reader, Moving="Patches", Patches=[case["wall"]],
-                                    Motion="Vector", Vector=[0.05, 0.02, -0.03])
+    boundary = BoundaryDisplacement(Input=reader, Moving="Surfaces", Surfaces=[case["wall"]],
+                                    Displacement="Vector", Vector=[0.05, 0.02, -0.03])
     return MorphFEMWARP(Input=reader, Boundary=boundary, Tolerance=1e-12)
 
 

@@ -156,7 +156,7 @@ class FileFormats(unittest.TestCase):
                     simple.SaveData(self.path(name), proxy=source, **options)
                 file = opened(self.path(name))
                 # These blocks are one body, and the file numbers the nodes of each apart.
-                morph = bent(file, "Merge by Position" if source is self.blocks else "Merge")
+                morph = bent(file, "Merge by position" if source is self.blocks else "Merge")
                 data, before = fetched(morph), fetched(file)
                 self.assertEqual(data.GetClassName(), before.GetClassName())
                 self.assertEqual(names(data), names(before))
@@ -214,7 +214,7 @@ class FileFormats(unittest.TestCase):
                                                         1 + 0.01 * (high[2] - low[2])]}
         options = {"Moving": "Region", "Displacement": "Vector", "Vector": [0, 0.1, -0.1]}
         whole = MorphMesh(Input=self.part, **options)
-        morph = MorphMesh(Input=file, CoincidentPoints="Merge by Position", **options)
+        morph = MorphMesh(Input=file, CoincidentPoints="Merge by position", **options)
         for one in (whole, morph):
             one.Region.Position, one.Region.Length = region["Position"], region["Length"]
         expected, data = fetched(whole), fetched(morph)

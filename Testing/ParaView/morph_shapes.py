@@ -87,7 +87,7 @@ class MorphShapesTest(unittest.TestCase):
         numpy.testing.assert_allclose(ends, [8, 8.5, 9, 9.5, 10], atol=1e-5)
 
     def test_rotation_keeps_lengths(self):
-        turned = BoundaryDisplacement(Input=self.part, Moving="Inside Region",
+        turned = BoundaryDisplacement(Input=self.part, Moving="Region",
                                       Surroundings="Stay")
         turned.Region = "Plane"
         turned.Region.Origin, turned.Region.Normal = [7.5, 0, 0], [-1, 0, 0]

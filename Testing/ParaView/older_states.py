@@ -28,7 +28,7 @@ def build():
     """A part of the bore is moved, and three methods follow; two of them are shown."""
     bore = simple.XMLUnstructuredGridReader(registrationName="bore",
                                             FileName=[str(DATA / "bore_hex_small.vtu")])
-    moved = BoundaryDisplacement(registrationName="moved", Input=bore, Moving="Inside Region",
+    moved = BoundaryDisplacement(registrationName="moved", Input=bore, Moving="Region",
                                  Region="Box", Surroundings="Follow everywhere")
     moved.Region.Position, moved.Region.Length = [-4, -4, 6], [8, 8, 7]
     moved.Transform.Translate = [1.2, 0.5, 1.5]

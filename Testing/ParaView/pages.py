@@ -72,7 +72,7 @@ class InFolder(unittest.TestCase):
 
         names.update(part=part, mesh=part, moved=displaced("coords + 0.05*coordsX*jHat"),
                      shift=displaced("coords + 0.2*iHat"))
-        for name, motion in (("wide", {"Motion": "Along Normals", "Distance": -0.2}),
+        for name, motion in (("wide", {"Motion": "Along normals", "Distance": -0.2}),
                              ("long", {"Motion": "Vector", "Vector": [0, 0, 0.5]})):
             names[name] = BoundaryDisplacement(Input=part, **motion)
         return names

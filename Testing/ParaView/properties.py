@@ -51,7 +51,7 @@ def printed(filter_proxy, name):
 #: Limits of memory, which have no end, and tolerances, which span decades.
 WITHOUT_SLIDER = ("StepMemoryLimit", "MemoryLimit", "Tolerance")
 #: What widgets of the panel are made from; not among its results.
-FOR_WIDGETS = ("SurfaceList", "SurfaceSizes", "SurfaceBounds", "PatchBounds", "PickedSurfaces",
+FOR_WIDGETS = ("SurfaceList", "SurfaceSizes", "SurfaceBounds", "SurfaceBounds", "PickedSurfaces",
                "ValidWeights", "Advice")
 
 
@@ -162,7 +162,7 @@ class Properties(unittest.TestCase):
                 self.assertNotRegex(label, r"\b[B-Zb-z]\b")
                 if hint is not None:
                     self.assertEqual(own.setdefault(p.get("name"), label), label)
-        self.assertEqual(own["HoldUnnamedBoundary"], "Fix the rest of the boundary")
+        self.assertEqual(own["FixUnnamedBoundary"], "Fix the rest of the boundary")
         self.assertEqual(own["MorphStatus"], "Status")
 
     def test_results_come_last_and_the_status_first(self):

@@ -260,7 +260,7 @@ class SolverFiles(unittest.TestCase):
                         reader = Reader(FileName=[str(path)])
                         reader.ApplyDisplacements = applied
                         morph = MorphMesh(Input=reader, Moving="Everything", Displacement="Vector",
-                                          Vector=list(shift), CoincidentPoints="Merge by Position",
+                                          Vector=list(shift), CoincidentPoints="Merge by position",
                                           Validity="Report") if shift.any() else reader
                         morph.UpdatePipeline(0.0)
                         error, out = self.write_copy(morph, "out.exo", path)
@@ -284,7 +284,7 @@ class SolverFiles(unittest.TestCase):
         moved = simple.IOSSReader(FileName=[str(path)])
         for _ in range(2):
             moved = MorphMesh(Input=moved, Moving="Everything", Displacement="Vector",
-                              Vector=list(SHIFT), CoincidentPoints="Merge by Position")
+                              Vector=list(SHIFT), CoincidentPoints="Merge by position")
         moved.UpdatePipeline(0.0)
         error, out = self.write_copy(moved, "out.exo", path)
         self.assertEqual(error, "")
@@ -315,10 +315,10 @@ class SolverFiles(unittest.TestCase):
                 rest = vtk_to_numpy(fetched(reader).GetPoints().GetData())
                 nodes = {n for _, _, corners in faces for n in corners}
                 of_set = np.array([n in nodes for n in model.order])
-                boundary = BoundaryDisplacement(Input=reader, Moving="Patches", Patches=[name],
-                                                Motion="Vector", Vector=list(SHIFT))
+                boundary = BoundaryDisplacement(Input=reader, Moving="Surfaces", Surfaces=[name],
+                                                Displacement="Vector", Vector=list(SHIFT))
                 boundary.UpdatePipeline()
-                self.assertIn(name, boundary.GetProperty("Patches").GetAvailable())
+                self.assertIn(name, boundary.GetProperty("Surfaces").GetAvailable())
                 moved = fetched(boundary)
                 ids = vtk_to_numpy(moved.GetPointData().GetArray("MorphPointId"))
                 shift = vtk_to_numpy(moved.GetPoints().GetData()) - rest[ids]

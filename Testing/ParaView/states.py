@@ -21,7 +21,7 @@ simple.LoadPlugin(os.environ["MESHMORPHING_PLUGIN"], remote=False, ns=globals())
 # Seconds and memory differ from run to run, and so does the ranking, which depends on seconds.
 MEASURED = "Seconds", "PeakMegabytes"
 RANKING = "CompareMorphMethods", 2
-OPTIONS = {"NumberOfThreads": 1, "FeatureAngle": 40, "HoldUnnamedBoundary": 0, "Percentile": 5,
+OPTIONS = {"NumberOfThreads": 1, "FeatureAngle": 40, "FixUnnamedBoundary": 0, "Percentile": 5,
            "ScaleFactor": 0.5, "Certify": 1, "SurfaceMethod": 1, "OutputPointsPrecision": 1,
            "DisplacementArray": "Shift", "Weights": [0.5], "ShapeNames": ["a shape"]}
 

@@ -119,12 +119,12 @@ class Validity(unittest.TestCase):
         self.assertIn("MorphFEMWARP", found)
         for name in found:
             with self.subTest(method=name):
-                expected = {"MorphInversionFree": "Sub Step", "MorphMesh": "Repair"}
+                expected = {"MorphInversionFree": "Sub step", "MorphMesh": "Repair"}
                 morph = globals()[name](Input=self.grid)
                 self.assertEqual(morph.Validity, expected.get(name, "Report"))
                 self.assertEqual(morph.GetProperty("Validity").GetAvailable(),
-                                 ["None", "Report", "Sub Step", "Repair", "Refuse",
-                                  "Repair All"])
+                                 ["None", "Report", "Sub step", "Repair", "Refuse",
+                                  "Repair all"])
 
     def test_report_warns_of_the_worst_cells(self):
         morph = self.morph("MorphFEMWARP", WAVES)
@@ -151,14 +151,14 @@ class Validity(unittest.TestCase):
         self.assertEqual(morph.InvertedCells, np.count_nonzero(measured <= 0))
 
     def test_sub_steps_and_repair_go_all_the_way(self):
-        for validity, expected in (("Sub Step", "SubStepped"), ("Repair", "Repaired")):
+        for validity, expected in (("Sub step", "SubStepped"), ("Repair", "Repaired")):
             with self.subTest(validity=validity):
                 morph = self.morph("MorphFEMWARP", WAVES, Validity=validity)
                 self.assertEqual(updated(morph), "")
                 self.assertEqual(status(morph), expected)
                 self.assertValid(morph)
                 self.assertArrived(morph)
-                self.assertEqual(morph.SubSteps > 1, validity == "Sub Step")
+                self.assertEqual(morph.SubSteps > 1, validity == "Sub step")
 
     def test_inversion_free(self):
         morph = self.morph("MorphInversionFree", WAVES)
@@ -197,8 +197,8 @@ class Validity(unittest.TestCase):
                                             Function=f"abs(RestPosition_Z - {CELLS / 2})"),
                     Scalars=["POINTS", "Side"], LowerThreshold=CELLS / 2 - 0.5,
                     UpperThreshold=CELLS)
-                morph = globals()[method](Input=self.grid, Boundary=plates, HoldUnnamedBoundary=0,
-                                          Validity="Sub Step", MaximumSubSteps=8)
+                morph = globals()[method](Input=self.grid, Boundary=plates, FixUnnamedBoundary=0,
+                                          Validity="Sub step", MaximumSubSteps=8)
                 text = updated(morph)
                 self.assertEqual(text.count("No valid mesh was found for the whole motion"), 1,
                                  text)

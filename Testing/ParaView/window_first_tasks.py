@@ -269,13 +269,13 @@ class FirstTasks(unittest.TestCase):
 
     def test_compare_methods(self):
         mesh, names = self.names(BORE)
-        moved = BoundaryDisplacement(Input=mesh, Moving="Patches", Patches=[TOP], Motion="Vector",
+        moved = BoundaryDisplacement(Input=mesh, Moving="Surfaces", Surfaces=[TOP], Displacement="Vector",
                                      Vector=[0, 0, 1.5], Surroundings="Stay")
         best = updated(CompareMorphMethods(Input=mesh, Boundary=moved)).BestMethod
         self.assertEqual(best, "Inversion-free")  # the only valid one
         self.open(BORE)
         self.events.filter("BoundaryDisplacement")
-        self.events.choose("Moving", "Patches")
+        self.events.choose("Moving", "Surfaces")
         self.events.tick("Patches/ArraySelectionWidget", names.index(TOP))
         self.events.choose("Motion", "Vector")
         self.events.type("Vector/DoubleLineEdit2", "1.5")

@@ -123,9 +123,9 @@ class Pick(unittest.TestCase):
         move.UpdatePipeline()
         faces = np.flatnonzero(self.ids == self.ids[0])
         expected = [f"Surface {self.ids[0]}"]
-        self.assertEqual(names(move, cells(faces), 0, "PickedPatches"), expected)
+        self.assertEqual(names(move, cells(faces), 0, "PickedSurfaces"), expected)
         ids = sorted({self.owner[f] for f in faces})
-        self.assertEqual(names(move, cells(ids), -1, "PickedPatches"), expected)
+        self.assertEqual(names(move, cells(ids), -1, "PickedSurfaces"), expected)
 
     def test_in_the_window(self):
         morph = MorphMesh(Input=self.part, Surfaces=[self.top])

@@ -302,7 +302,7 @@ class MorphMesh(unittest.TestCase):
             prescribed.append(int(re.search(r"(\d+) of them prescribed", result.stdout).group(1)))
         self.assertLess(prescribed[1], prescribed[0])
         self.assertEqual(prescribed[2], prescribed[0])  # what moves is not free
-        self.fails(1, "FreePatches names 'Wall'", "--free", "Wall", *options)
+        self.fails(1, "FreeSurfaces names 'Wall'", "--free", "Wall", *options)
 
     def test_what_slides_is_iterated_with_the_volume(self):
         options = ("--move", "Surface 1", "--translate", "0,0,0.2", BORE, self.folder / "out.vtu")

@@ -74,7 +74,7 @@ bool stopsRight(const Method& method, const AbortOptions& options)
     const auto fresh = method.make(nullptr);
     const grids::Listener listener(fresh);
     fresh->SetInputData(world.grid());
-    fresh->HoldUnnamedBoundaryOff(); // held beside others that move, it would fold
+    fresh->FixUnnamedBoundaryOff(); // held beside others that move, it would fold
     fresh->SetBoundaryData(boundaries[k]);
     const double start = Clock::now();
     fresh->Update();
@@ -95,7 +95,7 @@ bool stopsRight(const Method& method, const AbortOptions& options)
   const auto filter = method.make(&abort);
   const grids::Listener listener(filter);
   filter->SetInputData(world.grid());
-  filter->HoldUnnamedBoundaryOff();
+  filter->FixUnnamedBoundaryOff();
   Outcome outcome;
   int before = 0;          // the boundary of the run before
   bool isPrepared = false; // that one came to its end

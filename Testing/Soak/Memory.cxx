@@ -36,7 +36,7 @@ bool staysFlat(const Method& method, const MemoryOptions& options)
   const auto filter = method.make(nullptr);
   grids::Listener listener(filter);
   filter->SetInputData(world.grid());
-  filter->HoldUnnamedBoundaryOff();
+  filter->FixUnnamedBoundaryOff();
   Process start, end;
   const int first = options.morphs / 2; // long enough for the largest arrays to have come up
   std::string firstError;

@@ -23,12 +23,12 @@ using Patches::Part;
 
 Part patches(const BoundaryModel& model, const Options& options)
 {
-  if (options.Patches.empty())
+  if (options.Surfaces.empty())
   {
-    throw Error("No patch is chosen that is to move. Choose one in Patches (Apply once, and the "
+    throw Error("No surface is chosen that is to move. Choose one in Surfaces (Apply once, and the "
                 "list has their names), or choose in another way what moves.");
   }
-  return Patches::Find(model, options.Patches, "Patches");
+  return Patches::Find(model, options.Surfaces, "Surfaces");
 }
 
 std::vector<std::uint8_t> insideRegion(const BoundaryModel& model, vtkImplicitFunction* region)
@@ -125,7 +125,7 @@ Result Choose(vtkPointSet* input, const BoundaryModel& model, const Options& opt
   Part part;
   switch (options.How)
   {
-    case By::Patches:
+    case By::Surfaces:
       part = patches(model, options);
       break;
     case By::Selection:
@@ -147,7 +147,7 @@ Result Choose(vtkPointSet* input, const BoundaryModel& model, const Options& opt
       break;
   }
   addNodesBetween(faces, part.HasNode);
-  const Part held = Patches::Find(model, options.HeldPatches, "HeldPatches");
+  const Part held = Patches::Find(model, options.FixedSurfaces, "FixedSurfaces");
   Result result;
   for (Index node : faces.nodes)
   {
@@ -165,7 +165,7 @@ Result Choose(vtkPointSet* input, const BoundaryModel& model, const Options& opt
     refuseNone(options.How);
   }
   result.IsMovingFace =
-    options.How == By::Patches ? std::move(part.HasFace) : facesWithin(faces, part.HasNode);
+    options.How == By::Surfaces ? std::move(part.HasFace) : facesWithin(faces, part.HasNode);
   return result;
 }
 }

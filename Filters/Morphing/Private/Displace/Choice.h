@@ -20,10 +20,10 @@ namespace morph::filters::Choice
 {
 enum class By
 {
-  Everything,
+  Surfaces,
   Selection,
-  Patches,
   Region,
+  Everything,
   Array,
   Nothing
 };
@@ -35,10 +35,10 @@ struct Options
   vtkExtractSelection* Extractor = nullptr;
   /// #points, what a selection has chosen on MPI processes; null: evaluates Selection
   const std::vector<std::uint8_t>* IsSelected = nullptr;
-  std::set<std::string> Patches;
+  std::set<std::string> Surfaces;
   vtkImplicitFunction* Region = nullptr; ///< inside where it is zero or less
   std::string ArrayName;                 ///< a point array: nodes where it is not zero
-  std::set<std::string> HeldPatches;
+  std::set<std::string> FixedSurfaces;
 };
 
 struct Result

@@ -114,7 +114,7 @@ void setMoving(const PlaceOfNode& places, Choice::Result& choice, Points& target
 
 void InnerNodes::Clear()
 {
-  this->FrozenNodes.clear();
+  this->FixedNodes.clear();
   this->RigidZones.clear();
   this->PointOf.clear();
   this->NumberOf.clear();
@@ -132,14 +132,14 @@ void InnerNodes::Find(vtkUnstructuredGrid* grid, const BoundaryModel& model,
   }
   const morph::Mesh& mesh = model.Mesh();
   std::vector<std::uint8_t> isTaken(mesh.numberOfNodes(), 0);
-  for (const Zones::Part& part : Zones::Find(Zones::Frozen, grid, mesh, blocks, options.Zones))
+  for (const Zones::Part& part : Zones::Find(Zones::Fixed, grid, mesh, blocks, options.Zones))
   {
     for (std::size_t n = 0; n < isTaken.size(); ++n)
     {
       isTaken[n] = isTaken[n] || part.IsNode[n];
     }
   }
-  this->FrozenNodes = flagged(isTaken);
+  this->FixedNodes = flagged(isTaken);
   for (const Zones::Part& part : Zones::Find(Zones::Rigid, grid, mesh, blocks, options.Zones))
   {
     Zone& zone = this->RigidZones.emplace_back();
@@ -161,14 +161,14 @@ void InnerNodes::FindOnRanks(vtkUnstructuredGrid* grid, const BoundaryModel& mod
   const WholeVolume volume(*this->Whole);
   WholeVolume::Flags isTaken(volume.Piece().numberOfNodes(), 0);
   for (const Zones::Part& part :
-    Zones::FindOnRanks(Zones::Frozen, grid, volume, blocks, options.Zones))
+    Zones::FindOnRanks(Zones::Fixed, grid, volume, blocks, options.Zones))
   {
     for (std::size_t n = 0; n < isTaken.size(); ++n)
     {
       isTaken[n] = isTaken[n] || part.IsNode[n];
     }
   }
-  this->FrozenNodes = this->NodesOf(model, isTaken);
+  this->FixedNodes = this->NodesOf(model, isTaken);
   for (const Zones::Part& part :
     Zones::FindOnRanks(Zones::Rigid, grid, volume, blocks, options.Zones))
   {
@@ -247,7 +247,7 @@ void InnerNodes::Constrain(
   std::vector<Index> held = choice.Held;
   const auto isOuter = [&](Index node)
   { return std::binary_search(model.Faces().nodes.begin(), model.Faces().nodes.end(), node); };
-  for (const Index node : this->FrozenNodes)
+  for (const Index node : this->FixedNodes)
   {
     if (isOuter(node))
     {
@@ -290,7 +290,7 @@ void InnerNodes::Place(vtkUnstructuredGrid* grid, const BoundaryModel& model,
     result.Moved.row(node) = to;
     result.Roles[node] = Surroundings::IsZone;
   };
-  for (const Index node : this->FrozenNodes)
+  for (const Index node : this->FixedNodes)
   {
     set(node, this->RestOf(model, node));
   }

@@ -44,7 +44,7 @@ public:
   /// Forgets the zones and layers.
   void Clear();
   /// Takes the boundary nodes of zones with a known motion out of `choice`, or puts them in:
-  /// frozen ones are held, and those with a transform move. So surfaces around them follow.
+  /// fixed ones are held, and those with a transform move. So surfaces around them follow.
   /// `targets`: of choice.Moving.
   void Constrain(const BoundaryModel& model, const Options& options, Choice::Result& choice,
     morph::Points& targets) const;
@@ -107,7 +107,7 @@ private:
   std::map<morph::Index, morph::Index> NumberOf; ///< in PointOf, of those points
   Surroundings Around;                           ///< of what Place() moves
   bool HasMovedOuter = false;                    ///< Place() has put outer nodes elsewhere
-  std::vector<morph::Index> FrozenNodes;
+  std::vector<morph::Index> FixedNodes;
   std::vector<Zone> RigidZones;
   morph::WallLayers Layers;
   std::vector<std::uint8_t> LayersWall; ///< that Layers was found for

@@ -9,6 +9,7 @@
 #include "Private/Displace/Patches.h"
 #include "Private/Displace/Selection.h"
 #include "Private/Displace/Unmet.h"
+#include "Private/Options.h"
 #include "Private/Pipeline/Input.h"
 #include "Private/Pipeline/Ranks.h"
 #include "Private/Project/TargetDistance.h"
@@ -35,15 +36,15 @@ vtkMTimeType timeOf(vtkObject* object)
 }
 
 /// The direction of a projection along one; zero: the normals.
-Eigen::RowVector3d directionOf(int projectAlong, const double* vector)
+Eigen::RowVector3d directionOf(int projectAlong, const std::array<double, 3>& vector)
 {
-  if (projectAlong == vtkDisplacementAlgorithm::PROJECT_NORMAL)
+  if (projectAlong == vtkDisplacementAlgorithm::PROJECT_ALONG_NORMAL)
   {
     return Eigen::RowVector3d::Zero();
   }
-  if (projectAlong != vtkDisplacementAlgorithm::PROJECT_VECTOR)
+  if (projectAlong != vtkDisplacementAlgorithm::PROJECT_ALONG_VECTOR)
   {
-    return Eigen::RowVector3d::Unit(projectAlong - vtkDisplacementAlgorithm::PROJECT_X);
+    return Eigen::RowVector3d::Unit(projectAlong - vtkDisplacementAlgorithm::PROJECT_ALONG_X);
   }
   // Of any size, without overflow.
   const Eigen::RowVector3d direction(vector[0], vector[1], vector[2]);
@@ -60,10 +61,10 @@ void vtkBoundaryDisplacement::vtkInternals::Classify(
   const vtkBoundaryDisplacement* filter, vtkPointSet* input, filters::Monitor& monitor)
 {
   filters::Geometry::Options options;
-  options.FeatureAngle = filter->FeatureAngle;
-  options.CornerAngle = filter->CornerAngle;
-  options.SurfaceIdArray = filters::Input::ArrayName(filter->SurfaceIdArray);
-  options.UseGeometryArrays = filter->UseGeometryArrays;
+  options.FeatureAngle = filter->Options->FeatureAngle;
+  options.CornerAngle = filter->Options->CornerAngle;
+  options.SurfaceIdArray = filters::Input::ArrayName(filter->Options->SurfaceIdArray);
+  options.UseGeometryArrays = filter->Options->UseGeometryArrays;
   const int before = this->Model.ClassifyCount();
   this->Model.Update(input, options, monitor, this->Whole.get());
   if (this->Model.ClassifyCount() != before)
@@ -77,12 +78,12 @@ void vtkBoundaryDisplacement::vtkInternals::Classify(
   this->ClearList();
   for (const filters::Patches::Size& size : filters::Patches::Sizes(this->Model))
   {
-    this->PatchList->AddArray(size.Name.c_str(), false);
-    this->PatchSizes->InsertNextValue(size.Name);
-    this->PatchSizes->InsertNextValue(std::to_string(size.Count));
-    this->PatchSizes->InsertNextValue(vtkVariant(size.Measure).ToString());
+    this->SurfaceList->AddArray(size.Name.c_str(), false);
+    this->SurfaceSizes->InsertNextValue(size.Name);
+    this->SurfaceSizes->InsertNextValue(std::to_string(size.Count));
+    this->SurfaceSizes->InsertNextValue(vtkVariant(size.Measure).ToString());
     const auto &low = size.Box.min(), &high = size.Box.max();
-    this->PatchBounds->InsertNextTuple6(low[0], high[0], low[1], high[1], low[2], high[2]);
+    this->SurfaceBounds->InsertNextTuple6(low[0], high[0], low[1], high[1], low[2], high[2]);
   }
   this->ListedVersion = this->Model.InputVersion();
 }
@@ -92,12 +93,12 @@ void vtkBoundaryDisplacement::Choose(vtkPointSet* input, vtkSelection* selection
   vtkInternals& own = *this->Internals;
   filters::ChoiceKey key;
   key.InputVersion = own.Model.InputVersion();
-  key.Moving = this->Moving;
-  key.HeldPatches = own.HeldPatches;
+  key.Moving = this->Options->Moving;
+  key.FixedSurfaces = this->Options->FixedSurfaces;
   filters::Choice::Options options;
-  options.How = static_cast<filters::Choice::By>(this->Moving);
-  options.HeldPatches = own.HeldPatches;
-  if (this->Moving == MOVE_SELECTION)
+  options.How = static_cast<filters::Choice::By>(this->Options->Moving);
+  options.FixedSurfaces = this->Options->FixedSurfaces;
+  if (this->Options->Moving == MOVING_SELECTION)
   {
     selection = own.Selected.OfGrid(own.Blocks, selection, own.Extractor);
     key.Selection = timeOf(selection);
@@ -105,19 +106,21 @@ void vtkBoundaryDisplacement::Choose(vtkPointSet* input, vtkSelection* selection
     options.Extractor = own.Extractor;
     options.IsSelected = own.Whole ? &own.IsSelected : nullptr;
   }
-  else if (this->Moving == MOVE_PATCHES)
+  else if (this->Options->Moving == MOVING_SURFACES)
   {
-    const bool byTarget = own.Patches.empty() && this->Motion == MOTION_TARGET;
-    key.Patches = options.Patches = byTarget ? own.Fit.NearestSurfaces(own.Model) : own.Patches;
+    const bool byTarget =
+      this->Options->Surfaces.empty() && this->Options->Displacement == DISPLACEMENT_TARGET;
+    key.Surfaces = options.Surfaces =
+      byTarget ? own.Fit.NearestSurfaces(own.Model) : this->Options->Surfaces;
   }
-  else if (this->Moving == MOVE_REGION)
+  else if (this->Options->Moving == MOVING_REGION)
   {
     key.Region = timeOf(own.Region);
     options.Region = own.Region;
   }
-  else if (this->Moving == MOVE_ARRAY)
+  else if (this->Options->Moving == MOVING_ARRAY)
   {
-    key.Array = options.ArrayName = filters::Input::ArrayName(this->MovingArray);
+    key.Array = options.ArrayName = filters::Input::ArrayName(this->Options->MovingArray);
   }
   if (!(key == own.ChosenFrom))
   {
@@ -133,16 +136,16 @@ morph::Points vtkBoundaryDisplacement::vtkInternals::Fitted(vtkBoundaryDisplacem
   const std::vector<morph::Index>& sliding, filters::Monitor& monitor)
 {
   filters::FitToTarget::Options options;
-  options.Align = filter->AlignTarget;
-  options.FeatureAngle = filter->FeatureAngle;
-  options.Angle = filter->TargetAngle;
-  options.Reach = filter->TargetReach * this->Model.Size();
-  if (filter->ProjectAlong != PROJECT_CLOSEST)
+  options.Align = filter->Options->AlignTarget;
+  options.FeatureAngle = filter->Options->FeatureAngle;
+  options.Angle = filter->Options->TargetAngle;
+  options.Reach = filter->Options->TargetReach * this->Model.Size();
+  if (filter->Options->ProjectAlong != PROJECT_ALONG_CLOSEST_POINT)
   {
     options.How = filters::FitToTarget::Project::Along;
-    options.Direction = directionOf(filter->ProjectAlong, filter->ProjectVector);
+    options.Direction = directionOf(filter->Options->ProjectAlong, filter->Options->ProjectVector);
   }
-  if (filter->Moving == MOVE_PATCHES && this->Patches.empty())
+  if (filter->Options->Moving == MOVING_SURFACES && filter->Options->Surfaces.empty())
   {
     this->Fit.Update(target, this->Model, nullptr, options, monitor);
     filter->Choose(input, selection);
@@ -169,9 +172,9 @@ std::vector<morph::Handle> vtkBoundaryDisplacement::vtkInternals::SelectedHandle
   {
     if (isSelected[node])
     {
-      const double* v = filter->Vector;
+      const auto& v = filter->Options->Vector;
       handles.push_back(
-        { this->Model.Points().row(node), { v[0], v[1], v[2] }, filter->HandleRadius });
+        { this->Model.Points().row(node), { v[0], v[1], v[2] }, filter->Options->HandleRadius });
     }
   }
   return handles;
@@ -182,10 +185,10 @@ morph::Points vtkBoundaryDisplacement::vtkInternals::ByControlPoints(
   vtkDataObject* points, filters::Monitor& monitor)
 {
   const morph::Points from = this->Model.Points()(this->Choice.Moving, morph::allColumns);
-  if (filter->Motion == MOTION_HANDLES)
+  if (filter->Options->Displacement == DISPLACEMENT_HANDLES)
   {
     std::vector<morph::Handle> handles = filters::ControlPoints::Handles(points, this->Handles);
-    if (filter->SelectedHandles)
+    if (filter->Options->SelectedHandles)
     {
       const std::vector<morph::Handle> more = this->SelectedHandles(filter, input, selection);
       handles.insert(handles.end(), more.begin(), more.end());
@@ -193,16 +196,16 @@ morph::Points vtkBoundaryDisplacement::vtkInternals::ByControlPoints(
     return from + morph::HandleMotion(handles).displacements(from, monitor);
   }
   morph::LatticeMotion lattice;
-  lattice.basis = static_cast<morph::LatticeMotion::Basis>(filter->LatticeBasis);
-  std::copy(filter->LatticeSize, filter->LatticeSize + 3, lattice.size.begin());
-  if (filter->AutoLattice && from.rows() > 0)
+  lattice.basis = static_cast<morph::LatticeMotion::Basis>(filter->Options->LatticeBasis);
+  lattice.size = filter->Options->LatticeSize;
+  if (filter->Options->AutoLattice && from.rows() > 0)
   {
     lattice.low = from.colwise().minCoeff();
     lattice.high = from.colwise().maxCoeff();
   }
   else
   {
-    const double* b = filter->LatticeBounds;
+    const auto& b = filter->Options->LatticeBounds;
     lattice.low << b[0], b[2], b[4];
     lattice.high << b[1], b[3], b[5];
     if ((lattice.high.array() < lattice.low.array()).any())
@@ -220,20 +223,20 @@ filters::InnerNodes::Options vtkBoundaryDisplacement::vtkInternals::InnerOptions
   const vtkBoundaryDisplacement* filter, vtkSelection* zone)
 {
   filters::InnerNodes::Options options;
-  options.Zones.Frozen = this->FrozenZones;
-  options.Zones.Rigid = this->RigidZones;
+  options.Zones.Fixed = filter->Options->FixedZones;
+  options.Zones.Rigid = filter->Options->RigidZones;
   options.Zones.Region = this->ZoneRegion;
-  options.Zones.RegionKind = filter->ZoneRegionType;
-  options.Zones.SelectionKind = filter->ZoneSelectionType;
-  if (filter->ZoneSelectionType != ZONE_NONE)
+  options.Zones.RegionKind = filter->Options->ZoneRegionType;
+  options.Zones.SelectionKind = filter->Options->ZoneSelectionType;
+  if (filter->Options->ZoneSelectionType != ZONE_NONE)
   {
     options.Zones.Selection = this->ZoneSelected.OfGrid(this->Blocks, zone, this->Extractor);
   }
   options.Zones.Extractor = this->Extractor;
   options.RigidTransform = this->RigidTransform;
-  options.ScaleFactor = filter->ScaleFactor;
-  options.KeepLayers = filter->KeepLayers;
-  options.LayersArray = filters::Input::ArrayName(filter->LayersArray);
+  options.ScaleFactor = filter->Options->ScaleFactor;
+  options.KeepLayers = filter->Options->KeepLayers;
+  options.LayersArray = filters::Input::ArrayName(filter->Options->LayersArray);
   return options;
 }
 
@@ -278,7 +281,8 @@ bool vtkBoundaryDisplacement::vtkInternals::Prepare(vtkBoundaryDisplacement* fil
     return false;
   }
   filters::Surroundings::Options& rest = moves.Rest;
-  rest.Sliding = filters::Patches::Surfaces(this->Model, this->SlidingPatches, "SlidingPatches");
+  rest.Sliding =
+    filters::Patches::Surfaces(this->Model, filter->Options->SlidingSurfaces, "SlidingSurfaces");
   if (extras.Target)
   {
     monitor.SetRange(0.5, 0.7);
@@ -289,7 +293,8 @@ bool vtkBoundaryDisplacement::vtkInternals::Prepare(vtkBoundaryDisplacement* fil
   {
     filter->Choose(input, extras.Selection);
   }
-  const bool byPoints = filter->Motion == MOTION_HANDLES || filter->Motion == MOTION_LATTICE;
+  const bool byPoints = filter->Options->Displacement == DISPLACEMENT_HANDLES ||
+                        filter->Options->Displacement == DISPLACEMENT_LATTICE;
   if (byPoints && !this->Choice.Moving.empty())
   {
     moves.Given =
@@ -298,24 +303,11 @@ bool vtkBoundaryDisplacement::vtkInternals::Prepare(vtkBoundaryDisplacement* fil
   monitor.check();
 
   filters::Motion::Options& motion = moves.Motion;
-  motion.Given = &moves.Given;
-  motion.How = static_cast<filters::Motion::Kind>(filter->Motion);
-  motion.Transform = this->Transform;
-  motion.Vector = { filter->Vector[0], filter->Vector[1], filter->Vector[2] };
-  motion.Distance = filter->Distance;
-  motion.ArrayName = filters::Input::ArrayName(filter->DisplacementArray);
-  std::copy(filter->Translation, filter->Translation + 3, motion.Translation.begin());
-  std::copy(filter->Rotation, filter->Rotation + 3, motion.Rotation.begin());
-  std::copy(filter->Scale, filter->Scale + 3, motion.Scale.begin());
-  motion.AutoCenter = filter->AutoCenter;
-  std::copy(filter->Center, filter->Center + 3, motion.Center.begin());
-  motion.TransformAboutCenter = filter->TransformAboutCenter;
-  motion.RadiusChange = filter->RadiusChange;
-  motion.ScaleFactor = filter->ScaleFactor;
+  motion = { *filter->Options, this->Transform, &moves.Given };
   moves.Choice = this->Choice;
   moves.Rest.FreeNodes = filters::Motion::TakeMissing(input, motion, moves.Choice, monitor);
   moves.Targets = filters::Motion::Targets(input, this->Model, moves.Choice, motion);
-  if (motion.How == filters::Motion::Kind::AlongNormals)
+  if (motion.Displacement == DISPLACEMENT_ALONG_NORMALS)
   {
     // In a plane of symmetry the facets on its other side count, too.
     const filters::FitToTarget::Rim rim(this->Model, moves.Choice, rest.Sliding, this->Spread);
@@ -331,11 +323,13 @@ bool vtkBoundaryDisplacement::vtkInternals::Prepare(vtkBoundaryDisplacement* fil
     }
   }
 
-  rest.How = static_cast<filters::Surroundings::Kind>(filter->Surroundings);
-  rest.Follow.method = static_cast<morph::SurfaceMorphOptions::Method>(filter->SurfaceMethod);
-  rest.Follow.unattached = static_cast<morph::UnattachedMotion>(filter->UnattachedMotion);
-  rest.Free = filters::Patches::Surfaces(this->Model, this->FreePatches, "FreePatches");
-  rest.Radius = filter->FalloffRadius * this->Model.Size();
+  rest.How = static_cast<filters::Surroundings::Kind>(filter->Options->Surroundings);
+  rest.Follow.method =
+    static_cast<morph::SurfaceMorphOptions::Method>(filter->Options->SurfaceMethod);
+  rest.Follow.unattached = static_cast<morph::UnattachedMotion>(filter->Options->UnattachedMotion);
+  rest.Free =
+    filters::Patches::Surfaces(this->Model, filter->Options->FreeSurfaces, "FreeSurfaces");
+  rest.Radius = filter->Options->FalloffRadius * this->Model.Size();
   return true;
 }
 
@@ -360,7 +354,7 @@ void vtkBoundaryDisplacement::vtkInternals::Displace(vtkBoundaryDisplacement* fi
   {
     return;
   }
-  const bool hasInner = inner.Any() && filter->Moving != MOVE_NOTHING;
+  const bool hasInner = inner.Any() && filter->Options->Moving != MOVING_NOTHING;
   const bool isConstrained = hasInner || !moves.Rest.Sliding.empty();
   const morph::Points asked = isConstrained ? moves.Targets : morph::Points();
   this->Inner.Clear();
@@ -398,12 +392,13 @@ void vtkBoundaryDisplacement::vtkInternals::Displace(vtkBoundaryDisplacement* fi
           this->Model, moves.Choice, moves.Targets, moves.Rest, result, monitor);
       });
   }
-  const bool hasRounds = filter->SlideRounds > 0 && filter->Moving != MOVE_NOTHING;
+  const bool hasRounds =
+    filter->Options->SlideRounds > 0 && filter->Options->Moving != MOVING_NOTHING;
   if (hasRounds)
   {
     monitor.SetRange(0.9, 1);
-    this->Slide.Run(this->Model, moves.Choice.Held, moves.Rest.Sliding, filter->SlideRounds,
-      this->Spread, whole, this->Inner, result, monitor);
+    this->Slide.Run(this->Model, moves.Choice.Held, moves.Rest.Sliding,
+      filter->Options->SlideRounds, this->Spread, whole, this->Inner, result, monitor);
   }
   alike(
     [&]
@@ -439,10 +434,10 @@ void vtkBoundaryDisplacement::vtkInternals::Write(vtkBoundaryDisplacement* filte
   if (hasInner)
   {
     filters::Output::RequireWritable(this->Inner.Rest(this->Model), result.Moved,
-      filters::Output::IsFloat(input, filter->OutputPointsPrecision), "nodes");
+      filters::Output::IsFloat(input, filter->Options->OutputPointsPrecision), "nodes");
   }
   filters::DisplacedSurface::Write(
-    this->Model, result, input, filter->OutputPointsPrecision, output);
+    this->Model, result, input, filter->Options->OutputPointsPrecision, output);
   if (hasRounds)
   {
     this->Slide.Write(this->Model.Size(), output->GetFieldData());
@@ -494,7 +489,7 @@ void vtkBoundaryDisplacement::vtkInternals::Count(
   processes.Sum(inside.data(), inside.size());
   const auto both = [&](Surroundings::Role role) { return count[role] + inside[role]; };
   filter->MovingPoints = both(Surroundings::Moves);
-  filter->HeldPoints = both(Surroundings::IsHeld);
+  filter->FixedPoints = both(Surroundings::IsHeld);
   filter->FollowingPoints = both(Surroundings::Follows);
   filter->FreePoints = both(Surroundings::IsFree);
   filter->ZonePoints = both(Surroundings::IsZone);
@@ -539,9 +534,9 @@ void vtkBoundaryDisplacement::vtkInternals::DisplaceOnRanks(vtkBoundaryDisplacem
     this->Whole = std::make_unique<filters::WholeSurface>();
   }
   this->Whole->Take(piece, monitor);
-  const bool byHandles = filter->Motion == MOTION_HANDLES;
-  if (filter->Moving == MOVE_SELECTION ||
-      (filter->Moving != MOVE_NOTHING && byHandles && filter->SelectedHandles))
+  const bool byHandles = filter->Options->Displacement == DISPLACEMENT_HANDLES;
+  if (filter->Options->Moving == MOVING_SELECTION ||
+      (filter->Options->Moving != MOVING_NOTHING && byHandles && filter->Options->SelectedHandles))
   {
     this->SelectOnRanks(piece, extras.Selection);
   }
@@ -551,15 +546,14 @@ void vtkBoundaryDisplacement::vtkInternals::DisplaceOnRanks(vtkBoundaryDisplacem
     target = filters::WholeSurface::Gather(extras.Target);
   }
   if (filters::Ranks::Count(extras.ControlPoints) > 0 &&
-      (byHandles || filter->Motion == MOTION_LATTICE))
+      (byHandles || filter->Options->Displacement == DISPLACEMENT_LATTICE))
   {
     filters::Ranks::Together(
       [&]
       {
-        const int* size = filter->LatticeSize;
         control = byHandles ? filters::ControlPoints::AsHandles(extras.ControlPoints)
                             : filters::ControlPoints::AsLattice(
-                                extras.ControlPoints, { size[0], size[1], size[2] });
+                                extras.ControlPoints, filter->Options->LatticeSize);
       });
     control = filters::WholeSurface::Gather(control);
   }

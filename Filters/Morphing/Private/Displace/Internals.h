@@ -20,7 +20,6 @@
 #include "Private/Displace/Surroundings.h"
 #include "Private/Distributed/WholeSurface.h"
 #include "Private/Pipeline/Monitor.h"
-#include "Private/Pipeline/NameSet.h"
 
 #include <vtkDataArraySelection.h>
 #include <vtkDoubleArray.h>
@@ -43,14 +42,14 @@ struct ChoiceKey
 {
   vtkIdType InputVersion = -1;
   int Moving = -1;
-  std::set<std::string> Patches, HeldPatches;
+  std::set<std::string> Surfaces, FixedSurfaces;
   std::string Array;
   vtkMTimeType Region = 0, Selection = 0;
 
   bool operator==(const ChoiceKey& other) const
   {
     return this->InputVersion == other.InputVersion && this->Moving == other.Moving &&
-           this->Patches == other.Patches && this->HeldPatches == other.HeldPatches &&
+           this->Surfaces == other.Surfaces && this->FixedSurfaces == other.FixedSurfaces &&
            this->Array == other.Array && this->Region == other.Region &&
            this->Selection == other.Selection;
   }
@@ -59,10 +58,9 @@ struct ChoiceKey
 
 struct vtkBoundaryDisplacement::vtkInternals : vtkDisplacementAlgorithm::vtkShared
 {
-  morph::filters::NameSet::Names Patches, HeldPatches, SlidingPatches, FreePatches;
-  vtkNew<vtkDataArraySelection> PatchList;
-  vtkNew<vtkStringArray> PatchSizes;
-  vtkNew<vtkDoubleArray> PatchBounds;
+  vtkNew<vtkDataArraySelection> SurfaceList;
+  vtkNew<vtkStringArray> SurfaceSizes;
+  vtkNew<vtkDoubleArray> SurfaceBounds;
   vtkIdType ListedVersion = -1; ///< of Model
 
   morph::filters::Blocks Blocks;
@@ -82,16 +80,16 @@ struct vtkBoundaryDisplacement::vtkInternals : vtkDisplacementAlgorithm::vtkShar
   morph::filters::Picker Picker;
   /// The boundary of a mesh on several MPI processes, of which Model is then; else null.
   std::unique_ptr<morph::filters::WholeSurface> Whole;
-  std::vector<std::uint8_t> IsSelected; ///< #nodes of Whole, of MOVE_SELECTION
+  std::vector<std::uint8_t> IsSelected; ///< #nodes of Whole, of MOVING_SELECTION
   vtkNew<vtkPolyData> WholeOutput;      ///< of which the output has a part
 
   /// Forgets the names of the patches.
   void ClearList()
   {
-    this->PatchList->RemoveAllArrays();
-    this->PatchSizes->Initialize();
-    this->PatchBounds->Initialize();
-    this->PatchBounds->SetNumberOfComponents(6);
+    this->SurfaceList->RemoveAllArrays();
+    this->SurfaceSizes->Initialize();
+    this->SurfaceBounds->Initialize();
+    this->SurfaceBounds->SetNumberOfComponents(6);
     this->ListedVersion = -1;
   }
   /// Finds the boundary and its geometry, and its patches' names.
@@ -101,9 +99,9 @@ struct vtkBoundaryDisplacement::vtkInternals : vtkDisplacementAlgorithm::vtkShar
   struct Extras
   {
     vtkSelection* Selection;      ///< of what moves
-    vtkPolyData* Target;          ///< of MOTION_TARGET
+    vtkPolyData* Target;          ///< of DISPLACEMENT_TARGET
     vtkSelection* Zone;           ///< of a zone
-    vtkDataObject* ControlPoints; ///< of MOTION_HANDLES and MOTION_LATTICE
+    vtkDataObject* ControlPoints; ///< of DISPLACEMENT_HANDLES and DISPLACEMENT_LATTICE
   };
   /// `input`: with the whole boundary; `grid`: the mesh, or this process's piece of it; null for a
   /// surface. With Whole, collective.

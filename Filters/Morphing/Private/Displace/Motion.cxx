@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Private/Displace/Motion.h"
+#include "Private/Pipeline/Input.h"
 
 #include "Boundary/FaceAreas.h"
 #include "Private/Data/DataCheck.h"
 #include "Private/Displace/SurfaceShape.h"
 #include "Support/Error.h"
+#include "vtkDisplacementAlgorithm.h"
 
 #include <vtkAbstractTransform.h>
 #include <vtkDataArray.h>
@@ -100,7 +102,8 @@ Eigen::RowVector3d centreOf(const Points& points)
 /// The point that is the origin of the transform. `from`: what moves.
 Eigen::RowVector3d turningPoint(const Points& from, const Motion::Options& options)
 {
-  if (options.How == Motion::Kind::Transform && !options.TransformAboutCenter)
+  if (options.Displacement == vtkDisplacementAlgorithm::DISPLACEMENT_TRANSFORM &&
+      !options.TransformAboutCenter)
   {
     return Eigen::RowVector3d::Zero();
   }
@@ -184,15 +187,15 @@ std::optional<morph::AffineMotion> affineMotion(
 {
   morph::AffineMotion motion = morph::AffineMotion::Zero();
   vtkSmartPointer<vtkLinearTransform> linear;
-  switch (options.How)
+  switch (options.Displacement)
   {
-    case Motion::Kind::Vector:
+    case vtkDisplacementAlgorithm::DISPLACEMENT_VECTOR:
       motion.col(0) << options.Vector[0], options.Vector[1], options.Vector[2];
       return motion;
-    case Motion::Kind::Placement:
+    case vtkDisplacementAlgorithm::DISPLACEMENT_TRANSLATE_ROTATE_SCALE:
       linear = placement(options);
       break;
-    case Motion::Kind::Transform:
+    case vtkDisplacementAlgorithm::DISPLACEMENT_TRANSFORM:
       linear = vtkLinearTransform::SafeDownCast(options.Transform);
       break;
     default:
@@ -218,25 +221,25 @@ std::optional<morph::AffineMotion> affineMotion(
 Points wholeMotion(vtkPointSet* input, const BoundaryModel& model, const Choice::Result& choice,
   const Motion::Options& options, const Points& from)
 {
-  switch (options.How)
+  switch (options.Displacement)
   {
-    case Motion::Kind::Vector:
+    case vtkDisplacementAlgorithm::DISPLACEMENT_VECTOR:
       return from.rowwise() +
              Eigen::RowVector3d(options.Vector[0], options.Vector[1], options.Vector[2]);
-    case Motion::Kind::AlongNormals:
+    case vtkDisplacementAlgorithm::DISPLACEMENT_ALONG_NORMALS:
       return from + options.Distance * morph::nodeNormals(model.OutwardAreas(model.Points()),
                                          model.Faces(), choice.IsMovingFace, choice.Moving);
-    case Motion::Kind::Array:
-      return from + arrayRows(input, options.ArrayName, choice.Moving);
-    case Motion::Kind::Placement:
+    case vtkDisplacementAlgorithm::DISPLACEMENT_ARRAY:
+      return from + arrayRows(input, Input::ArrayName(options.DisplacementArray), choice.Moving);
+    case vtkDisplacementAlgorithm::DISPLACEMENT_TRANSLATE_ROTATE_SCALE:
       return transformed(from, placement(options), turningPoint(from, options));
-    case Motion::Kind::Radius:
+    case vtkDisplacementAlgorithm::DISPLACEMENT_RADIUS:
       return withRadius(model, choice, from, options.RadiusChange);
-    case Motion::Kind::Target:
-    case Motion::Kind::Handles:
-    case Motion::Kind::Lattice:
+    case vtkDisplacementAlgorithm::DISPLACEMENT_TARGET:
+    case vtkDisplacementAlgorithm::DISPLACEMENT_HANDLES:
+    case vtkDisplacementAlgorithm::DISPLACEMENT_LATTICE:
       return *options.Given;
-    case Motion::Kind::Transform:
+    default:
       break;
   }
   return transformed(from, options.Transform, turningPoint(from, options));
@@ -279,7 +282,7 @@ Points Targets(vtkPointSet* input, const BoundaryModel& model, const Choice::Res
   Points targets = wholeMotion(input, model, choice, options, from);
   const char* names[] = { "Transform", "Vector", "Distance", "DisplacementArray", "Scale",
     "RadiusChange", "Target", "Handles", "Lattice" };
-  requireModerate(targets, choice.Moving, names[static_cast<int>(options.How)]);
+  requireModerate(targets, choice.Moving, names[options.Displacement]);
   if (options.ScaleFactor == 0)
   {
     return from;
@@ -295,11 +298,11 @@ Points Targets(vtkPointSet* input, const BoundaryModel& model, const Choice::Res
 std::vector<Index> TakeMissing(
   vtkPointSet* input, const Options& options, Choice::Result& choice, morph::Monitor& monitor)
 {
-  if (options.How != Kind::Array || choice.Moving.empty())
+  if (options.Displacement != vtkDisplacementAlgorithm::DISPLACEMENT_ARRAY || choice.Moving.empty())
   {
     return {};
   }
-  const Points rows = arrayRows(input, options.ArrayName, choice.Moving);
+  const Points rows = arrayRows(input, Input::ArrayName(options.DisplacementArray), choice.Moving);
   vtkDataArray* mask = input->GetPointData()->GetArray(DataCheck::MaskName);
   std::vector<Index> missing, moving;
   for (Index i = 0; i < rows.rows(); ++i)
@@ -307,7 +310,8 @@ std::vector<Index> TakeMissing(
     const Index node = choice.Moving[i];
     (DataCheck::IsMissing(rows.row(i), mask, node) ? missing : moving).push_back(node);
   }
-  const std::string where = "'" + options.ArrayName + "' is NaN, or vtkValidPointMask 0, ";
+  const std::string where =
+    "'" + Input::ArrayName(options.DisplacementArray) + "' is NaN, or vtkValidPointMask 0, ";
   if (moving.empty())
   {
     throw Error("DisplacementArray has no value where the boundary is to move: " + where +

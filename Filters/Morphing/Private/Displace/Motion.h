@@ -4,10 +4,9 @@
 #include "Morpher/AffineModes.h"
 #include "Private/Displace/BoundaryModel.h"
 #include "Private/Displace/Choice.h"
+#include "Private/Options.h"
 
-#include <array>
 #include <optional>
-#include <string>
 
 class vtkAbstractTransform;
 class vtkPointSet;
@@ -15,36 +14,11 @@ class vtkPointSet;
 /// The motion of the moving part of a boundary.
 namespace morph::filters::Motion
 {
-enum class Kind
+struct Options : DisplacementOptions
 {
-  Transform,
-  Vector,
-  AlongNormals,
-  Array,
-  Placement,
-  Radius,
-  Target,
-  Handles,
-  Lattice
-};
-
-struct Options
-{
-  Kind How = Kind::Transform;
   vtkAbstractTransform* Transform = nullptr; ///< null: the identity
-  std::array<double, 3> Vector = { 0, 0, 0 };
-  double Distance = 0;   ///< along the normals
-  std::string ArrayName; ///< a point array of the input, three components
-  std::array<double, 3> Translation = { 0, 0, 0 };
-  std::array<double, 3> Rotation = { 0, 0, 0 }; ///< degrees, about z, then x, then y
-  std::array<double, 3> Scale = { 1, 1, 1 };
-  bool AutoCenter = true; ///< the centre of the bounding box of what moves, not Center
-  std::array<double, 3> Center = { 0, 0, 0 };
-  bool TransformAboutCenter = false; ///< the centre is the origin of Transform
-  double RadiusChange = 0;
-  /// Of Target, Handles and Lattice: the positions, #Moving x 3.
+  /// Of a target, handles and a lattice: the positions, #Moving x 3.
   const morph::Points* Given = nullptr;
-  double ScaleFactor = 1;
 };
 
 /// The new positions of choice.Moving: #Moving x 3, none beyond 1e50. A ScaleFactor of 0 gives the

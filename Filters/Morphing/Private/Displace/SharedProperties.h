@@ -3,8 +3,6 @@
 
 #include "vtkDisplacementAlgorithm.h"
 
-#include "Private/Pipeline/NameSet.h"
-
 #include <vtkAbstractTransform.h>
 #include <vtkExtractSelection.h>
 #include <vtkImplicitFunction.h>
@@ -17,7 +15,6 @@
 /// The properties of vtkDisplacementAlgorithm that are objects or lists.
 struct vtkDisplacementAlgorithm::vtkShared
 {
-  morph::filters::NameSet::Names FrozenZones, RigidZones;
   vtkSmartPointer<vtkImplicitFunction> Region, ZoneRegion;
   vtkSmartPointer<vtkAbstractTransform> Transform, RigidTransform;
   vtkSmartPointer<vtkExtractSelection> Extractor;

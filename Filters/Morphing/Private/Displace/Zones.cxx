@@ -173,7 +173,7 @@ std::vector<Part> Find(Kind kind, vtkUnstructuredGrid* grid, const morph::Mesh& 
       throwNowhere(part);
     }
   };
-  const NameSet::Names& names = kind == Frozen  ? options.Frozen
+  const NameSet::Names& names = kind == Fixed   ? options.Fixed
                                 : kind == Rigid ? options.Rigid
                                                 : options.Soft;
   for (const std::string& name : names)

@@ -26,14 +26,14 @@ namespace morph::filters::Zones
 enum Kind
 {
   None,
-  Frozen,
+  Fixed,
   Rigid,
   Soft
 };
 
 struct Options
 {
-  NameSet::Names Frozen, Rigid, Soft; ///< point arrays, cell arrays or blocks
+  NameSet::Names Fixed, Rigid, Soft; ///< point arrays, cell arrays or blocks
   vtkImplicitFunction* Region = nullptr;
   int RegionKind = None;
   vtkSelection* Selection = nullptr;
@@ -45,8 +45,8 @@ struct Options
   /// Whether a node is prescribed by some zone.
   bool Any() const
   {
-    const auto prescribes = [](int kind) { return kind == Zones::Frozen || kind == Zones::Rigid; };
-    return !this->Frozen.empty() || !this->Rigid.empty() || prescribes(this->RegionKind) ||
+    const auto prescribes = [](int kind) { return kind == Zones::Fixed || kind == Zones::Rigid; };
+    return !this->Fixed.empty() || !this->Rigid.empty() || prescribes(this->RegionKind) ||
            prescribes(this->SelectionKind);
   }
 };

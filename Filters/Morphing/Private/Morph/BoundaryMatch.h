@@ -25,7 +25,7 @@ struct Options
   std::string DisplacementArray; ///< empty: the boundary's points are the targets
   double ScaleFactor = 1;        ///< target = rest + ScaleFactor * (target - rest)
   double MatchTolerance = 1e-6;  ///< of the undeformed mesh's size
-  bool HoldUnnamedBoundary = true;
+  bool FixUnnamedBoundary = true;
 };
 
 struct Result
@@ -69,7 +69,7 @@ struct NamedPoints
 /// MatchTolerance of that node move with it, unless they have a point of their own. A node that is
 /// named more than once goes where it is named first. Nodes that the array MorphFree marks (not 0)
 /// are solved with the interior, unless another point names them. So are those without a
-/// displacement: it is NaN there, or the array vtkValidPointMask 0. With HoldUnnamedBoundary all
+/// displacement: it is NaN there, or the array vtkValidPointMask 0. With FixUnnamedBoundary all
 /// other outer nodes are held, except those in the middle of an edge or face one of whose corners
 /// moves. A coordinate that is the undeformed one in the boundary's precision does not move. Throws
 /// morph::Error naming ids and the remedy where none of these works, where the boundary's cells are

@@ -210,7 +210,7 @@ Result FindTargets(NamedPoints named, const morph::Mesh& rest, const morph::Boun
       names.Of(torn) + ". Points that stand for one node have to move together.");
   }
 
-  if (options.HoldUnnamedBoundary)
+  if (options.FixUnnamedBoundary)
   {
     holdUnnamed(outer, rest, size, targets, row);
   }

@@ -11,6 +11,7 @@
 #include "Private/Distributed/WholeVolume.h"
 #include "Private/Morph/KeptMesh.h"
 #include "Private/Morph/MorphOutput.h"
+#include "Private/Options.h"
 #include "Private/Pipeline/Follower.h"
 #include "Private/Pipeline/Input.h"
 #include "Private/Pipeline/Ports.h"
@@ -34,49 +35,10 @@
 
 #include <cstdint>
 #include <optional>
-#include <tuple>
 
 namespace filters = morph::filters;
 
 using Pipeline = vtkStreamingDemandDrivenPipeline;
-
-namespace
-{
-using filters::NameSet::Names;
-
-/// Passes names to the filter inside, unless it has them.
-void pass(const Names& names, Names& passed, vtkBoundaryDisplacement* to,
-  void (vtkBoundaryDisplacement::*clear)(), void (vtkBoundaryDisplacement::*add)(const char*))
-{
-  if (names != passed)
-  {
-    (to->*clear)();
-    for (const std::string& name : names)
-    {
-      (to->*add)(name.c_str());
-    }
-    passed = names;
-  }
-}
-
-/// An error or warning of vtkBoundaryDisplacement with the names of this class's properties.
-std::string inOwnWords(std::string text)
-{
-  const std::pair<const char*, const char*> names[] = { { "SlidingPatches names",
-                                                          "SlidingSurfaces names" },
-    { "FreePatches names", "FreeSurfaces names" }, { "HeldPatches names", "FixedSurfaces names" },
-    { "Patches names", "Surfaces names" } };
-  for (const auto& [theirs, ours] : names)
-  {
-    const auto at = text.find(theirs);
-    if (at != std::string::npos)
-    {
-      return text.replace(at, std::string(theirs).size(), ours);
-    }
-  }
-  return text;
-}
-}
 
 void vtkMorphMesh::vtkInternals::TakeGrid(vtkUnstructuredGrid* grid)
 {
@@ -120,7 +82,7 @@ bool vtkMorphMesh::vtkInternals::HasHandles(bool anySelection) const
 {
   const bool areConnected = !filters::ControlPoints::AreNone(this->ControlPoints.Copy);
   return filters::Ranks::Count(areConnected) > 0 || !this->Handles.empty() ||
-         (this->Filter->SelectedHandles && anySelection);
+         (this->Filter->Options->SelectedHandles && anySelection);
 }
 
 std::string vtkMorphMesh::vtkInternals::Advice() const
@@ -131,11 +93,11 @@ std::string vtkMorphMesh::vtkInternals::Advice() const
     return none + "Give a handle: add a row to Handles, choose Control Points, or copy selected "
                   "points and tick Selected points are handles.";
   }
-  if (this->Filter->Moving == MOVE_SELECTION)
+  if (this->Filter->Options->Moving == MOVING_SELECTION)
   {
     return none + "Select points or cells in the view, and press Copy Active Selection.";
   }
-  if (this->Filter->Displacement == DISPLACEMENT_TARGET && !this->Target.Copy)
+  if (this->Filter->Options->Displacement == DISPLACEMENT_TARGET && !this->Target.Copy)
   {
     return none + "Choose the Target, a surface such as an STL file.";
   }
@@ -148,51 +110,46 @@ void vtkMorphMesh::vtkInternals::ConfigureDisplacement(vtkSelection* selection)
   vtkBoundaryDisplacement* to = this->Displacement;
   const bool anySelection =
     filters::Ranks::Count(selection && selection->GetNumberOfNodes() > 0) > 0;
-  const bool hasHandles = from->Displacement == DISPLACEMENT_HANDLES && from->SelectedHandles;
+  const bool hasHandles =
+    from->Options->Displacement == DISPLACEMENT_HANDLES && from->Options->SelectedHandles;
   const bool selectionMoves = anySelection && !hasHandles;
   const bool byTarget =
-    from->Displacement == DISPLACEMENT_TARGET && this->Target.Copy && !selectionMoves;
-  const bool byPoints =
-    from->Displacement == DISPLACEMENT_HANDLES || from->Displacement == DISPLACEMENT_LATTICE;
-  const int ofSurfaces = !this->Surfaces.empty() || byTarget ? vtkBoundaryDisplacement::MOVE_PATCHES
-                         : selectionMoves ? vtkBoundaryDisplacement::MOVE_SELECTION
-                         : byPoints       ? vtkBoundaryDisplacement::MOVE_EVERYTHING
-                                          : vtkBoundaryDisplacement::MOVE_NOTHING;
+    from->Options->Displacement == DISPLACEMENT_TARGET && this->Target.Copy && !selectionMoves;
+  const bool byPoints = from->Options->Displacement == DISPLACEMENT_HANDLES ||
+                        from->Options->Displacement == DISPLACEMENT_LATTICE;
+  const int ofSurfaces = !this->Filter->Options->Surfaces.empty() || byTarget
+                           ? vtkBoundaryDisplacement::MOVING_SURFACES
+                         : selectionMoves ? vtkBoundaryDisplacement::MOVING_SELECTION
+                         : byPoints       ? vtkBoundaryDisplacement::MOVING_EVERYTHING
+                                          : vtkBoundaryDisplacement::MOVING_NOTHING;
   const int moving[] = { ofSurfaces,
-    anySelection ? vtkBoundaryDisplacement::MOVE_SELECTION : vtkBoundaryDisplacement::MOVE_NOTHING,
-    vtkBoundaryDisplacement::MOVE_REGION, vtkBoundaryDisplacement::MOVE_EVERYTHING,
-    vtkBoundaryDisplacement::MOVE_ARRAY };
+    anySelection ? vtkBoundaryDisplacement::MOVING_SELECTION
+                 : vtkBoundaryDisplacement::MOVING_NOTHING,
+    vtkBoundaryDisplacement::MOVING_REGION, vtkBoundaryDisplacement::MOVING_EVERYTHING,
+    vtkBoundaryDisplacement::MOVING_ARRAY, vtkBoundaryDisplacement::MOVING_NOTHING };
   this->NeedsHandles =
-    from->Displacement == DISPLACEMENT_HANDLES && !this->HasHandles(anySelection);
-  to->SetMoving(
-    this->NeedsHandles ? int(vtkBoundaryDisplacement::MOVE_NOTHING) : moving[from->Moving]);
+    from->Options->Displacement == DISPLACEMENT_HANDLES && !this->HasHandles(anySelection);
+  morph::DisplacementOptions options = *from->Options;
+  options.Moving =
+    this->NeedsHandles ? int(vtkBoundaryDisplacement::MOVING_NOTHING) : moving[options.Moving];
+  // The boundary in the precision of the computation: the output alone is rounded.
+  options.OutputPointsPrecision = DOUBLE_PRECISION;
+  to->TakeDisplacement(options, *this);
   to->SetSelectionData(anySelection ? selection : nullptr);
-  using Filter = vtkBoundaryDisplacement;
-  pass(this->Surfaces, this->PassedSurfaces, to, &Filter::RemoveAllPatches, &Filter::AddPatch);
-  pass(this->FixedSurfaces, this->PassedFixedSurfaces, to, &Filter::RemoveAllHeldPatches,
-    &Filter::AddHeldPatch);
-  pass(this->SlidingSurfaces, this->PassedSlidingSurfaces, to, &Filter::RemoveAllSlidingPatches,
-    &Filter::AddSlidingPatch);
-  pass(this->FreeSurfaces, this->PassedFreeSurfaces, to, &Filter::RemoveAllFreePatches,
-    &Filter::AddFreePatch);
-  to->CopyDisplacement(this->Filter);
   to->SetZoneSelectionData(this->Zone);
   to->Internals->OuterBlocks = this->Blocks.Merged();
-  to->SetMotion(from->Displacement);
-  // The boundary in the precision of the computation: the output alone is rounded.
-  to->SetOutputPointsPrecision(DOUBLE_PRECISION);
 }
 
 vtkSmartPointer<vtkDataArray> vtkMorphMesh::vtkInternals::SoftCells()
 {
   const vtkMorphMesh* from = this->Filter;
   filters::Zones::Options options;
-  options.Soft = this->SoftZones;
+  options.Soft = from->MeshOptions->SoftZones;
   options.Region = this->ZoneRegion;
-  options.RegionKind = from->ZoneRegionType;
+  options.RegionKind = from->Options->ZoneRegionType;
   options.Selection = this->Zone;
   options.Extractor = this->Extractor;
-  options.SelectionKind = from->ZoneSelectionType;
+  options.SelectionKind = from->Options->ZoneSelectionType;
   if (options.Soft.empty() && options.RegionKind != ZONE_SOFT && options.SelectionKind != ZONE_SOFT)
   {
     return nullptr;
@@ -228,7 +185,7 @@ vtkSmartPointer<vtkDataArray> vtkMorphMesh::vtkInternals::SoftCells()
     {
       if (part.IsCell[c])
       {
-        factors->SetValue(static_cast<vtkIdType>(c), from->SoftStiffness);
+        factors->SetValue(static_cast<vtkIdType>(c), from->MeshOptions->SoftStiffness);
       }
     }
   }
@@ -237,7 +194,7 @@ vtkSmartPointer<vtkDataArray> vtkMorphMesh::vtkInternals::SoftCells()
 
 void vtkMorphMesh::vtkInternals::TakeZone(vtkSelection* selection)
 {
-  this->Zone = this->Filter->ZoneSelectionType == ZONE_NONE
+  this->Zone = this->Filter->Options->ZoneSelectionType == ZONE_NONE
                  ? nullptr
                  : this->ZoneSelected.OfGrid(this->Blocks, selection, this->Extractor);
 }
@@ -251,26 +208,28 @@ void vtkMorphMesh::vtkInternals::ConfigureMorph(vtkDataArray* soft, morph::Monit
   to->SetBoundaryIdArray(nullptr);
   to->SetDisplacementArray(nullptr);
   to->SetScaleFactor(1);
-  to->SetValidity(from->Live ? vtkMorphAlgorithm::VALIDITY_NONE : from->Validity);
-  to->SetQuality(from->Quality);
-  to->SetFeatureLines(from->FeatureLines);
-  to->SetNumberOfSteps(from->NumberOfSteps);
-  to->SetStepping(from->Stepping);
-  to->SetOutputPointsPrecision(from->OutputPointsPrecision);
-  to->SetNumberOfThreads(from->NumberOfThreads);
+  to->SetValidity(
+    from->MeshOptions->Live ? vtkMorphAlgorithm::VALIDITY_NONE : from->MeshOptions->Validity);
+  to->SetQuality(from->MeshOptions->Quality);
+  to->SetFeatureLines(from->MeshOptions->FeatureLines);
+  to->SetNumberOfSteps(from->MeshOptions->NumberOfSteps);
+  to->SetStepping(from->MeshOptions->Stepping);
+  to->SetOutputPointsPrecision(from->Options->OutputPointsPrecision);
+  to->SetNumberOfThreads(from->Options->NumberOfThreads);
   if (auto* stiff = vtkFEMWarpMorph::SafeDownCast(to))
   {
-    stiff->SetStiffness(from->Stiffness);
-    stiff->SetStiffnessExponent(from->StiffnessExponent);
-    stiff->SetStiffnessArray(from->StiffnessArray);
-    stiff->SetWallArray(from->WallArray);
+    stiff->SetStiffness(from->MeshOptions->Stiffness);
+    stiff->SetStiffnessExponent(from->MeshOptions->StiffnessExponent);
+    stiff->SetStiffnessArray(from->MeshOptions->StiffnessArray.c_str());
+    stiff->SetWallArray(from->MeshOptions->WallArray.c_str());
     stiff->SetStiffnessValues(soft);
   }
   else if (soft)
   {
     throw morph::Error("This method has no stiffness, so there are no soft zones. Use FEMWARP.");
   }
-  else if (from->Stiffness != 0 || !filters::Input::ArrayName(from->StiffnessArray).empty())
+  else if (from->MeshOptions->Stiffness != 0 ||
+           !filters::Input::ArrayName(from->MeshOptions->StiffnessArray).empty())
   {
     monitor.warn("This method has no stiffness: Stiffness counts for FEMWARP alone.");
   }
@@ -282,8 +241,8 @@ void vtkMorphMesh::vtkInternals::List(vtkDataObject* input)
   vtkUnstructuredGrid* grid = nullptr;
   try
   {
-    grid = vtkUnstructuredGrid::SafeDownCast(this->Blocks.Gather(
-      input, this->Filter->CoincidentPoints, filters::GridMesh::UnknownCells::Refuse, silent));
+    grid = vtkUnstructuredGrid::SafeDownCast(this->Blocks.Gather(input,
+      this->Filter->Options->CoincidentPoints, filters::GridMesh::UnknownCells::Refuse, silent));
   }
   catch (const std::exception&)
   {
@@ -300,9 +259,10 @@ void vtkMorphMesh::vtkInternals::List(vtkDataObject* input)
 vtkSelection* vtkMorphMesh::vtkInternals::OfGrid(vtkSelection* selection)
 {
   const vtkMorphMesh* from = this->Filter;
-  const bool isUsed = from->Moving == MOVE_SELECTION ||
-                      (from->Moving == MOVE_SURFACES && this->Surfaces.empty()) ||
-                      (from->Displacement == DISPLACEMENT_HANDLES && from->SelectedHandles);
+  const bool isUsed =
+    from->Options->Moving == MOVING_SELECTION ||
+    (from->Options->Moving == MOVING_SURFACES && this->Filter->Options->Surfaces.empty()) ||
+    (from->Options->Displacement == DISPLACEMENT_HANDLES && from->Options->SelectedHandles);
   return isUsed || !this->Blocks.Merged()
            ? this->Selected.OfGrid(this->Blocks, selection, this->Extractor)
            : nullptr;
@@ -321,7 +281,7 @@ filters::BlockPick::OnGrid vtkMorphMesh::vtkInternals::OfBlocks(
 
 void vtkMorphMesh::vtkInternals::CopySurfaces(vtkDataArraySelection* names, vtkPolyData* output)
 {
-  this->Displacement->CopyPatches(names, output);
+  this->Displacement->CopySurfaces(names, output);
   if (this->IsDistributed)
   {
     return; // as displaced: the first rank shows them, and does not have all of the morphed mesh
@@ -357,7 +317,7 @@ void vtkMorphMesh::vtkInternals::Displace(morph::Monitor& monitor)
   }
   for (const std::string& warning : this->BoundaryWarnings)
   {
-    monitor.warn(inOwnWords(warning));
+    monitor.warn(warning);
   }
   filters::Ranks::Together(
     [&]
@@ -367,7 +327,7 @@ void vtkMorphMesh::vtkInternals::Displace(morph::Monitor& monitor)
       {
         // Otherwise the next update would find nothing to do, and no error.
         this->Displacement->Modified();
-        throw morph::Error(inOwnWords(follower.Errors().front()));
+        throw morph::Error(follower.Errors().front());
       }
     });
 }
@@ -383,7 +343,7 @@ std::string vtkMorphMesh::vtkInternals::Morphed(vtkInformation* asked, vtkUnstru
   }
   const filters::Follower follower(this->Morph, monitor);
   const std::optional<double> time = filters::Ports::AskedTime(asked);
-  if (time && this->Filter->NumberOfSteps > 0)
+  if (time && this->Filter->MeshOptions->NumberOfSteps > 0)
   {
     this->Morph->UpdateTimeStep(*time);
   }
@@ -518,7 +478,7 @@ std::string vtkMorphMesh::vtkInternals::Run(vtkSelection* selection, vtkInformat
   this->ConfigureDisplacement(selection);
   morph::ProgressRange displacing(monitor, 0, 0.3);
   this->Displace(displacing);
-  if (this->Displacement->GetMoving() == vtkBoundaryDisplacement::MOVE_NOTHING)
+  if (this->Displacement->GetMoving() == vtkBoundaryDisplacement::MOVING_NOTHING)
   {
     filters::SurfaceGrid::Write(this->Rest, this->BoundaryOfGrid(), output);
     filters::SurfaceGrid::Write(this->Displacement->GetOutput(), surface);

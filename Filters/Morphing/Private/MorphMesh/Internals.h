@@ -10,7 +10,6 @@
 #include "Private/Displace/BlockSelection.h"
 #include "Private/Displace/Picker.h"
 #include "Private/Displace/SharedProperties.h"
-#include "Private/Pipeline/NameSet.h"
 #include "Private/Pipeline/Time.h"
 #include "Private/Project/TargetDistance.h"
 #include "Support/Monitor.h"
@@ -30,9 +29,9 @@ class vtkPolyData;
 class vtkMorphMesh::vtkInternals : public vtkDisplacementAlgorithm::vtkShared
 {
 public:
-  morph::filters::NameSet::Names Surfaces, FixedSurfaces, SlidingSurfaces, FreeSurfaces, SoftZones;
   vtkNew<vtkBoundaryDisplacement> Displacement;
   vtkSmartPointer<vtkMorphAlgorithm> Morph; ///< of the method, or null
+  int MorphMethod = -1;                     ///< that Morph is of
   vtkMTimeType MorphTime = 0;               ///< of Morph, as this class has left it
   morph::filters::Results Results{ morph::filters::ResultTables::vtkMorphMesh() };
   morph::filters::Time Time;
@@ -85,8 +84,6 @@ private:
   };
   CopiedData Target, ControlPoints;
   morph::filters::BlockSelection Selected;
-  morph::filters::NameSet::Names PassedSurfaces, PassedFixedSurfaces, PassedSlidingSurfaces,
-    PassedFreeSurfaces;
   morph::filters::BlockSelection ZoneSelected;
   vtkSmartPointer<vtkSelection> Zone;        ///< of ZoneSelectionType, or null
   std::vector<std::string> BoundaryWarnings; ///< of the boundary that is kept

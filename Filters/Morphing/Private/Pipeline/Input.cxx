@@ -268,10 +268,9 @@ void RequireVolumeCells(const morph::Mesh& mesh)
   DataCheck::RequireExtent(GridMesh::Size(mesh), "The input's volume mesh");
 }
 
-std::string ArrayName(const char* name)
+std::string ArrayName(const std::string& name)
 {
-  const std::string text = name ? name : "";
-  return text == "None" ? std::string() : text;
+  return name == "None" ? std::string() : name;
 }
 }
 }

@@ -75,7 +75,7 @@ Mesh TakeMesh(vtkDataObject* input, Blocks& blocks, int coincidentPoints, Use us
 /// (see DataCheck). All types have to be known to the core.
 void RequireVolumeCells(const morph::Mesh& mesh);
 
-/// The name of an array as a property holds it. Empty for none: a null pointer, or "None", which
-/// ParaView's choice of an array offers.
-std::string ArrayName(const char* name);
+/// The name of an array as a property holds it. Empty for none, or "None", which ParaView's choice
+/// of an array offers.
+std::string ArrayName(const std::string& name);
 }

@@ -28,25 +28,3 @@ inline void Print(std::ostream& os, vtkIndent indent, const char* property, cons
   os << "\n";
 }
 }
-
-/// Defines a filter's Set`One`Status() and RemoveAll`Many`(), declared in its header, for the names
-/// `owner`->`Many`.
-#define morphNameSetOfMacro(filter, owner, One, Many)                        \
-  void filter::Set##One##Status(const char* name, int status)                \
-  {                                                                          \
-    if (morph::filters::NameSet::SetStatus(this->owner->Many, name, status)) \
-    {                                                                        \
-      this->Modified();                                                      \
-    }                                                                        \
-  }                                                                          \
-  void filter::RemoveAll##Many()                                             \
-  {                                                                          \
-    if (!this->owner->Many.empty())                                          \
-    {                                                                        \
-      this->owner->Many.clear();                                             \
-      this->Modified();                                                      \
-    }                                                                        \
-  }
-
-/// As above, for the names Internals->`Many`.
-#define morphNameSetMacro(filter, One, Many) morphNameSetOfMacro(filter, Internals, One, Many)

@@ -1,55 +1,117 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <algorithm> // for the macros
+#include "Private/Pipeline/NameSet.h"
 
-class vtkObject;
+#include <vtkIndent.h>
+#include <vtkObject.h>
 
-/// Setters of properties that are floating-point numbers. VTK's own macros, vtkSetMacro and
-/// vtkSetClampMacro, accept a NaN.
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <ostream>
+#include <string>
+#include <type_traits>
+
+/// The setters of properties that are options (Private/Options.h), and how PrintSelf() has them.
 namespace morph::filters::Property
 {
-/// Whether `value` is finite and in [minimum, maximum]. If not, it raises an error of `filter` that
-/// names the property, the value, the range and `current`, the value that stays.
-bool Accepts(vtkObject* filter, const char* property, double value, double current, double minimum,
-  double maximum);
-/// As above, for any finite value.
-bool Accepts(vtkObject* filter, const char* property, double value, double current);
+constexpr double Any = std::numeric_limits<double>::max();
+
+/// Sets an option, and marks the filter as modified if that changes it.
+template <typename Value>
+void Set(vtkObject* filter, Value& kept, const std::common_type_t<Value>& value)
+{
+  if (kept != value)
+  {
+    kept = value;
+    filter->Modified();
+  }
 }
 
-/// Defines a filter's Set`name`(double), declared in its header. After the name: the
-/// minimum and the maximum, or nothing.
-#define morphSetNumberMacro(filter, name, ...)                                            \
-  void filter::Set##name(double value)                                                    \
-  {                                                                                       \
-    if (this->name != value &&                                                            \
-        morph::filters::Property::Accepts(this, #name, value, this->name, ##__VA_ARGS__)) \
-    {                                                                                     \
-      this->name = value;                                                                 \
-      this->Modified();                                                                   \
-    }                                                                                     \
-  }
+/// Whether `value` is finite and in [minimum, maximum]. If not, it raises an error of `filter` that
+/// names the property, the value, the range and `current`, the value that stays. VTK's own macros
+/// accept a NaN.
+bool Accepts(vtkObject* filter, const char* property, double value, double current, double minimum,
+  double maximum);
 
-/// Defines a filter's Set`name`(double, double, double) and Set`name`(const double[3]), declared in
-/// its header, for any finite numbers. A vector is refused as a whole.
-#define morphSetVectorMacro(filter, name)                                            \
-  void filter::Set##name(double x, double y, double z)                               \
-  {                                                                                  \
-    const double values[3] = { x, y, z };                                            \
-    for (int i = 0; i < 3; ++i)                                                      \
-    {                                                                                \
-      if (!morph::filters::Property::Accepts(this, #name, values[i], this->name[i])) \
-      {                                                                              \
-        return;                                                                      \
-      }                                                                              \
-    }                                                                                \
-    if (!std::equal(values, values + 3, this->name))                                 \
-    {                                                                                \
-      std::copy(values, values + 3, this->name);                                     \
-      this->Modified();                                                              \
-    }                                                                                \
-  }                                                                                  \
-  void filter::Set##name(const double values[3])                                     \
-  {                                                                                  \
-    this->Set##name(values[0], values[1], values[2]);                                \
+inline void Set(vtkObject* filter, const char* property, double& kept, double value, double minimum,
+  double maximum)
+{
+  if (Accepts(filter, property, value, kept, minimum, maximum))
+  {
+    Set(filter, kept, value);
   }
+}
+
+/// A whole number outside of its range becomes the nearest bound, as usual in VTK.
+inline void Set(
+  vtkObject* filter, const char* /*property*/, int& kept, int value, int minimum, int maximum)
+{
+  Set(filter, kept, std::clamp(value, minimum, maximum));
+}
+
+/// A vector is refused as a whole.
+template <std::size_t Count>
+void Set(vtkObject* filter, const char* property, std::array<double, Count>& kept,
+  const std::array<double, Count>& values, double minimum, double maximum)
+{
+  for (std::size_t i = 0; i < Count; ++i)
+  {
+    if (!Accepts(filter, property, values[i], kept[i], minimum, maximum))
+    {
+      return;
+    }
+  }
+  Set(filter, kept, values);
+}
+
+template <std::size_t Count>
+void Set(vtkObject* filter, const char* /*property*/, std::array<int, Count>& kept,
+  std::array<int, Count> values, int minimum, int maximum)
+{
+  for (int& value : values)
+  {
+    value = std::clamp(value, minimum, maximum);
+  }
+  Set(filter, kept, values);
+}
+
+/// Adds a name, or removes it where `status` is 0.
+inline void SetStatus(vtkObject* filter, NameSet::Names& names, const char* name, int status)
+{
+  if (NameSet::SetStatus(names, name, status))
+  {
+    filter->Modified();
+  }
+}
+
+template <typename Value>
+void Print(std::ostream& os, vtkIndent indent, const char* name, const Value& value)
+{
+  os << indent << name << ": " << value << "\n";
+}
+
+inline void Print(std::ostream& os, vtkIndent indent, const char* name, const std::string& value)
+{
+  os << indent << name << ": " << (value.empty() ? "(none)" : value) << "\n";
+}
+
+inline void Print(
+  std::ostream& os, vtkIndent indent, const char* name, const NameSet::Names& values)
+{
+  NameSet::Print(os, indent, name, values);
+}
+
+template <typename Value, std::size_t Count>
+void Print(
+  std::ostream& os, vtkIndent indent, const char* name, const std::array<Value, Count>& values)
+{
+  os << indent << name << ":";
+  for (const Value value : values)
+  {
+    os << " " << value;
+  }
+  os << "\n";
+}
+}

@@ -65,16 +65,18 @@ std::unique_ptr<morph::LinearMorpher> makeMethod(int method, double tolerance)
 filters::ShapeModes::Options vtkMorphShapes::vtkInternals::Options() const
 {
   filters::ShapeModes::Options options;
-  options.Matching.BoundaryIdArray = filters::Input::ArrayName(this->Filter->BoundaryIdArray);
-  options.Matching.DisplacementArray = filters::Input::ArrayName(this->Filter->DisplacementArray);
-  options.Matching.MatchTolerance = this->Filter->MatchTolerance;
-  options.Matching.HoldUnnamedBoundary = this->Filter->HoldUnnamedBoundary;
+  options.Matching.BoundaryIdArray =
+    filters::Input::ArrayName(this->Filter->Options->BoundaryIdArray);
+  options.Matching.DisplacementArray =
+    filters::Input::ArrayName(this->Filter->Options->DisplacementArray);
+  options.Matching.MatchTolerance = this->Filter->Options->MatchTolerance;
+  options.Matching.FixUnnamedBoundary = this->Filter->Options->FixUnnamedBoundary;
   std::ostringstream text;
   text.precision(17);
-  text << this->Filter->Method << " " << this->Filter->Tolerance;
+  text << this->Filter->Options->Method << " " << this->Filter->Options->Tolerance;
   options.Method = text.str();
   options.CreateMorpher = [filter = this->Filter]
-  { return makeMethod(filter->Method, filter->Tolerance); };
+  { return makeMethod(filter->Options->Method, filter->Options->Tolerance); };
   return options;
 }
 
@@ -115,7 +117,7 @@ vtkMorphShapes::vtkInternals::Source vtkMorphShapes::vtkInternals::SourceOf(
   settings << options.Method << "\n"
            << options.Matching.BoundaryIdArray << "\n"
            << options.Matching.DisplacementArray << "\n"
-           << options.Matching.MatchTolerance << " " << options.Matching.HoldUnnamedBoundary;
+           << options.Matching.MatchTolerance << " " << options.Matching.FixUnnamedBoundary;
   Source source;
   for (int i = 0; i < boundaries->GetNumberOfInformationObjects(); ++i)
   {
@@ -177,7 +179,7 @@ std::vector<double> vtkMorphShapes::vtkInternals::PresentWeights(
     filters::Designs::Read(table, this->Names(shapes), weights, this->Modes.Group());
   designs.KeepAnswer(std::move(this->Designs));
   this->Designs = std::move(designs);
-  if (this->Filter->CheckDesigns)
+  if (this->Filter->Options->CheckDesigns)
   {
     std::vector<morph::Index> rows;
     for (const std::size_t row : this->Designs.Inverted(this->Modes, monitor))
@@ -213,7 +215,7 @@ void vtkMorphShapes::vtkInternals::Morph(vtkUnstructuredGrid* grid,
   {
     this->SolvedFrom = {};
   }
-  this->Modes.SetFeatureLines(this->Filter->FeatureLines, monitor);
+  this->Modes.SetFeatureLines(this->Filter->Options->FeatureLines, monitor);
   this->Results.SetInteger("MirroredBodies", this->Modes.GetSolver()->MirroredBodies());
   this->Modes.GetSolver()->ReportMesh(monitor);
   morph::ProgressRange solving(monitor, 0, 0.6);
@@ -244,11 +246,11 @@ void vtkMorphShapes::vtkInternals::Morph(vtkUnstructuredGrid* grid,
 void vtkMorphShapes::vtkInternals::Write(vtkUnstructuredGrid* grid,
   const std::vector<double>& weights, vtkInformationVector* outputs, morph::Monitor& monitor)
 {
-  const bool all = this->Filter->Quality == QUALITY_ALL;
+  const bool all = this->Filter->Options->Quality == QUALITY_ALL;
   const filters::ModeSolver::Outputs written = { this->Ports.Output(outputs),
     vtkUnstructuredGrid::GetData(outputs, 1), vtkPolyData::GetData(outputs, 2) };
   const filters::ModeSolver::Measured measured = this->Modes.GetSolver()->Write(
-    grid, this->Moved, this->Filter->OutputPointsPrecision, all, written, monitor);
+    grid, this->Moved, this->Filter->Options->OutputPointsPrecision, all, written, monitor);
   const morph::Quality& quality = measured.Whole;
   this->Results.SetInteger("SurfaceInvertedCells", measured.SurfaceInverted);
   if (all)
@@ -258,7 +260,7 @@ void vtkMorphShapes::vtkInternals::Write(vtkUnstructuredGrid* grid,
   }
   const bool isBad = measured.Judged.Added > 0;
   this->Results.SetText("MorphStatus", !all ? "Unmeasured" : isBad ? "Inverted" : "Valid");
-  if (this->Filter->FindValidRanges) // of a mesh that can be written
+  if (this->Filter->Options->FindValidRanges) // of a mesh that can be written
   {
     this->FindRanges(weights, monitor);
   }

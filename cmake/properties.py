@@ -1,0 +1,409 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Makes all that a property needs from Filters/Morphing/Properties.ini, which explains its keys.
+
+    python3 cmake/properties.py cxx FOLDER   headers (vtkX.h of vtkX.h.in), Options.h, Properties.cxx
+    python3 cmake/properties.py xml FOLDER   ParaView's XML (X.xml.in of Plugin/X.xml.in)
+    python3 cmake/properties.py json FILE    the rows, for the tests and the pages
+
+A file whose text is the same stays as it is, so that nothing is compiled again."""
+
+import configparser
+import json
+import pathlib
+import re
+import sys
+import textwrap
+
+PROJECT = pathlib.Path(__file__).resolve().parent.parent
+MODULE = PROJECT / "Filters" / "Morphing"
+KINDS = ("number", "numbers", "integer", "integers", "flag", "choice", "text", "array", "names",
+         "surfaces", "own")
+
+
+class Row:
+    """A property of a class: its keys, those for the class or its superclass first."""
+
+    def __init__(self, name, section, classes):
+        self.name = name
+        self.keys = {}
+        for key, value in section.items():
+            if " of " not in key:
+                self.keys[key] = value.strip()
+        for one in reversed(classes):
+            for key, value in section.items():
+                if key.endswith(" of " + one):
+                    self.keys[key[: -len(" of " + one)]] = value.strip()
+        self.kind, _, count = self["type"].partition(" ")
+        if self.kind not in KINDS:
+            raise SystemExit(f"Properties.ini: {name} has no known type: {self['type']}")
+        self.count = int(count or 1)
+        self.values = [" ".join(v.split()) for v in self["values"].split("|") if v.strip()]
+        self.default = self["default"] or {"flag": "0", "choice": (self.values or [""])[0]}.get(
+            self.kind, "" if self.kind in ("text", "array") else " ".join(["0"] * self.count))
+        self.range = [None if v == "-" else v for v in (self["range"] or "- -").split()]
+        self.paragraphs = [p.strip("\n") for p in re.split(r"\n\s*\n", self["text"])]
+
+    def __getitem__(self, key):
+        return self.keys.get(key, "")
+
+    @property
+    def words(self):
+        """TargetReach: Target Reach"""
+        return re.sub(r"(?<=[a-z])(?=[A-Z])", " ", self.name)
+
+    @property
+    def default_number(self):
+        return str(self.values.index(self.default)) if self.kind == "choice" else self.default
+
+    @property
+    def option(self):
+        """Of morph-mesh; none: None."""
+        if self["option"] == "-" or self.kind == "own":
+            return None
+        return self["option"] or "--" + self.words.lower().replace(" ", "-")
+
+
+def read():
+    table = configparser.ConfigParser(interpolation=None, delimiters=("=",))
+    table.optionxform = str
+    with open(MODULE / "Properties.ini", encoding="utf-8") as file:
+        table.read_file(file)
+    return table
+
+
+def rows(table, classes):
+    """Of a class, given with its superclasses, derived classes first."""
+    return [Row(name, table[name], classes) for name in table.sections()
+            if set(table[name]["filters"].split()) & set(classes)]
+
+
+def write(path, text):
+    if not path.exists() or path.read_text(encoding="utf-8") != text:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text, encoding="utf-8")
+
+
+# ---------------------------------------------------------------------------------------- C++
+
+
+def constant(text):
+    """Follow everywhere: FOLLOW_EVERYWHERE; SurfaceMethod: SURFACE_METHOD"""
+    text = re.sub(r"(?<=[a-z])(?=[A-Z])", "_", text)
+    return re.sub(r"[^A-Z0-9]+", "_", text.upper())
+
+
+def camel(text):
+    """Follow everywhere: FollowEverywhere"""
+    return "".join(word[0].upper() + word[1:] for word in re.split(r"[^A-Za-z0-9]+", text) if word)
+
+
+def constants(row):
+    if row["prefix"] == "-":
+        return []
+    return [f"{row['prefix'] or constant(row.name)}_{constant(value)}" for value in row.values]
+
+
+CXX_TYPES = {"number": "double", "integer": "int", "flag": "bool", "choice": "int",
+             "text": "std::string", "array": "std::string", "names": "std::set<std::string>",
+             "surfaces": "std::set<std::string>"}
+
+
+def cxx_type(row):
+    if row.kind in ("numbers", "integers"):
+        return f"std::array<{'double' if row.kind == 'numbers' else 'int'}, {row.count}>"
+    return CXX_TYPES[row.kind]
+
+
+def bounds_text(row):
+    low, high = row.range
+    if row.kind not in ("number", "numbers", "integer", "integers") or (low, high) == (None, None):
+        return ""
+    return f", range [{low or 'VTK_INT_MIN'}, {high or 'VTK_INT_MAX'}]"
+
+
+def comment(row):
+    """The documentation in the header."""
+    lines = []
+    for i, paragraph in enumerate(row.paragraphs):
+        lines += [""] if i else []
+        if paragraph.lstrip().startswith("|"):
+            lines += [line.strip() for line in paragraph.splitlines()]
+        else:
+            lines += textwrap.wrap(" ".join(paragraph.split()), 95)
+    default = {"names": "none", "surfaces": "none", "text": "none", "array": "none",
+               "flag": "on" if row.default == "1" else "off"}.get(row.kind, row.default)
+    last = textwrap.wrap(f"{lines.pop()} Default {default}{bounds_text(row)}.", 95)
+    text = "\n".join(f"   * {line}".rstrip() for line in lines + last)
+    return f"  ///@{{\n  /**\n{text}\n   */\n"
+
+
+def declarations(row):
+    name = row.name
+    if row.kind == "own":
+        return ""
+    text = ""
+    names = constants(row)
+    if names:
+        entries = "".join(f"    {one} = {i},\n" for i, one in enumerate(names))
+        text += f"  enum {name}Values\n  {{\n{entries[:-2]}\n  }};\n"
+    text += comment(row)
+    if row.kind in ("numbers", "integers"):
+        one = "double" if row.kind == "numbers" else "int"
+        arguments = ", ".join(f"{one} v{i}" for i in range(row.count))
+        text += (f"  void Set{name}({arguments});\n  void Set{name}(const {one} values[{row.count}]);\n"
+                 f"  {one}* Get{name}() VTK_SIZEHINT({row.count});\n"
+                 f"  void Get{name}({one} values[{row.count}]);\n")
+    elif row.kind in ("names", "surfaces"):
+        text += (f"  void Set{name[:-1]}Status(const char* name, int status);\n"
+                 f"  void Add{name[:-1]}(const char* name) {{ this->Set{name[:-1]}Status(name, 1); }}\n"
+                 f"  void RemoveAll{name}();\n")
+    elif row.kind in ("text", "array"):
+        text += f"  void Set{name}(const char* value);\n  const char* Get{name}() const;\n"
+    else:
+        text += f"  void Set{name}({cxx_type(row)} value);\n  {cxx_type(row)} Get{name}() const;\n"
+    if row.kind == "flag":
+        text += f"  void {name}On() {{ this->Set{name}(true); }}\n"
+        text += f"  void {name}Off() {{ this->Set{name}(false); }}\n"
+    for i, value in enumerate(row.values):
+        text += f"  void Set{name}To{camel(value)}() {{ this->Set{name}({i}); }}\n"
+    return text + "  ///@}\n\n"
+
+
+def member(row):
+    default = row.default_number
+    if row.kind == "flag":
+        default = "true" if default == "1" else "false"
+    elif row.kind in ("numbers", "integers"):
+        default = "{ " + ", ".join(default.split()) + " }"
+    elif row.kind not in ("number", "integer", "choice"):
+        return f"  {cxx_type(row)} {row.name};\n"
+    return f"  {cxx_type(row)} {row.name} = {default};\n"
+
+
+def struct(name, all_rows):
+    members = "".join(member(row) for row in all_rows)
+    equal = " &&\n      ".join(f"a.{row.name} == b.{row.name}" for row in all_rows)
+    return (f"struct {name}\n{{\n{members}\n"
+            f"  friend bool operator==(const {name}& a, const {name}& b)\n  {{\n"
+            f"    return {equal};\n  }}\n"
+            f"  friend bool operator!=(const {name}& a, const {name}& b) {{ return !(a == b); }}\n"
+            "};\n")
+
+
+def definitions(cls, options, row):
+    name, kept = row.name, f"this->{options}->{row.name}"
+    low, high = row.range
+    if row.kind in ("number", "numbers"):
+        bounds = f"{low or '-Property::Any'}, {high or 'Property::Any'}"
+    elif row.kind == "choice":
+        bounds = f"0, {len(row.values) - 1}"
+    else:
+        bounds = f"{low or 'VTK_INT_MIN'}, {high or 'VTK_INT_MAX'}"
+    if row.kind in ("numbers", "integers"):
+        one, n = ("double" if row.kind == "numbers" else "int"), row.count
+        arguments = ", ".join(f"{one} v{i}" for i in range(n))
+        values = ", ".join(f"v{i}" for i in range(n))
+        parts = ", ".join(f"values[{i}]" for i in range(n))
+        return (f"void {cls}::Set{name}({arguments})\n{{\n"
+                f'  Property::Set(this, "{name}", {kept}, {{ {values} }}, {bounds});\n}}\n'
+                f"void {cls}::Set{name}(const {one} values[{n}])\n{{\n  this->Set{name}({parts});\n}}\n"
+                f"{one}* {cls}::Get{name}()\n{{\n  return {kept}.data();\n}}\n"
+                f"void {cls}::Get{name}({one} values[{n}])\n{{\n"
+                f"  std::copy({kept}.begin(), {kept}.end(), values);\n}}\n")
+    if row.kind in ("names", "surfaces"):
+        return (f"void {cls}::Set{name[:-1]}Status(const char* name, int status)\n{{\n"
+                f"  Property::SetStatus(this, {kept}, name, status);\n}}\n"
+                f"void {cls}::RemoveAll{name}()\n{{\n  Property::Set(this, {kept}, {{}});\n}}\n")
+    if row.kind in ("text", "array"):
+        return (f"void {cls}::Set{name}(const char* value)\n{{\n"
+                f'  Property::Set(this, {kept}, value ? value : "");\n}}\n'
+                f"const char* {cls}::Get{name}() const\n{{\n  return {kept}.c_str();\n}}\n")
+    call = f"this, {kept}, value" if row.kind == "flag" else f'this, "{name}", {kept}, value, {bounds}'
+    return (f"void {cls}::Set{name}({cxx_type(row)} value)\n{{\n  Property::Set({call});\n}}\n"
+            f"{cxx_type(row)} {cls}::Get{name}() const\n{{\n  return {kept};\n}}\n")
+
+
+def make_cxx(folder):
+    table = read()
+    structs, sources, headers = [], [], []
+    # Defaults that a class has on its own, where its superclass has the property.
+    others = {}
+    for name in table.sections():
+        for key in table[name]:
+            cls = key[len("default of "):]
+            if (key.startswith("default of ") and cls not in table[name]["filters"].split() and
+                    (MODULE / f"vtk{cls}.cxx").exists()):
+                row = Row(name, table[name], [cls])
+                others.setdefault(cls, []).append(row)
+    for cls, own in others.items():
+        members = "".join("  static constexpr" + member(row)[1:] for row in own)
+        structs.append(f"/// Where they are not those of its superclass.\n"
+                       f"struct {cls}Defaults\n{{\n{members}}};\n")
+    for template in sorted(MODULE.glob("vtk*.h.in")):
+        text = template.read_text(encoding="utf-8")
+        cls = template.name[: -len(".h.in")]
+        own = [row for row in rows(table, [cls[3:]]) if row.kind != "own"]
+        kept = re.search(r"std::unique_ptr<morph::(\w+Options)> (\w+);", text)
+        if not kept or text.count("@Properties@\n") != 1 or not own:
+            raise SystemExit(f"{template}: it needs @Properties@, options, and rows in the table")
+        made = "".join(declarations(row) for row in own).rstrip("\n")
+        write(folder / f"{cls}.h", text.replace("@Properties@", made))
+        headers.append(f'#include "{cls}.h"\n')
+        structs.append(struct(kept[1], own))
+        printed = "".join(f'  Property::Print(os, indent, "{row.name}", this->{kept[2]}->{row.name});\n'
+                          for row in own)
+        sources.append("".join(definitions(cls, kept[2], row) for row in own) +
+                       f"void {cls}::PrintOptions(ostream& os, vtkIndent indent) const\n{{\n"
+                       f"{printed}}}\n")
+    made = "// Made by cmake/properties.py from Properties.ini.\n"
+    write(folder / "Private" / "Options.h",
+          made + "#pragma once\n\n#include <array>\n#include <set>\n#include <string>\n\n"
+          "namespace morph\n{\n" + "\n".join(structs) + "}\n")
+    write(folder / "Properties.cxx",
+          made + '#include "Private/Options.h"\n#include "Private/Pipeline/Property.h"\n' +
+          "".join(headers) + "\n#include <algorithm>\n\nnamespace Property = morph::filters::Property;\n\n"
+          + "\n".join(sources))
+
+
+# ---------------------------------------------------------------------------------------- XML
+
+
+def escaped(text):
+    return text.replace("&", "&amp;").replace("<", "&lt;").replace('"', "&quot;")
+
+
+def condition(text, find):
+    """PROPERTY: VALUE / VALUE, with & and | between several, as a decorator."""
+    def one(part):
+        name, _, values = part.partition(":")
+        row = find(name.strip())
+        numbers = [v.strip() for v in values.split("/")]
+        if row.kind == "choice":
+            # Of the values that this class has.
+            numbers = [str(row.values.index(v)) for v in numbers if v in row.values]
+        key = "value" if len(numbers) == 1 else "values"
+        return (f'<PropertyWidgetDecorator type="GenericDecorator" mode="visibility" '
+                f'property="{row.name}" {key}="{" ".join(numbers)}"/>')
+
+    def several(parts, kind, inner):
+        made = [inner(part) for part in parts]
+        return made[0] if len(made) == 1 else f'<Expression type="{kind}">{"".join(made)}</Expression>'
+
+    made = several(text.split("|"), "or", lambda part: several(part.split("&"), "and", one))
+    if made.startswith("<Expression"):
+        made = f'<PropertyWidgetDecorator type="CompositeDecorator">{made}</PropertyWidgetDecorator>'
+    return made
+
+
+def own_xml(row, classes, find):
+    for name in [f"{cls}.{row.name}.xml" for cls in classes] + [f"{row.name}.xml"]:
+        path = PROJECT / "Plugin" / "Properties" / name
+        if path.exists():
+            text = path.read_text(encoding="utf-8")
+            return text.replace("@Shown@", condition(row["shown"], find) if row["shown"] else "")
+    raise SystemExit(f"Plugin/Properties has no {row.name}.xml")
+
+
+def domain(row):
+    low, high = row["slider"].split() if " " in row["slider"] else row.range
+    if row["slider"] == "no":
+        high = None
+    if row.kind == "flag":
+        return '<BooleanDomain name="bool"/>'
+    if row.kind == "choice":
+        entries = "".join(f'<Entry value="{i}" text="{v}"/>' for i, v in enumerate(row.values))
+        return f'<EnumerationDomain name="enum">{entries}</EnumerationDomain>'
+    if row.kind == "array":
+        port, name = row["array"].split()
+        kind = "ArrayListDomain" if port == "Input" else "ConnectedArrayListDomain"
+        return (f'<{kind} name="array_list" input_domain_name="{name}" none_string="None">'
+                f'<RequiredProperties><Property function="Input" name="{port}"/>'
+                f"</RequiredProperties></{kind}>")
+    if row.kind == "surfaces":
+        return ('<KeptArraySelectionDomain name="list"><RequiredProperties>'
+                '<Property function="ArrayList" name="SurfaceList"/></RequiredProperties>'
+                "</KeptArraySelectionDomain>")
+    if (low, high) == (None, None):
+        return ""
+    kind = "Int" if row.kind.startswith("integer") else "Double"
+    least = f' min="{" ".join([low] * row.count)}"' if low else ""
+    most = f' max="{" ".join([high] * row.count)}"' if high else ""
+    return f'<{kind}RangeDomain name="range"{least}{most}/>'
+
+
+def property_xml(row, find, more=""):
+    kind = {"number": "Double", "numbers": "Double", "integer": "Int", "integers": "Int",
+            "flag": "Int", "choice": "Int"}.get(row.kind, "String")
+    if row.kind == "surfaces":
+        what = (f'command="Set{row.name[:-1]}Status" clean_command="RemoveAll{row.name}" '
+                'information_property="SurfaceList" repeat_command="1" '
+                'number_of_elements_per_command="2" element_types="2 0" panel_widget="SurfaceList"')
+    elif row.kind == "names":
+        what = (f'command="Add{row.name[:-1]}" clean_command="RemoveAll{row.name}" '
+                'repeat_command="1" number_of_elements_per_command="1"')
+    else:
+        default = row.default_number or ("None" if row.kind == "array" else "")
+        what = (f'command="Set{row.name}" number_of_elements="{row.count}" '
+                f'default_values="{default}"')
+    if row.name.isupper():  # else ParaView puts spaces between the letters
+        what += f' label="{row.name}"'
+    panel = row["panel"] or "default"
+    visible = f' panel_visibility="{panel}"' if panel != "default" else ""
+    animated = ' animateable="1"' if row["animated"] == "yes" else ""
+    hints = []
+    if row.kind == "surfaces":
+        hints += ["<OmitFromLoadAllVariables/>", '<SurfaceList sizes="SurfaceSizes"/>']
+    if row["shown"]:
+        hints.append(condition(row["shown"], find))
+    if row["unit"]:
+        label = f'{row.words} ({row["unit"]})'
+        hints.append(f'<PropertyWidgetDecorator type="PanelLabel" text="{label}"/>')
+    hint = f"<Hints>{''.join(hints)}</Hints>" if hints else ""
+    text = escaped(" ".join(row.paragraphs[0].split()))
+    return (f'      <{kind}VectorProperty name="{row.name}" {what}{animated}{visible}{more}>\n'
+            f"        {domain(row)}\n        <Documentation>\n{text}\n        </Documentation>\n"
+            f"        {hint}\n      </{kind}VectorProperty>\n")
+
+
+def make_xml(folder):
+    table = read()
+    bases = {}
+    for header in [*MODULE.glob("vtk*.h"), *MODULE.glob("vtk*.h.in")]:
+        name = re.search(r"vtkTypeMacro\(vtk(\w+), vtk(\w+)\)", header.read_text(encoding="utf-8"))
+        if name:
+            bases[name[1]] = name[2]
+    for template in sorted((PROJECT / "Plugin").glob("*.xml.in")):
+        text = template.read_text(encoding="utf-8")
+        for _ in range(2):  # a part may have parts
+            for part in (PROJECT / "Plugin" / "Morph").glob("*.xml"):
+                text = text.replace(f"@{part.stem}@\n", part.read_text(encoding="utf-8"))
+        # The last one: those before it are internal.
+        proxy, cls = re.findall(r'<\w*SourceProxy name="(\w+)"\s+class="vtk(\w+)"', text)[-1]
+        classes = [cls]
+        while classes[-1] in bases:
+            classes.append(bases[classes[-1]])
+        own = rows(table, [proxy, *classes])
+        find = {row.name: row for row in own}.__getitem__
+        made = "".join(own_xml(row, classes, find) if row.kind == "own" else property_xml(row, find)
+                       for row in own)
+        groups = {}
+        for row in own:
+            if row["group"] and row["panel"] != "never":
+                groups.setdefault(row["group"], []).append(f'        <Property name="{row.name}"/>\n')
+        grouped = "".join(f'      <PropertyGroup label="{label}">\n{"".join(names)}      </PropertyGroup>\n'
+                          for label, names in groups.items())
+        text = text.replace("@Properties@", made.rstrip("\n")).replace("@Groups@", grouped.rstrip("\n"))
+        text = re.sub(r"@Override (\w+)@\n",
+                      lambda m: property_xml(find(m[1]), find, ' override="1"'), text)
+        write(folder / template.name, text)
+
+
+def make_json(path):
+    table = read()
+    write(path, json.dumps({name: dict(table[name]) for name in table.sections()}, indent=1))
+
+
+if __name__ == "__main__":
+    if len(sys.argv) != 3 or sys.argv[1] not in ("cxx", "xml", "json"):
+        raise SystemExit(__doc__)
+    {"cxx": make_cxx, "xml": make_xml, "json": make_json}[sys.argv[1]](pathlib.Path(sys.argv[2]))
