@@ -3,12 +3,13 @@
 
     python3 cmake/properties.py cxx FOLDER   headers (vtkX.h of vtkX.h.in), Options.h, Properties.cxx
     python3 cmake/properties.py xml FOLDER   ParaView's XML (X.xml.in of Plugin/X.xml.in)
-    python3 cmake/properties.py json FILE    the rows, for the tests and the pages
+    python3 cmake/properties.py options FILE the table of morph-mesh's options (PropertyTable.cxx)
+    python3 cmake/properties.py tests FILE   the rows of Testing/Filters/TestProperties.cxx
+    python3 cmake/properties.py pages FOLDER the reference of each filter, for the site
 
 A file whose text is the same stays as it is, so that nothing is compiled again."""
 
 import configparser
-import json
 import pathlib
 import re
 import sys
@@ -39,7 +40,8 @@ class Row:
         self.count = int(count or 1)
         self.values = [" ".join(v.split()) for v in self["values"].split("|") if v.strip()]
         self.default = self["default"] or {"flag": "0", "choice": (self.values or [""])[0]}.get(
-            self.kind, "" if self.kind in ("text", "array") else " ".join(["0"] * self.count))
+            self.kind, "" if self.kind in ("text", "array", "names", "surfaces", "own")
+            else " ".join(["0"] * self.count))
         self.range = [None if v == "-" else v for v in (self["range"] or "- -").split()]
         self.paragraphs = [p.strip("\n") for p in re.split(r"\n\s*\n", self["text"])]
 
@@ -75,6 +77,22 @@ def rows(table, classes):
     """Of a class, given with its superclasses, derived classes first."""
     return [Row(name, table[name], classes) for name in table.sections()
             if set(table[name]["filters"].split()) & set(classes)]
+
+
+def bases():
+    """The superclasses of each class, the nearest first, without vtk."""
+    nearest = {}
+    for header in [*MODULE.glob("vtk*.h"), *MODULE.glob("vtk*.h.in")]:
+        name = re.search(r"vtkTypeMacro\(vtk(\w+), vtk(\w+)\)", header.read_text(encoding="utf-8"))
+        if name:
+            nearest[name[1]] = name[2]
+    chains = {}
+    for cls in nearest:
+        chain = [nearest[cls]]
+        while chain[-1] in nearest:
+            chain.append(nearest[chain[-1]])
+        chains[cls] = chain
+    return chains
 
 
 def write(path, text):
@@ -367,11 +385,7 @@ def property_xml(row, find, more=""):
 
 def make_xml(folder):
     table = read()
-    bases = {}
-    for header in [*MODULE.glob("vtk*.h"), *MODULE.glob("vtk*.h.in")]:
-        name = re.search(r"vtkTypeMacro\(vtk(\w+), vtk(\w+)\)", header.read_text(encoding="utf-8"))
-        if name:
-            bases[name[1]] = name[2]
+    chains = bases()
     for template in sorted((PROJECT / "Plugin").glob("*.xml.in")):
         text = template.read_text(encoding="utf-8")
         for _ in range(2):  # a part may have parts
@@ -379,9 +393,7 @@ def make_xml(folder):
                 text = text.replace(f"@{part.stem}@\n", part.read_text(encoding="utf-8"))
         # The last one: those before it are internal.
         proxy, cls = re.findall(r'<\w*SourceProxy name="(\w+)"\s+class="vtk(\w+)"', text)[-1]
-        classes = [cls]
-        while classes[-1] in bases:
-            classes.append(bases[classes[-1]])
+        classes = [cls, *chains.get(cls, [])]
         own = rows(table, [proxy, *classes])
         find = {row.name: row for row in own}.__getitem__
         made = "".join(own_xml(row, classes, find) if row.kind == "own" else property_xml(row, find)
@@ -398,12 +410,155 @@ def make_xml(folder):
         write(folder / template.name, text)
 
 
-def make_json(path):
-    table = read()
-    write(path, json.dumps({name: dict(table[name]) for name in table.sections()}, indent=1))
+# ------------------------------------------------------------------------------ command line
 
+
+PROGRAM_CLASSES = ("DisplacementAlgorithm", "MorphMesh", "MorphAlgorithm", "FEMWarpMorph",
+                   "LBWarpMorph", "WeightedResidualMorph", "SimplexNaturalNeighborMorph",
+                   "RadialBasisMorph", "SmoothingMorph", "InversionFreeMorph", "MorphShapes")
+
+
+def quoted(text):
+    return '"' + text.replace("\\", "\\\\").replace('"', '\\"') + '"'
+
+
+def implied(row):
+    """What an option sets, too: that on which the panel shows it."""
+    if not row["shown"] or "|" in row["shown"]:
+        return []
+    pairs = [[p.strip() for p in part.split(":")] for part in row["shown"].split("&")]
+    return [(name, value) for name, value in pairs if "/" not in value]
+
+
+def setter(row, cls):
+    value = {"number": "value.numbers[0]", "numbers": "value.numbers.data()",
+             "integer": "int(value.numbers[0])", "choice": "int(value.numbers[0])",
+             "flag": "value.numbers[0] != 0"}.get(row.kind, "value.text.c_str()")
+    call = f"Set{row.name}({value})"
+    if row.kind == "integers":
+        call = f"Set{row.name}({', '.join(f'int(value.numbers[{i}])' for i in range(row.count))})"
+    elif row.kind in ("names", "surfaces"):
+        call = f"Add{row.name[:-1]}({value})"
+    return f"on<vtk{cls}>(filter, [&](auto* one) {{ one->{call}; }})"
+
+
+def make_options(path):
+    table = read()
+    lines = []
+    for name in table.sections():
+        classes = [cls for cls in PROGRAM_CLASSES if cls in table[name]["filters"].split()]
+        row = Row(name, table[name], classes[:1])
+        if not classes or row.kind == "own":
+            continue
+        low, high = row.range
+        count = row.count if row.kind in ("number", "numbers", "integer", "integers") else 0
+        words = ", ".join(quoted(value) for value in row.values)
+        defaults = ", ".join(row.default.split()) if count else ""
+        pairs = ", ".join(f"{{ {quoted(a)}, {quoted(b)} }}" for a, b in implied(row))
+        kind = {"numbers": "number", "integers": "integer", "array": "text",
+                "surfaces": "names"}.get(row.kind, row.kind).capitalize()
+        text = quoted(" ".join(row.paragraphs[0].split()))
+        sets = " ||\n               ".join(setter(row, cls) for cls in classes)
+        lines.append(
+            f"    {{ {quoted(row.option or '')}, {quoted(name)}, {quoted(row['group'])}, "
+            f"Property::Kind::{kind}, {count}, {low or '-unlimited'}, {high or 'unlimited'},\n"
+            f"      {{ {words} }}, {{ {defaults} }}, {{ {pairs} }},\n      {text},\n"
+            f"      [](vtkAlgorithm* filter, const PropertyValue& value)\n"
+            f"      {{ return {sets}; }} }},\n")
+    includes = "".join(f"#include <vtk{cls}.h>\n" for cls in sorted(PROGRAM_CLASSES))
+    write(path, "// Made by cmake/properties.py from Properties.ini.\n"
+          '#include "Properties.h"\n\n' + includes + "\n#include <limits>\n\n"
+          "namespace morph_mesh\n{\nnamespace\n{\n"
+          "constexpr double unlimited = std::numeric_limits<double>::max();\n\n"
+          "template <typename Filter, typename Set>\nbool on(vtkAlgorithm* filter, Set set)\n{\n"
+          "  auto* one = Filter::SafeDownCast(filter);\n  if (one)\n  {\n    set(one);\n  }\n"
+          "  return one != nullptr;\n}\n}\n\nconst std::vector<Property>& properties()\n{\n"
+          "  static const std::vector<Property> all = {\n" + "".join(lines) + "  };\n"
+          "  return all;\n}\n}\n")
+
+
+# ----------------------------------------------------------------------------------- tests
+
+
+def make_tests(path):
+    table = read()
+    lines, classes = [], []
+    for header in sorted([*MODULE.glob("vtk*.h"), *MODULE.glob("vtk*.h.in")]):
+        cls = header.name.split(".")[0]
+        text = header.read_text(encoding="utf-8")
+        if f"static {cls}* New();" not in text:
+            continue
+        own = rows(table, [cls[3:], *bases().get(cls[3:], [])])
+        classes += [cls] if own else []
+        for row in own:
+            if row.kind not in ("number", "integer", "flag", "choice"):
+                continue
+            low, high = row.range
+            if row.kind in ("flag", "choice"):
+                low, high = "0", "1" if row.kind == "flag" else str(len(row.values) - 1)
+            elif row.kind == "integer":
+                low, high = low or "VTK_INT_MIN", high or "VTK_INT_MAX"
+            value = {"number": "value", "flag": "value != 0"}.get(row.kind, "static_cast<int>(value)")
+            # A choice may have fewer values in a class than its superclass accepts.
+            most = high if row.kind != "choice" else str(
+                len(Row(row.name, table[row.name], []).values) - 1
+                if cls[3:] not in table[row.name]["filters"].split() else high)
+            lines.append(
+                f'  {{ "{cls}", "{row.name}", Kind::{row.kind.capitalize()}, {low or "-Any"}, '
+                f"{most or 'Any'}, {row.default_number}, make<{cls}>,\n"
+                f"    [](vtkObject* o, double value) "
+                f"{{ {cls}::SafeDownCast(o)->Set{row.name}({value}); }},\n"
+                f"    [](vtkObject* o) "
+                f"{{ return double({cls}::SafeDownCast(o)->Get{row.name}()); }} }},\n")
+    includes = "".join(f"#include <{cls}.h>\n" for cls in classes)
+    write(path, "// Made by cmake/properties.py from Properties.ini.\n" + includes +
+          "\nconst std::vector<Row> Rows = {\n" + "".join(lines) + "};\n")
+
+
+# ----------------------------------------------------------------------------------- pages
+
+
+def accepted(row):
+    low, high = row.range
+    kind = {"number": "number", "numbers": f"{row.count} numbers", "integer": "whole number",
+            "integers": f"{row.count} whole numbers", "flag": "on or off", "text": "text",
+            "array": "array", "names": "names", "surfaces": "names"}.get(row.kind, "")
+    if row.kind == "choice":
+        return ", ".join(row.values)
+    if low or high:
+        kind += f" from {low or 'any'}" + (f" to {high}" if high else "")
+    return kind + (f" ({row['unit']})" if row["unit"] else "")
+
+
+def make_pages(folder):
+    table = read()
+    chains = bases()
+    for template in sorted((PROJECT / "Plugin").glob("*.xml.in")):
+        text = template.read_text(encoding="utf-8")
+        proxy, cls = re.findall(r'<\w*SourceProxy name="(\w+)"\s+class="vtk(\w+)"', text)[-1]
+        label = re.findall(r'\blabel="([^"]+)"', text[text.index(f'name="{proxy}"'):])[0]
+        page = [f"# {label}", "", f"The properties of *{label}* (`{proxy}` in Python, `vtk{cls}` in "
+                "C++), in the order of its panel."]
+        group = None
+        for row in rows(table, [proxy, cls, *chains.get(cls, [])]):
+            if row.kind == "own" or row["panel"] == "never":
+                continue
+            if row["group"] != group:
+                group = row["group"]
+                page += ["", f"## {group}"] if group else []
+            default = {"flag": "on" if row.default == "1" else "off"}.get(row.kind, row.default)
+            option = f"; `morph-mesh {row.option}`" if row.option else ""
+            page += ["", f"### {row.name}", "",
+                     f"{accepted(row)}; default {default or 'none'}{option}"]
+            page += [line for paragraph in row.paragraphs
+                     for line in ["", textwrap.dedent(paragraph).strip()]]
+        write(folder / f"{proxy}.md", "\n".join(page) + "\n")
+
+
+MAKERS = {"cxx": make_cxx, "xml": make_xml, "options": make_options, "tests": make_tests,
+          "pages": make_pages}
 
 if __name__ == "__main__":
-    if len(sys.argv) != 3 or sys.argv[1] not in ("cxx", "xml", "json"):
+    if len(sys.argv) != 3 or sys.argv[1] not in MAKERS:
         raise SystemExit(__doc__)
-    {"cxx": make_cxx, "xml": make_xml, "json": make_json}[sys.argv[1]](pathlib.Path(sys.argv[2]))
+    MAKERS[sys.argv[1]](pathlib.Path(sys.argv[2]))

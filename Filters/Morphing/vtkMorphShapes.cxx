@@ -5,9 +5,9 @@
 #include "Private/Data/Version.h"
 #include "Private/Morph/MorphOutput.h"
 #include "Private/Options.h"
-#include "Private/Pipeline/Property.h"
 #include "Private/Pipeline/CrewMonitor.h"
 #include "Private/Pipeline/Execution.h"
+#include "Private/Pipeline/Property.h"
 #include "Private/Shapes/Internals.h"
 #include "Support/Error.h"
 

@@ -75,34 +75,6 @@ vtkSmartPointer<vtkPolyData> readTarget(const std::string& path)
   return surface;
 }
 
-/// The handles, or the lattice, of the motion's file.
-void setControlPoints(vtkBoundaryDisplacement* filter, const Motion& motion)
-{
-  if (!motion.handles.empty())
-  {
-    filter->SetDisplacementToHandles();
-    for (const NumberLine& line :
-      readNumbers(motion.handles, { "x", "y", "z", "dx", "dy", "dz", "?radius" }))
-    {
-      filter->AddHandle(line.numbers.data());
-    }
-    return;
-  }
-  filter->SetDisplacementToLattice();
-  filter->SetLatticeSize(motion.latticeSize.data());
-  if (motion.hasLatticeBox)
-  {
-    filter->AutoLatticeOff();
-    filter->SetLatticeBounds(motion.latticeBox.data());
-  }
-  filter->SetLatticeBasis(motion.bSplines ? vtkBoundaryDisplacement::LATTICE_BASIS_B_SPLINE
-                                          : vtkBoundaryDisplacement::LATTICE_BASIS_BERNSTEIN);
-  for (const NumberLine& line : readNumbers(motion.lattice, { "i", "j", "k", "dx", "dy", "dz" }))
-  {
-    filter->AddLatticeDisplacement(line.numbers.data());
-  }
-}
-
 using Displacements = std::vector<std::pair<vtkIdType, std::array<double, 3>>>; ///< of point ids
 
 Displacements displacementsOfTable(
@@ -278,90 +250,28 @@ void addPolygon(vtkPolyData* boundary, vtkIdList* corners, SurfaceSums& sums)
 }
 }
 
-vtkSmartPointer<vtkAlgorithm> makeDisplacement(
-  vtkUnstructuredGrid* grid, const Motion& motion, int threads)
+void readMotion(vtkDisplacementAlgorithm* filter, const Arguments& arguments)
 {
-  auto filter = vtkSmartPointer<vtkBoundaryDisplacement>::New();
-  filter->SetInputData(grid);
-  if (motion.moving.empty() && motion.byControlPoints())
+  if (!arguments.target.empty())
   {
-    filter->SetMovingToEverything();
+    filter->SetTargetData(readTarget(arguments.target));
   }
-  else
+  if (!arguments.handles.empty())
   {
-    filter->SetMovingToSurfaces();
-  }
-  for (const std::string& name : motion.moving)
-  {
-    filter->AddSurface(name.c_str());
-  }
-  for (const std::string& name : motion.fixed)
-  {
-    filter->AddFixedSurface(name.c_str());
-  }
-  for (const std::string& name : motion.sliding)
-  {
-    filter->AddSlidingSurface(name.c_str());
-  }
-  for (const std::string& name : motion.free)
-  {
-    filter->AddFreeSurface(name.c_str());
-  }
-  for (const std::string& name : motion.frozen)
-  {
-    filter->AddFixedZone(name.c_str());
-  }
-  for (const std::string& name : motion.rigid)
-  {
-    filter->AddRigidZone(name.c_str());
-  }
-  filter->SetKeepLayers(motion.keepLayers);
-  filter->SetSlideRounds(motion.slideRounds);
-  filter->SetSurfaceMethod(motion.surfaceMethod == "MeshSmoothing"
-                             ? vtkBoundaryDisplacement::SURFACE_METHOD_MESH_SMOOTHING
-                           : motion.surfaceMethod == "Smoothing"
-                             ? vtkBoundaryDisplacement::SURFACE_METHOD_SMOOTHING
-                             : vtkBoundaryDisplacement::SURFACE_METHOD_WEIGHTED_RESIDUAL);
-  if (!motion.target.empty())
-  {
-    filter->SetDisplacementToTarget();
-    filter->SetTargetData(readTarget(motion.target));
-    filter->SetAlignTarget(motion.align);
-    filter->SetTargetReach(motion.targetReach.value_or(filter->GetTargetReach()));
-    filter->SetTargetAngle(motion.targetAngle.value_or(filter->GetTargetAngle()));
-    filter->SetProjectAlong(motion.projectAlong);
-    filter->SetProjectVector(motion.projectVector.data());
-  }
-  else if (motion.byControlPoints())
-  {
-    setControlPoints(filter, motion);
-  }
-  else if (motion.radius)
-  {
-    filter->SetDisplacementToRadius();
-    filter->SetRadiusChange(*motion.radius);
-  }
-  else
-  {
-    filter->SetDisplacementToTranslateRotateScale();
-    if (motion.translation)
+    for (const NumberLine& line :
+      readNumbers(arguments.handles, { "x", "y", "z", "dx", "dy", "dz", "?radius" }))
     {
-      filter->SetTranslation(motion.translation->data());
+      filter->AddHandle(line.numbers.data());
     }
-    if (motion.rotation)
-    {
-      filter->SetRotation(motion.rotation->data());
-    }
-    if (motion.scale)
-    {
-      filter->SetScale(motion.scale->data());
-    }
-    filter->SetAutoCenter(!motion.hasCenter);
-    filter->SetCenter(motion.center.data());
   }
-  filter->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
-  filter->SetNumberOfThreads(threads);
-  return filter;
+  if (!arguments.lattice.empty())
+  {
+    for (const NumberLine& line :
+      readNumbers(arguments.lattice, { "i", "j", "k", "dx", "dy", "dz" }))
+    {
+      filter->AddLatticeDisplacement(line.numbers.data());
+    }
+  }
 }
 
 vtkSmartPointer<vtkPointSet> readBoundary(

@@ -7,13 +7,14 @@
 
 class vtkAlgorithm;
 class vtkDataObject;
+class vtkDisplacementAlgorithm;
 class vtkPointSet;
 class vtkUnstructuredGrid;
 
 /// Displaced boundaries that are made from the command line instead of being read.
 namespace morph_mesh
 {
-struct Motion;
+struct Arguments;
 
 /// The boundary that a file holds. Where it is a copy of the grid with node numbers (`NodeNumber`,
 /// `GlobalNodeId` or global ids), points are matched by these: outer nodes alone, or, where
@@ -22,10 +23,9 @@ struct Motion;
 vtkSmartPointer<vtkPointSet> readBoundary(
   vtkUnstructuredGrid* grid, const std::string& path, bool isDisplacement);
 
-/// The filter whose output is the grid's displaced boundary: by numbers, or onto a target. It has
-/// not been executed. Throws Failure for a target that cannot be read.
-vtkSmartPointer<vtkAlgorithm> makeDisplacement(
-  vtkUnstructuredGrid* grid, const Motion& motion, int threads);
+/// Gives the filter the files by which the boundary moves: a target, handles or a lattice. Throws
+/// Failure.
+void readMotion(vtkDisplacementAlgorithm* filter, const Arguments& arguments);
 
 /// Prints the largest and the mean distance of what moves from the target, before and after.
 /// `boundary`: of makeDisplacement(), with a target.

@@ -5,7 +5,6 @@
 #include "DesignTable.h"
 #include "Files.h"
 #include "Messages.h"
-#include "Methods.h"
 #include "NumberColumns.h"
 #include "ProgressBar.h"
 
@@ -79,14 +78,8 @@ std::vector<std::string> namesOf(const std::vector<std::string>& files)
 /// What the designs of a folder were made from: a run continues only where this is the same.
 std::string descriptionOf(const Arguments& arguments)
 {
-  std::string text = "morph-mesh " MESHMORPHING_VERSION "\nmethod " + arguments.method;
-  for (const auto& [name, value] : arguments.options)
-  {
-    text += " " + name + "=" + value;
-  }
-  text += "\narrays '" + arguments.boundaryIdArray + "' '" + arguments.displacementArray +
-          "'\nunnamed boundary " + (arguments.freeUnnamedBoundary ? "free" : "held") + "\nmesh " +
-          hashOf(arguments.grid) + "\n";
+  std::string text = "morph-mesh " MESHMORPHING_VERSION "\noptions" + arguments.properties.all() +
+                     "\nmesh " + hashOf(arguments.grid) + "\n";
   for (const std::string& shape : arguments.shapes)
   {
     text += "shape " + fs::path(shape).stem().string() + " " + hashOf(shape) + "\n";
@@ -195,10 +188,12 @@ vtkSmartPointer<vtkMorphShapes> makeFilter(
   const Arguments& arguments, const std::vector<std::string>& names)
 {
   auto filter = vtkSmartPointer<vtkMorphShapes>::New();
-  setShapesMethod(filter, arguments.method, arguments.options);
-  filter->SetBoundaryIdArray(arguments.boundaryIdArray.c_str());
-  filter->SetDisplacementArray(arguments.displacementArray.c_str());
-  filter->SetFixUnnamedBoundary(!arguments.freeUnnamedBoundary);
+  if (arguments.properties.number("Method", 0) > vtkMorphShapes::METHOD_RADIAL_BASIS)
+  {
+    throw UsageError("--shapes needs a linear method, which " + arguments.method() + " is not.");
+  }
+  filter->SetMethod(static_cast<int>(arguments.properties.number("Method", 0)));
+  arguments.properties.apply({ filter }, "on --shapes");
   filter->SetNumberOfThreads(arguments.threads);
   filter->FindValidRangesOff();
   for (std::size_t i = 0; i < names.size(); ++i)

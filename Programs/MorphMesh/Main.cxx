@@ -5,7 +5,6 @@
 #include "Designs.h"
 #include "Files.h"
 #include "Messages.h"
-#include "Methods.h"
 #include "OnRanks.h"
 #include "ProgressBar.h"
 #include "Report.h"
@@ -14,6 +13,7 @@
 #include <vtkDisplacementAlgorithm.h>
 #include <vtkExtractMorphBoundary.h>
 #include <vtkMorphAlgorithm.h>
+#include <vtkMorphMesh.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
@@ -57,57 +57,53 @@ int extractBoundary(const Arguments& arguments)
   return 0;
 }
 
-vtkSmartPointer<vtkMorphAlgorithm> makeFilter(const Arguments& arguments)
+/// What morphs: Morph Mesh and its method, or, with a boundary, the method alone.
+struct Morphing
 {
-  vtkSmartPointer<vtkMorphAlgorithm> filter = makeMethod(arguments.method);
-  for (const auto& [name, value] : arguments.options)
+  vtkNew<vtkMorphMesh> mesh;
+  vtkSmartPointer<vtkMorphAlgorithm> method;
+  vtkAlgorithm* filter = nullptr; ///< the one to execute
+};
+
+void configure(Morphing& morphing, const Arguments& arguments)
+{
+  const GivenProperties& given = arguments.properties;
+  morphing.mesh->SetMethod(static_cast<int>(given.number("Method", 0)));
+  morphing.method = morphing.mesh->GetMethodFilter();
+  const bool isMade = arguments.boundary.empty() && arguments.displacements.empty();
+  morphing.filter = isMade ? static_cast<vtkAlgorithm*>(morphing.mesh) : morphing.method;
+  if (isMade)
   {
-    setOption(filter, name, value);
+    morphing.mesh->SetValidity(vtkMorphAlgorithm::VALIDITY_REPORT);
+    morphing.mesh->SetNumberOfThreads(arguments.threads);
+    given.apply({ morphing.mesh, morphing.method }, "with " + arguments.method());
+    return;
   }
-  filter->SetPostSmooth(arguments.postSmooth);
-  setValidity(filter, arguments.validity);
-  filter->SetBoundaryIdArray(arguments.boundaryIdArray.c_str());
-  filter->SetDisplacementArray(arguments.displacementArray.c_str());
-  filter->SetScaleFactor(arguments.scaleFactor);
-  filter->SetFixUnnamedBoundary(!arguments.freeUnnamedBoundary);
-  filter->SetNumberOfThreads(arguments.threads);
-  return filter;
+  morphing.method->SetNumberOfThreads(arguments.threads);
+  given.apply({ morphing.method }, "with " + arguments.method() + " and a given boundary");
 }
 
-/// Connects the displaced boundary: one that is read, or that is made here.
-void setBoundary(vtkMorphAlgorithm* filter, vtkUnstructuredGrid* grid, const Arguments& arguments)
+/// Connects what says where the boundary goes.
+void setBoundary(Morphing& morphing, vtkUnstructuredGrid* grid, const Arguments& arguments)
 {
-  const Motion& motion = arguments.motion;
-  if (!motion.any())
+  const GivenProperties& given = arguments.properties;
+  if (!arguments.boundary.empty())
   {
-    filter->SetBoundaryData(
-      arguments.boundaryIdArray.empty()
-        ? readBoundary(grid, arguments.boundary, !arguments.displacementArray.empty())
-        : readPoints(arguments.boundary));
-    return;
+    morphing.method->SetBoundaryData(
+      given.has("BoundaryIdArray")
+        ? readPoints(arguments.boundary)
+        : readBoundary(grid, arguments.boundary, given.has("DisplacementArray")));
   }
-  if (!motion.displacements.empty())
+  else if (!arguments.displacements.empty())
   {
-    filter->SetBoundaryConnection(
-      readDisplacements(grid, motion.displacements, motion.nodeNumbers)->GetOutputPort());
-    filter->SetDisplacementArray(DisplacementName);
-    return;
+    morphing.method->SetBoundaryConnection(
+      readDisplacements(grid, arguments.displacements, arguments.nodeNumbers)->GetOutputPort());
+    morphing.method->SetDisplacementArray(DisplacementName);
   }
-  const vtkSmartPointer<vtkAlgorithm> displacement =
-    makeDisplacement(grid, motion, arguments.threads);
-  Messages messages(displacement);
-  messages.update("Cannot move the boundary of " + arguments.grid);
-  printWarnings(messages);
-  if (!motion.target.empty() && !arguments.quiet)
+  else
   {
-    printTargetDistances(displacement->GetOutputDataObject(0));
+    readMotion(morphing.mesh, arguments);
   }
-  if (motion.slideRounds > 0 && !arguments.quiet)
-  {
-    std::cout << "sliding: "
-              << vtkDisplacementAlgorithm::SafeDownCast(displacement)->GetSlideReport() << "\n";
-  }
-  filter->SetBoundaryData(displacement->GetOutputDataObject(0));
 }
 
 /// "out.vtu" and 3: "out-3.vtu".
@@ -131,15 +127,16 @@ vtkSmartPointer<vtkUnstructuredGrid> withPoints(
 }
 
 /// Morphs by a part of the motion, and writes and reports the mesh.
-int morphPart(vtkMorphAlgorithm* filter, vtkUnstructuredGrid* grid, const Arguments& arguments,
+int morphPart(Morphing& morphing, vtkUnstructuredGrid* grid, const Arguments& arguments,
   const std::string& output)
 {
   const vtkSmartPointer<vtkScaledJacobian> before =
     arguments.quiet ? nullptr : measure(grid, arguments);
-  Messages messages(filter);
+  Messages messages(morphing.filter);
   std::string partial;
   {
-    const ProgressBar bar(filter, arguments.method, arguments.progress && !arguments.quiet);
+    const ProgressBar bar(
+      morphing.filter, arguments.method(), arguments.progress && !arguments.quiet);
     partial = messages.updatePartly("Cannot morph " + arguments.grid);
   }
   printWarnings(messages);
@@ -147,42 +144,62 @@ int morphPart(vtkMorphAlgorithm* filter, vtkUnstructuredGrid* grid, const Argume
   {
     std::cerr << "morph-mesh: " << partial << "\n";
   }
-  vtkUnstructuredGrid* morphed = filter->GetOutput();
+  auto* morphed = vtkUnstructuredGrid::SafeDownCast(morphing.filter->GetOutputDataObject(0));
+  const bool isMade = morphing.filter == morphing.mesh;
+  if (isMade && morphing.mesh->GetAdvice() != std::string("None"))
+  {
+    throw Failure(morphing.mesh->GetAdvice());
+  }
+  if (!arguments.target.empty() && !arguments.quiet)
+  {
+    printTargetDistances(morphed);
+  }
+  if (arguments.properties.has("SlideRounds") && !arguments.quiet)
+  {
+    std::cout << "sliding: " << morphing.mesh->GetSlideReport() << "\n";
+  }
   const double rounding = writeMorphed(
     arguments.results ? morphed : withPoints(grid, morphed).Get(), arguments.grid, output);
   if (!arguments.quiet)
   {
-    printReport(
-      before, filter, arguments.criteria.empty() ? nullptr : measure(morphed, arguments).Get());
+    printReport(before, morphing.method,
+      arguments.criteria.empty() ? nullptr : measure(morphed, arguments).Get());
     if (rounding > 0)
     {
       std::cout << "largest rounding of a coordinate: " << std::scientific << rounding << "\n";
     }
   }
-  const bool valid = filter->GetNewInvertedCells() == 0;
+  const bool valid = morphing.method->GetNewInvertedCells() == 0;
   return !partial.empty() || (arguments.requireValid && !valid) ? 3 : 0;
 }
 
 int morphMesh(const Arguments& arguments)
 {
-  const vtkSmartPointer<vtkMorphAlgorithm> filter = makeFilter(arguments);
+  Morphing morphing;
+  configure(morphing, arguments);
   requireMorphedFormat(arguments.grid, arguments.output);
   if (arguments.steps > 0 && !std::filesystem::path(arguments.output).has_extension())
   {
     throw UsageError("--steps needs an output with an extension, before which it puts the number.");
   }
   const vtkSmartPointer<vtkUnstructuredGrid> grid = readGrid(arguments.grid);
-  filter->SetInputData(grid);
-  setBoundary(filter, grid, arguments);
+  morphing.filter->SetInputDataObject(0, grid);
+  setBoundary(morphing, grid, arguments);
   if (arguments.steps == 0)
   {
-    return morphPart(filter, grid, arguments, arguments.output);
+    return morphPart(morphing, grid, arguments, arguments.output);
   }
   int status = 0;
   for (int step = 1; step <= arguments.steps; ++step)
   {
-    filter->SetScaleFactor(arguments.scaleFactor * step / arguments.steps);
-    status = std::max(status, morphPart(filter, grid, arguments, numbered(arguments.output, step)));
+    const double factor = arguments.properties.number("ScaleFactor", 1) * step / arguments.steps;
+    morphing.mesh->SetScaleFactor(factor);
+    if (morphing.filter == morphing.method)
+    {
+      morphing.method->SetScaleFactor(factor);
+    }
+    status =
+      std::max(status, morphPart(morphing, grid, arguments, numbered(arguments.output, step)));
   }
   return status;
 }
@@ -194,7 +211,9 @@ int run(int argc, char* argv[])
       arguments.task != Arguments::Task::ShowVersion)
   {
     // Each would do the whole work, and write the same files.
-    return morphOnRanks(makeFilter(arguments), arguments);
+    Morphing morphing;
+    configure(morphing, arguments);
+    return morphOnRanks(morphing.method, arguments);
   }
   switch (arguments.task)
   {

@@ -85,7 +85,7 @@ void requireFiles(const Arguments& arguments)
   {
     needsOne("This task of morph-mesh");
   }
-  if (arguments.motion.any())
+  if (arguments.boundary.empty())
   {
     needsOne("A motion by morph-mesh's options");
   }
@@ -103,8 +103,8 @@ vtkSmartPointer<vtkPointSet> boundaryOf(const Arguments& arguments, vtkMorphAlgo
 {
   vtkSmartPointer<vtkPointSet> points = readPoints(arguments.boundary);
   vtkDataArray* rest = points->GetPointData()->GetArray("RestPosition");
-  if (!arguments.boundaryIdArray.empty() || !arguments.displacementArray.empty() || !rest ||
-      rest->GetNumberOfComponents() < 3)
+  if (arguments.properties.has("BoundaryIdArray") ||
+      arguments.properties.has("DisplacementArray") || !rest || rest->GetNumberOfComponents() < 3)
   {
     return points;
   }
@@ -144,7 +144,7 @@ int morphPart(const Ranks& ranks, vtkMorphAlgorithm* filter, vtkUnstructuredGrid
   Messages messages(filter);
   {
     const ProgressBar bar(
-      filter, arguments.method, isFirst && arguments.progress && !arguments.quiet);
+      filter, arguments.method(), isFirst && arguments.progress && !arguments.quiet);
     filter->Update();
   }
   for (const std::string& warning : messages.warnings())
@@ -221,7 +221,7 @@ int morphOnRanks(vtkMorphAlgorithm* filter, const Arguments& arguments)
       ranks.sum(morph::Index(part.rank == 0 && filter->GetDisplacementArray() &&
                              filter->GetDisplacementArray() == std::string(Displacement))) > 0
         ? Displacement
-        : arguments.displacementArray.c_str());
+        : arguments.properties.text("DisplacementArray").c_str());
     filter->SetInputData(grid);
     filter->SetBoundaryData(boundary);
     return morphPart(ranks, filter, grid, arguments, part);

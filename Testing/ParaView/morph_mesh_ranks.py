@@ -77,9 +77,9 @@ class MorphMeshOnRanks(unittest.TestCase):
 
     def test_pieces_on_ranks(self):
         seed = int(os.environ.get("MORPH_TEST_SEED", "11"))
-        self.compare(VTK_HEXAHEDRON, (7, 6, 5), seed, False, "--set", "Tolerance=1e-12")
-        self.compare(VTK_TETRA, (4, 4, 3), seed + 1, True, "--method", "LBWARP", "--set",
-                     "Tolerance=1e-12")
+        self.compare(VTK_HEXAHEDRON, (7, 6, 5), seed, False, "--tolerance", "1e-12")
+        self.compare(VTK_TETRA, (4, 4, 3), seed + 1, True, "--method", "LBWARP", "--tolerance",
+                     "1e-12")
 
     def test_wrong_use(self):
         with tempfile.TemporaryDirectory() as folder:

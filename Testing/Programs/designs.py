@@ -118,7 +118,7 @@ class Designs(unittest.TestCase):
                 self.assertEqual(result.returncode, 1)
                 self.assertIn(message, result.stderr)
         for options, message in [(["--method", "Smoothing"], "needs a linear method"),
-                                 (["--set", "OutsideHull=Relax"], "is Tolerance"),
+                                 (["--outside-hull", "relax"], "no effect on --shapes"),
                                  (["--scale-factor", "2"], "no effect"),
                                  (["--as-rotation", "other"], "which is no file of --shapes")]:
             with self.subTest(options=options):

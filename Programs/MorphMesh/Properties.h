@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+class vtkAlgorithm;
+
+/// The properties of the filters as options of the command line.
+namespace morph_mesh
+{
+struct PropertyValue
+{
+  std::vector<double> numbers; ///< of a choice its number, of a flag 0 or 1
+  std::string text;            ///< a name
+};
+
+/// A row of Filters/Morphing/Properties.ini.
+struct Property
+{
+  enum class Kind
+  {
+    Number,
+    Integer,
+    Flag,
+    Choice,
+    Text,
+    Names
+  };
+  std::string option; ///< "--target-reach"; empty: it can only be implied
+  std::string name;
+  std::string group;
+  Kind kind;
+  std::size_t count; ///< of numbers
+  double least, most;
+  std::vector<std::string> words;                           ///< of a choice
+  std::vector<double> defaults;                             ///< of numbers
+  std::vector<std::pair<std::string, std::string>> implied; ///< names and words of others
+  std::string help;
+  /// Whether the filter has the property; it then sets it.
+  std::function<bool(vtkAlgorithm*, const PropertyValue&)> set;
+};
+
+/// All of them, in the order of the table. Made by cmake/properties.py.
+const std::vector<Property>& properties();
+
+/// How the help calls its value, "<x,y,z>" for instance; empty for a flag.
+std::string valueName(const Property& property);
+
+/// The properties that a command line gives.
+class GivenProperties
+{
+public:
+  /// Adds a property of properties(), and those that it implies. Throws UsageError for a value that
+  /// it does not accept, and where the property or one that it implies has another value already.
+  void add(const Property& property, const std::string& text);
+  /// As add(), by the name of a property, for an option that is not the property's own.
+  void imply(const std::string& name, const std::string& word, const std::string& option);
+
+  bool has(const std::string& name) const;
+  /// As it is given; empty where it is not.
+  std::string text(const std::string& name) const;
+  double number(const std::string& name, double otherwise) const;
+  /// The option that gave or implied it.
+  std::string giver(const std::string& name) const;
+  /// All, for a record of what was given: "--method=FEMWARP ...".
+  std::string all() const;
+
+  /// Sets each but Method on the first of the filters that has it. Throws UsageError where none has
+  /// one that was given; `without`: why not, for the message.
+  void apply(const std::vector<vtkAlgorithm*>& filters, const std::string& without) const;
+
+private:
+  struct Given
+  {
+    const Property* property;
+    PropertyValue value;
+    std::string option; ///< that gave or implied it
+    bool isImplied;
+  };
+  void take(const Given& given);
+  const Given* find(const std::string& name) const;
+
+  std::vector<Given> given_;
+};
+}
