@@ -78,8 +78,8 @@
  * -1. RequestData still returns 1: after a 0 VTK's executive adds a message of its own. Errors:
  * overlapping AMR; no points or no volume cells; cells other than tetrahedra, hexahedra, wedges,
  * pyramids, quadratic ones and polyhedra; no way to match the boundary; a node with two targets;
- * ids that RestPosition contradicts. On any port: an array with other than one value for each point
- * or cell; cells that name points that do not exist; coordinates that are not finite or above
+ * ids that RestPosition contradicts. On any port: an array with fewer values than there are points
+ * or cells; cells that name points that do not exist; coordinates that are not finite or above
  * 1e50; an extent below 1e-50 other than 0; motions beyond 1e50, and in single precision beyond
  * 3.4e38. An execution that is aborted gives the undeformed mesh (MorphStatus "Cancelled", the same
  * -1) and no message. Inverted cells alone are no error: see Validity.

@@ -134,13 +134,6 @@ TEST_P(InputChecks, ShortCellArray)
   this->ExpectGridError({ "The input's cell array 'Pressure' has 26 tuples for 27 cells" });
 }
 
-TEST_P(InputChecks, LongGhostArray)
-{
-  addArray<vtkUnsignedCharArray>(
-    this->Grid->GetCellData(), vtkDataSetAttributes::GhostArrayName(), 57);
-  this->ExpectGridError({ "The input's cell array 'vtkGhostType' has 57 tuples for 27 cells" });
-}
-
 TEST_P(InputChecks, ShortPointArray)
 {
   addArray<vtkFloatArray>(this->Grid->GetPointData(), "Temperature", 0);
