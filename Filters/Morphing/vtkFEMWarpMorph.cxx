@@ -55,7 +55,7 @@ Indices movingNodes(vtkDataObject* boundary)
   auto* points = vtkPointSet::SafeDownCast(boundary);
   vtkDataArray* ids = points ? points->GetPointData()->GetArray(filters::Surface::IdName) : nullptr;
   vtkDataArray* roles = points ? points->GetPointData()->GetArray("Role") : nullptr;
-  for (vtkIdType i = 0; ids && roles && i < roles->GetNumberOfTuples(); ++i)
+  for (vtkIdType i = 0; ids && roles && i < points->GetNumberOfPoints(); ++i)
   {
     const double id = ids->GetComponent(i, 0);
     if (roles->GetComponent(i, 0) == 1 && id >= 0)

@@ -134,13 +134,6 @@ TEST_P(InputChecks, ShortCellArray)
   this->ExpectGridError({ "The input's cell array 'Pressure' has 26 tuples for 27 cells" });
 }
 
-TEST_P(InputChecks, LongGhostArray)
-{
-  addArray<vtkUnsignedCharArray>(
-    this->Grid->GetCellData(), vtkDataSetAttributes::GhostArrayName(), 57);
-  this->ExpectGridError({ "The input's cell array 'vtkGhostType' has 57 tuples for 27 cells" });
-}
-
 TEST_P(InputChecks, ShortPointArray)
 {
   addArray<vtkFloatArray>(this->Grid->GetPointData(), "Temperature", 0);
@@ -167,8 +160,9 @@ TEST_P(InputChecks, LongArraysDoNoHarm)
   {
     addArray<vtkDoubleArray>(data->GetPointData(), "Temperature", 1000);
     addArray<vtkDoubleArray>(data->GetCellData(), "Pressure", 1000);
+    // More than an allocator's slack beyond the cells: what writes there ends the test.
     addArray<vtkUnsignedCharArray>(
-      data->GetCellData(), vtkDataSetAttributes::GhostArrayName(), 1000);
+      data->GetCellData(), vtkDataSetAttributes::GhostArrayName(), 1000000);
   }
   auto filter = this->Filter();
   grids::Listener listener(filter);

@@ -38,7 +38,7 @@ void requireLengths(
   for (int i = 0; i < data->GetNumberOfArrays(); ++i)
   {
     vtkAbstractArray* array = data->GetAbstractArray(i);
-    if (array && array->GetNumberOfTuples() != count)
+    if (array && array->GetNumberOfTuples() < count)
     {
       const char* name = array->GetName();
       throw Error(subject + "'s " + what + " array '" + (name ? name : "(no name)") + "' has " +

@@ -43,7 +43,7 @@ void skipGhosts(
     return;
   }
   skip.resize(mesh.numberOfCells(), 0);
-  for (morph::Index c = 0; c < ghosts->GetNumberOfValues(); ++c)
+  for (morph::Index c = 0; c < mesh.numberOfCells(); ++c) // the array may be longer
   {
     skip[c] |= ghosts->GetValue(c) &
                (vtkDataSetAttributes::DUPLICATECELL | vtkDataSetAttributes::HIDDENCELL);
@@ -92,7 +92,7 @@ std::vector<std::uint8_t> wallNodes(
   isWall.resize(mesh.numberOfNodes(), 0);
   if (vtkDataArray* marks = grid->GetPointData()->GetArray(name.c_str()))
   {
-    for (vtkIdType i = 0; i < marks->GetNumberOfTuples(); ++i)
+    for (morph::Index i = 0; i < mesh.numberOfNodes(); ++i)
     {
       isWall[i] = marks->GetComponent(i, 0) != 0;
     }
@@ -104,7 +104,7 @@ std::vector<std::uint8_t> wallNodes(
     throw morph::Error("FirstHeight:" + name + ": the mesh has no point or cell array '" + name +
                        "' that marks a surface.");
   }
-  for (vtkIdType c = 0; c < marks->GetNumberOfTuples(); ++c)
+  for (morph::Index c = 0; c < mesh.numberOfCells(); ++c)
   {
     const morph::CellShape* shape = morph::cellShape(mesh, c);
     for (morph::Index i = 0; shape && shape->dimension == 2 && i < mesh.cellSize(c); ++i)

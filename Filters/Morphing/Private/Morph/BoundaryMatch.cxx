@@ -109,7 +109,8 @@ vtkDataArray* requireArray(
   return array;
 }
 
-Pairs byIds(vtkDataArray* ids, Index nodes)
+/// `points`: of the boundary; the array may be longer.
+Pairs byIds(vtkDataArray* ids, Index points, Index nodes)
 {
   const std::string name = quoted(ids->GetName());
   if (ids->GetNumberOfComponents() != 1)
@@ -118,9 +119,9 @@ Pairs byIds(vtkDataArray* ids, Index nodes)
                 std::to_string(ids->GetNumberOfComponents()) + " components; ids have one.");
   }
   Pairs pairs;
-  pairs.reserve(ids->GetNumberOfTuples());
+  pairs.reserve(points);
   std::vector<Index> outside, fractional; // boundary points
-  for (vtkIdType i = 0; i < ids->GetNumberOfTuples(); ++i)
+  for (Index i = 0; i < points; ++i)
   {
     const double value = ids->GetComponent(i, 0);
     if (!(std::floor(value) == value))
@@ -340,7 +341,7 @@ Pairs findNodes(vtkPointSet* boundary, const Points& positions, const morph::Mes
   };
   if (vtkDataArray* ids = BoundaryMatch::FindIds(boundary, options))
   {
-    return verified(byIds(ids, nodes));
+    return verified(byIds(ids, positions.rows(), nodes));
   }
   if (positions.rows() == nodes)
   {
@@ -355,13 +356,13 @@ Pairs findNodes(vtkPointSet* boundary, const Points& positions, const morph::Mes
   }
   if (vtkDataArray* ids = findArray(boundary, "PointIds"))
   {
-    Pairs pairs = byIds(ids, nodes);
+    Pairs pairs = byIds(ids, positions.rows(), nodes);
     warnOfInteriorNodes(ids, pairs, outer, result.Warnings);
     return verified(std::move(pairs));
   }
   if (vtkDataArray* ids = findArray(boundary, "vtkOriginalPointIds"))
   {
-    Pairs pairs = byIds(ids, nodes);
+    Pairs pairs = byIds(ids, positions.rows(), nodes);
     warnOfInteriorNodes(ids, pairs, outer, result.Warnings);
     result.Warnings.emplace_back(
       "The boundary's points are matched by 'vtkOriginalPointIds', which filters pass on even "
@@ -403,7 +404,7 @@ vtkDataArray* FindIds(vtkPointSet* boundary, const Options& options)
 
 Pairs FindByIds(vtkDataArray* ids, Index nodes)
 {
-  return byIds(ids, nodes);
+  return byIds(ids, ids->GetNumberOfTuples(), nodes);
 }
 
 Pairs FindByPosition(const Points& positions, const morph::Mesh& rest,
