@@ -99,8 +99,10 @@ def quoted(filters, file, name):
     library = file.split(os.sep)[0]
     for candidate in (os.path.join(os.path.dirname(file), name) if "/" not in name else "",
                       os.path.join(library, name), os.path.join("Core", name), name):
-        if candidate and os.path.isfile(os.path.join(filters, candidate)):
-            return candidate
+        # A header of a filter may be made from a template.
+        for ending in ("", ".in"):
+            if candidate and os.path.isfile(os.path.join(filters, candidate + ending)):
+                return candidate
     return None
 
 
@@ -117,8 +119,8 @@ def check_includes(table):
                     continue
                 bracket, name = match.groups()
                 where = "Filters/%s:%d" % (file, number)
-                if bracket == '"' and name.endswith("Module.h"):
-                    continue  # VTK makes it
+                if bracket == '"' and (name.endswith("Module.h") or name == "Private/Options.h"):
+                    continue  # VTK and cmake/properties.py make them
                 if bracket == '"':
                     target = quoted(table.filters, file, name)
                     if not target:
@@ -177,17 +179,19 @@ def check_classes(table):
     folder = os.path.join(table.filters, "Morphing")
     with open(os.path.join(folder, "CMakeLists.txt"), encoding="utf-8") as f:
         classes = set(re.search(r"set\(classes\s([^)]*)\)", f.read()).group(1).split())
-    headers = {file[:-2] for file in os.listdir(folder) if file.endswith(".h")}
-    for name in sorted(classes ^ headers):
+    # A header with properties is made from a template, vtkX.h.in.
+    headers = {file.split(".")[0]: file for file in os.listdir(folder)
+               if file.endswith((".h", ".h.in"))}
+    for name in sorted(classes ^ headers.keys()):
         table.problems.append("Filters/Morphing/%s.h: %s" % (
             name, "no public class of CMakeLists.txt: move it to Private" if name in headers
             else "it is listed, but not there"))
     for name in sorted(headers):
-        with open(os.path.join(folder, name + ".h"), encoding="utf-8") as lines:
+        with open(os.path.join(folder, headers[name]), encoding="utf-8") as lines:
             for number, line in enumerate(lines, 1):
                 if re.search(r"\bfilters::|\bnamespace (morph::)?filters\b", line):
-                    table.problems.append("Filters/Morphing/%s.h:%d: a public header names what "
-                                          "is private" % (name, number))
+                    table.problems.append("Filters/Morphing/%s:%d: a public header names what "
+                                          "is private" % (headers[name], number))
 
 
 def check_versions(table, source):
@@ -271,7 +275,7 @@ def try_wrong_includes(source):
                                         "Morphing/Private/Data may not include "
                                         "Morphing/Private/Morph"),
         "a private header at the top": ("Morphing/vtkMorphStray.h", "", "no public class"),
-        "a private name at the top": ("Morphing/vtkMorphAdjoint.h", "namespace morph::filters {}",
+        "a private name at the top": ("Morphing/vtkMorphAdjoint.h.in", "namespace morph::filters {}",
                                       "names what is private"),
         "a release": ("Morphing/vtkMorphMesh.cxx", "#if VTK_VERSION_NUMBER >= 0\n#endif",
                       "VTK_VERSION_NUMBER belongs in"),

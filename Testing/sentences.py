@@ -90,9 +90,15 @@ def found_in(path):
     text = path.read_text("utf-8")
     if path.suffix == ".md":
         yield from long_sentences(text)
-    elif path.suffix == ".h":
+    elif path.name.endswith((".h", ".h.in")):
         for comment in comments(text):
             yield from sentences_of_comment(comment)
+    elif path.suffix == ".ini":
+        for one in re.findall(r"^text[^=\n]*=(.*(?:\n(?:[ ]+.*)?)*)", text, re.M):
+            first, *others = re.split(r"\n\s*\n", one.strip())
+            yield from sentences_of_text(first)
+            for other in others:
+                yield from sentences_of_comment(other)
     else:
         for one in texts(text):
             yield from sentences_of_text(one)
@@ -122,8 +128,8 @@ def main():
     if sys.argv[1:] == ["--try"]:
         try_it()
         return
-    pages, headers = listed("*.md"), [p for p in listed("*.h") if "Filters" in p.parts]
-    xml = [p for p in listed("*.xml", "*.xml.in") if "Plugin" in p.parts]
+    pages, headers = listed("*.md"), [p for p in listed("*.h", "*.h.in") if "Filters" in p.parts]
+    xml = [p for p in listed("*.xml", "*.xml.in", "*.ini")]
     assert pages and headers and xml
     found = [f"{path.relative_to(ROOT)}: {count} words: {sentence}"
              for path in pages + headers + xml if path.exists()

@@ -12,6 +12,8 @@ rm -rf "$output"
 mkdir -p "$output"
 sed -e "s|@VERSION@|$version|" -e "s|@OUTPUT@|$output|" Documentation/Doxyfile.in \
   > "$output/Doxyfile"
+# Headers that are made from templates and the table of properties.
+python3 cmake/properties.py cxx "$output/headers"
 doxygen "$output/Doxyfile"
 if [ -s "$output/warnings.txt" ]; then
   cat "$output/warnings.txt" >&2

@@ -37,6 +37,13 @@ cp --parents README.md CONTRIBUTING.md CHANGELOG.md LICENSE Filters/layers.txt "
 find Documentation Examples -type f ! -name '*.in' ! -name '*.yml' ! -name '*.sed' \
   -exec cp --parents -t "$staging/pages" {} +
 cp Documentation/mkdocs.yml "$staging"
+python3 cmake/properties.py pages "$staging/pages/Documentation/Properties"
+{
+  echo "  - Properties:"
+  for page in "$staging"/pages/Documentation/Properties/*.md; do
+    echo "      - $(sed -n '1s/^# //p' "$page"): Documentation/Properties/$(basename "$page")"
+  done
+} >> "$staging/mkdocs.yml"
 if [ "$api" = yes ]; then
   Utilities/check-documentation.sh
   cp -r build/documentation/html "$staging/pages/api"

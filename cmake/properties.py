@@ -4,7 +4,7 @@
     python3 cmake/properties.py cxx FOLDER   headers (vtkX.h of vtkX.h.in), Options.h, Properties.cxx
     python3 cmake/properties.py xml FOLDER   ParaView's XML (X.xml.in of Plugin/X.xml.in)
     python3 cmake/properties.py options FILE the table of morph-mesh's options (PropertyTable.cxx)
-    python3 cmake/properties.py tests FILE   the rows of Testing/Filters/TestProperties.cxx
+    python3 cmake/properties.py tests FILE   what is one number, for the tests (PropertyRows.h)
     python3 cmake/properties.py pages FOLDER the reference of each filter, for the site
 
 A file whose text is the same stays as it is, so that nothing is compiled again."""
@@ -373,8 +373,8 @@ def property_xml(row, find, more=""):
         hints += ["<OmitFromLoadAllVariables/>", '<SurfaceList sizes="SurfaceSizes"/>']
     if row["shown"]:
         hints.append(condition(row["shown"], find))
-    if row["unit"]:
-        label = f'{row.words} ({row["unit"]})'
+    if row["unit"] or row.kind in ("names", "surfaces"):  # lists have no label of their own
+        label = row.words + (f' ({row["unit"]})' if row["unit"] else "")
         hints.append(f'<PropertyWidgetDecorator type="PanelLabel" text="{label}"/>')
     hint = f"<Hints>{''.join(hints)}</Hints>" if hints else ""
     text = escaped(" ".join(row.paragraphs[0].split()))
@@ -511,8 +511,45 @@ def make_tests(path):
                 f"    [](vtkObject* o) "
                 f"{{ return double({cls}::SafeDownCast(o)->Get{row.name}()); }} }},\n")
     includes = "".join(f"#include <{cls}.h>\n" for cls in classes)
-    write(path, "// Made by cmake/properties.py from Properties.ini.\n" + includes +
-          "\nconst std::vector<Row> Rows = {\n" + "".join(lines) + "};\n")
+    write(path, "// Made by cmake/properties.py from Properties.ini.\n#pragma once\n\n" + includes +
+          """
+#include <vtkSmartPointer.h>
+
+#include <limits>
+#include <vector>
+
+/// The properties of all filters that are one number.
+namespace property_rows
+{
+constexpr double Any = std::numeric_limits<double>::max();
+
+enum class Kind
+{
+  Number,
+  Integer,
+  Flag,
+  Choice
+};
+
+struct Row
+{
+  const char* filter;
+  const char* name;
+  Kind kind;
+  double least, most, usual;
+  vtkSmartPointer<vtkAlgorithm> (*make)();
+  void (*set)(vtkObject*, double);
+  double (*get)(vtkObject*);
+};
+
+template <typename Filter>
+vtkSmartPointer<vtkAlgorithm> make()
+{
+  return vtkSmartPointer<Filter>::New();
+}
+
+inline const std::vector<Row> Rows = {
+""" + "".join(lines) + "};\n}\n")
 
 
 # ----------------------------------------------------------------------------------- pages

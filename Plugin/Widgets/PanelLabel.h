@@ -8,7 +8,7 @@
 
 /// Gives a property a label in the panel that is not its name: a hint
 ///
-///     <PropertyWidgetDecorator type="PanelLabel" text="Fix the rest of the boundary"/>
+///     <PropertyWidgetDecorator type="PanelLabel" text="Target Angle (degrees)"/>
 ///
 /// The label attribute of XML would do the same, but scripts would have to follow: Python calls a
 /// property by that.

@@ -244,8 +244,10 @@ void GivenProperties::apply(
 {
   for (const Given& one : this->given_)
   {
-    const bool isSet = one.property->name == "Method" || std::any_of(filters.begin(), filters.end(),
-      [&](vtkAlgorithm* filter) { return one.property->set(filter, one.value); });
+    const bool isSet =
+      one.property->name == "Method" ||
+      std::any_of(filters.begin(), filters.end(),
+        [&](vtkAlgorithm* filter) { return one.property->set(filter, one.value); });
     if (!isSet && !one.isImplied)
     {
       throw UsageError(one.option + " has no effect " + without + ": remove it.");

@@ -108,7 +108,7 @@ TEST(BoundaryDisplacementErrors, WhatIsChosen)
         f->SetMovingToSelection();
         f->SetSelectionData(indices(vtkSelectionNode::ROW, { 0 }));
       } },
-    { "No patch is chosen", [](auto* f) { f->SetMovingToSurfaces(); } },
+    { "No surface is chosen", [](auto* f) { f->SetMovingToSurfaces(); } },
     { "'Surface 99', which the boundary does not have; it has Surface 0, Surface 1",
       [](auto* f)
       {

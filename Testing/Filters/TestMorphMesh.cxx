@@ -147,8 +147,8 @@ TEST(MorphMesh, IsBoundaryDisplacementAndAMethodInOne)
   using Chain = vtkSmartPointer<vtkUnstructuredGrid> (*)(vtkUnstructuredGrid*, const Row&);
   const Chain chains[] = { byTwoFilters<vtkFEMWarpMorph>, byTwoFilters<vtkLBWarpMorph>,
     byTwoFilters<vtkWeightedResidualMorph>, byTwoFilters<vtkSimplexLinearMorph>,
-    byTwoFilters<vtkSimplexNaturalNeighborMorph>, byTwoFilters<vtkSmoothingMorph>,
-    byTwoFilters<vtkInversionFreeMorph>, byTwoFilters<vtkRadialBasisMorph> };
+    byTwoFilters<vtkSimplexNaturalNeighborMorph>, byTwoFilters<vtkRadialBasisMorph>,
+    byTwoFilters<vtkSmoothingMorph>, byTwoFilters<vtkInversionFreeMorph> };
   auto filter = make(grid);
   grids::Listener listener(filter);
   for (int method = 0; method < 8; ++method)

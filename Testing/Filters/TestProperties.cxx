@@ -3,52 +3,23 @@
 // ranges, and what is refused.
 #include "TestGrids.h"
 
+#include "PropertyRows.h"
+
 #include <vtkNew.h>
-#include <vtkSmartPointer.h>
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <sstream>
 #include <string>
 #include <vector>
 
 namespace
 {
-constexpr double Any = std::numeric_limits<double>::max();
+using property_rows::Any;
+using property_rows::Kind;
+using property_rows::Row;
 
-enum class Kind
-{
-  Number,
-  Integer,
-  Flag,
-  Choice
-};
-
-struct Row
-{
-  const char* filter;
-  const char* name;
-  Kind kind;
-  double least, most, usual;
-  vtkSmartPointer<vtkAlgorithm> (*make)();
-  void (*set)(vtkObject*, double);
-  double (*get)(vtkObject*);
-};
-
-template <typename Filter>
-vtkSmartPointer<vtkAlgorithm> make()
-{
-  return vtkSmartPointer<Filter>::New();
-}
-
-}
-
-#include "PropertyRows.h"
-
-namespace
-{
 class Properties : public testing::TestWithParam<Row>
 {
 protected:
@@ -71,7 +42,7 @@ protected:
 };
 }
 
-INSTANTIATE_TEST_SUITE_P(Table, Properties, testing::ValuesIn(Rows),
+INSTANTIATE_TEST_SUITE_P(Table, Properties, testing::ValuesIn(property_rows::Rows),
   [](const auto& info) { return std::string(info.param.filter) + info.param.name; });
 
 TEST_P(Properties, HaveTheirDefaultAndSayWhenTheyChange)

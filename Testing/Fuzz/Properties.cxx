@@ -1,30 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Properties.h"
 
-#include "vtkBoundaryDisplacement.h"
-#include "vtkClassifyBoundary.h"
-#include "vtkCompareMorphMethods.h"
-#include "vtkExtractMorphBoundary.h"
-#include "vtkFEMWarpMorph.h"
-#include "vtkInversionFreeMorph.h"
-#include "vtkLBWarpMorph.h"
+#include "PropertyRows.h"
 #include "vtkMorphAdjoint.h"
-#include "vtkMorphBoundary.h"
-#include "vtkMorphMesh.h"
-#include "vtkMorphShapes.h"
-#include "vtkRadialBasisMorph.h"
-#include "vtkScaledJacobian.h"
 #include "vtkSimplexLinearMorph.h"
-#include "vtkSimplexNaturalNeighborMorph.h"
-#include "vtkSmoothingMorph.h"
-#include "vtkWeightedResidualMorph.h"
 
 #include <vtkCallbackCommand.h>
 #include <vtkNew.h>
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
-#include <numeric>
+#include <map>
 
 namespace fuzz
 {
@@ -32,41 +20,54 @@ namespace
 {
 using Table = std::vector<Property>;
 
-template <typename F>
-Property real(const char* name, void (F::*set)(double), double plain, double low, double high)
+/// Values that a user may want, where a property's own range is wider or takes too long.
+struct Usual
 {
-  return { name, plain, low, high, false,
-    [set](vtkAlgorithm* filter, double value) { (F::SafeDownCast(filter)->*set)(value); } };
-}
+  const char* name;
+  double low, high;
+};
+constexpr Usual Usuals[] = { { "NumberOfThreads", 1, 3 }, { "ScaleFactor", -0.5, 1.5 },
+  { "NumberOfSteps", 0, 3 }, { "StepMemoryLimit", 0, 0.01 }, { "MemoryLimit", 0, 0.01 },
+  { "MaximumSubSteps", 1, 20 }, { "PostSmoothIterations", 1, 40 }, { "RestTime", -1, 1 },
+  { "StiffnessExponent", 0, 2 }, { "IterationLimit", 1, 100 }, { "NumberOfNeighbors", 1, 100 },
+  { "SupportRadius", 0.1, 3 }, { "NumberOfCenters", 0, 100 }, { "SlideRounds", 0, 3 },
+  { "KeepLayers", 0, 2 }, { "Distance", -0.2, 0.2 }, { "RadiusChange", -0.2, 0.2 },
+  { "HandleRadius", 0, 0.2 } };
 
-template <typename F>
-Property whole(const char* name, void (F::*set)(int), int plain, int low, int high)
+/// All properties of a class that are one number. `plain`: values that are plain here in place of
+/// the defaults.
+Table ofTable(const std::string& filter, const std::map<std::string, double>& plain = {})
 {
-  return { name, static_cast<double>(plain), static_cast<double>(low), static_cast<double>(high),
-    true, [set](vtkAlgorithm* filter, double value) {
-      (F::SafeDownCast(filter)->*set)(static_cast<int>(value));
-    } };
-}
-
-template <typename F>
-Property flag(const char* name, void (F::*set)(bool), bool plain)
-{
-  return { name, plain ? 1.0 : 0.0, 0, 1, true,
-    [set](vtkAlgorithm* filter, double value) { (F::SafeDownCast(filter)->*set)(value != 0); } };
-}
-
-template <typename F>
-Property threads()
-{
-  return whole<F>("NumberOfThreads", &F::SetNumberOfThreads, 1, 1, 3);
+  Table table;
+  for (const property_rows::Row& row : property_rows::Rows)
+  {
+    if ("vtk" + filter != row.filter)
+    {
+      continue;
+    }
+    Property property{ row.name, row.usual, row.least, row.most,
+      row.kind != property_rows::Kind::Number, row.set };
+    const auto usual = std::find_if(std::begin(Usuals), std::end(Usuals),
+      [&](const Usual& one) { return property.name == one.name; });
+    if (usual != std::end(Usuals))
+    {
+      property.low = std::max(usual->low, row.least);
+      property.high = usual->high;
+    }
+    property.plain = property.name == "NumberOfThreads" ? 1 : row.usual;
+    const auto own = plain.find(property.name);
+    property.plain = own == plain.end() ? property.plain : own->second;
+    property.isLength = property.name == "Distance" || property.name == "RadiusChange" ||
+                        property.name == "HandleRadius";
+    table.push_back(property);
+  }
+  return table;
 }
 
 /// In units of the mesh's size.
 Property length(const char* name, std::function<void(vtkAlgorithm*, double)> set)
 {
-  Property property = { name, 0, -0.2, 0.2, false, std::move(set) };
-  property.isLength = true;
-  return property;
+  return { name, 0, -0.2, 0.2, false, std::move(set), true };
 }
 
 Table joined(Table first, const Table& second)
@@ -75,141 +76,20 @@ Table joined(Table first, const Table& second)
   return first;
 }
 
-/// Those of vtkMorphAlgorithm.
-Table ofMorph(bool certify = false)
-{
-  using F = vtkMorphAlgorithm;
-  return { threads<F>(), real<F>("ScaleFactor", &F::SetScaleFactor, 1, -0.5, 1.5),
-    whole<F>("NumberOfSteps", &F::SetNumberOfSteps, 0, 0, 3),
-    whole<F>("Stepping", &F::SetStepping, 0, 0, 1),
-    real<F>("StepMemoryLimit", &F::SetStepMemoryLimit, 1000, 0, 0.01),
-    real<F>("MatchTolerance", &F::SetMatchTolerance, 1e-6, 0, 1),
-    flag<F>("FixUnnamedBoundary", &F::SetFixUnnamedBoundary, true),
-    whole<F>("Validity", &F::SetValidity, F::VALIDITY_REPORT, 0, 5),
-    flag<F>("Certify", &F::SetCertify, certify),
-    flag<F>("FeatureLines", &F::SetFeatureLines, false),
-    whole<F>("CoincidentPoints", &F::SetCoincidentPoints, 0, 0, 2),
-    whole<F>("MaximumSubSteps", &F::SetMaximumSubSteps, 64, 1, 20),
-    flag<F>("PostSmooth", &F::SetPostSmooth, false),
-    whole<F>("PostSmoothIterations", &F::SetPostSmoothIterations, 20, 1, 40),
-    real<F>("RestTime", &F::SetRestTime, -1e300, -1, 1),
-    whole<F>("OutputPointsPrecision", &F::SetOutputPointsPrecision, F::DEFAULT_PRECISION, 0, 2) };
-}
-
-Table ofFEMWarp()
-{
-  using F = vtkFEMWarpMorph;
-  return joined(ofMorph(), { real<F>("Tolerance", &F::SetTolerance, 1e-10, 1e-15, 0.999),
-                             whole<F>("Stiffness", &F::SetStiffness, 0, 0, 2),
-                             real<F>("StiffnessExponent", &F::SetStiffnessExponent, 1, 0, 2) });
-}
-
-Table ofLBWarp()
-{
-  using F = vtkLBWarpMorph;
-  return joined(ofMorph(), { real<F>("Tolerance", &F::SetTolerance, 1e-10, 1e-15, 0.999),
-                             whole<F>("OutsideHull", &F::SetOutsideHull, 0, 0, 1) });
-}
-
-Table ofInversionFree()
-{
-  using F = vtkInversionFreeMorph;
-  return { whole<F>("Effort", &F::SetEffort, F::EFFORT_DEFAULT, 0, 2) };
-}
-
-Table ofSmoothing()
-{
-  using F = vtkSmoothingMorph;
-  return { whole<F>("TargetShape", &F::SetTargetShape, F::TARGET_SHAPE_IDEAL, 0, 1),
-    whole<F>("Objective", &F::SetObjective, F::OBJECTIVE_ADAPTIVE, 0, 2),
-    whole<F>("IterationLimit", &F::SetIterationLimit, 50, 1, 100),
-    real<F>("StopMove", &F::SetStopMove, 1e-3, 1e-12, 1) };
-}
-
-Table ofMorphBoundary()
-{
-  using F = vtkMorphBoundary;
-  return { threads<F>(), whole<F>("PrescribedDimension", &F::SetPrescribedDimension, 1, 0, 2),
-    whole<F>("SurfaceMethod", &F::SetSurfaceMethod, 0, 0, 2),
-    whole<F>("NumberOfNeighbors", &F::SetNumberOfNeighbors, 20, 1, 40),
-    whole<F>("UnattachedMotion", &F::SetUnattachedMotion, 0, 0, 2),
-    real<F>("FeatureAngle", &F::SetFeatureAngle, 25, 0, 180),
-    real<F>("CornerAngle", &F::SetCornerAngle, 45, 0, 180),
-    flag<F>("UseGeometryArrays", &F::SetUseGeometryArrays, true),
-    flag<F>("FeaturesInside", &F::SetFeaturesInside, false),
-    real<F>("ScaleFactor", &F::SetScaleFactor, 1, -0.5, 1.5),
-    real<F>("MatchTolerance", &F::SetMatchTolerance, 1e-6, 0, 1),
-    real<F>("TargetReach", &F::SetTargetReach, 0.1, 0, 10),
-    real<F>("TargetAngle", &F::SetTargetAngle, 60, 0, 180),
-    real<F>("RestTime", &F::SetRestTime, -1e300, -1, 1),
-    whole<F>("OutputPointsPrecision", &F::SetOutputPointsPrecision, F::DEFAULT_PRECISION, 0, 2) };
-}
-
-/// Those of vtkDisplacementAlgorithm.
-Table ofDisplacement()
+/// The vectors of vtkDisplacementAlgorithm, each by one number.
+Table vectors()
 {
   using F = vtkDisplacementAlgorithm;
-  return { threads<F>(),
-    length("Vector", [](vtkAlgorithm* filter, double value)
-      { F::SafeDownCast(filter)->SetVector(value, -0.3 * value, 0.3 * value); }),
+  return { length("Vector", [](vtkAlgorithm* filter, double value)
+             { F::SafeDownCast(filter)->SetVector(value, -0.3 * value, 0.3 * value); }),
     length("Translation", [](vtkAlgorithm* filter, double value)
       { F::SafeDownCast(filter)->SetTranslation(0, value, 0.1 * value); }),
     { "Rotation", 0, -40, 40, false,
       [](vtkAlgorithm* filter, double value)
       { F::SafeDownCast(filter)->SetRotation(0.2 * value, 0, value); } },
-    { "Scale", 1, 0.8, 1.2, false,
-      [](vtkAlgorithm* filter, double value)
-      { F::SafeDownCast(filter)->SetScale(value, 1, 1 / value); } },
-    length("Distance",
-      [](vtkAlgorithm* filter, double value) { F::SafeDownCast(filter)->SetDistance(value); }),
-    length("RadiusChange",
-      [](vtkAlgorithm* filter, double value) { F::SafeDownCast(filter)->SetRadiusChange(value); }),
-    flag<F>("AutoCenter", &F::SetAutoCenter, true),
-    flag<F>("TransformAboutCenter", &F::SetTransformAboutCenter, false),
-    flag<F>("AlignTarget", &F::SetAlignTarget, false),
-    real<F>("TargetReach", &F::SetTargetReach, 0.2, 0, 10),
-    real<F>("TargetAngle", &F::SetTargetAngle, 60, 0, 180),
-    whole<F>("ProjectAlong", &F::SetProjectAlong, F::PROJECT_ALONG_CLOSEST_POINT, 0,
-      F::PROJECT_ALONG_VECTOR),
-    flag<F>("SelectedHandles", &F::SetSelectedHandles, false),
-    whole<F>("LatticeBasis", &F::SetLatticeBasis, 0, 0, 1),
-    flag<F>("AutoLattice", &F::SetAutoLattice, true),
-    real<F>("ScaleFactor", &F::SetScaleFactor, 1, -0.5, 1.5),
-    whole<F>("Surroundings", &F::SetSurroundings, 1, 0, 3),
-    real<F>("FalloffRadius", &F::SetFalloffRadius, 0.1, 0, 10),
-    whole<F>("SlideRounds", &F::SetSlideRounds, 0, 0, 3),
-    whole<F>("KeepLayers", &F::SetKeepLayers, 0, 0, 2),
-    whole<F>("CoincidentPoints", &F::SetCoincidentPoints, 0, 0, 2),
-    whole<F>("SurfaceMethod", &F::SetSurfaceMethod, 0, 0, 2),
-    real<F>("FeatureAngle", &F::SetFeatureAngle, 25, 0, 180),
-    real<F>("CornerAngle", &F::SetCornerAngle, 45, 0, 180),
-    flag<F>("UseGeometryArrays", &F::SetUseGeometryArrays, true),
-    whole<F>("OutputPointsPrecision", &F::SetOutputPointsPrecision, F::DEFAULT_PRECISION, 0, 2) };
-}
-
-Table ofBoundaryDisplacement()
-{
-  using F = vtkBoundaryDisplacement;
-  return { whole<F>("Moving", &F::SetMoving, 0, 0, 5), whole<F>("Motion", &F::SetMotion, 0, 0, 8),
-    whole<F>("UnattachedMotion", &F::SetUnattachedMotion, 0, 0, 2) };
-}
-
-/// `moving`, `displacement`: plain values.
-Table ofMorphMesh(int moving, int displacement)
-{
-  using F = vtkMorphMesh;
-  return { whole<F>("Moving", &F::SetMoving, moving, 0, 4),
-    whole<F>("Displacement", &F::SetDisplacement, displacement, 0, 8),
-    whole<F>("Method", &F::SetMethod, 0, 0, 7),
-    whole<F>("Validity", &F::SetValidity, vtkMorphAlgorithm::VALIDITY_REPAIR, 0, 5),
-    whole<F>("Stiffness", &F::SetStiffness, 0, 0, 2),
-    real<F>("StiffnessExponent", &F::SetStiffnessExponent, 1, 0, 2),
-    real<F>("SoftStiffness", &F::SetSoftStiffness, 0.01, 1e-6, 1),
-    whole<F>("Quality", &F::SetQuality, 0, 0, 1),
-    flag<F>("FeatureLines", &F::SetFeatureLines, false), flag<F>("Live", &F::SetLive, false),
-    whole<F>("NumberOfSteps", &F::SetNumberOfSteps, 0, 0, 3),
-    whole<F>("Stepping", &F::SetStepping, 0, 0, 1),
-    real<F>("RestTime", &F::SetRestTime, -1e300, -1, 1) };
+    { "Scale", 1, 0.8, 1.2, false, [](vtkAlgorithm* filter, double value) {
+       F::SafeDownCast(filter)->SetScale(value, 1, 1 / value);
+     } } };
 }
 
 template <int Shape>
@@ -218,49 +98,6 @@ Property weight(const char* name, double plain)
   return { name, plain, -1.5, 1.5, false, [](vtkAlgorithm* filter, double value) {
             vtkMorphShapes::SafeDownCast(filter)->SetWeight(Shape, value);
           } };
-}
-
-Table ofMorphShapes()
-{
-  using F = vtkMorphShapes;
-  return { threads<F>(), weight<0>("Weight0", 1), weight<1>("Weight1", 0), weight<2>("Weight2", 0),
-    whole<F>("Method", &F::SetMethod, 0, 0, 5),
-    real<F>("Tolerance", &F::SetTolerance, 1e-10, 1e-15, 0.999),
-    flag<F>("FindValidRanges", &F::SetFindValidRanges, true),
-    real<F>("MatchTolerance", &F::SetMatchTolerance, 1e-6, 0, 1),
-    flag<F>("FixUnnamedBoundary", &F::SetFixUnnamedBoundary, true),
-    whole<F>("Quality", &F::SetQuality, 0, 0, 1),
-    flag<F>("FeatureLines", &F::SetFeatureLines, false),
-    whole<F>("CoincidentPoints", &F::SetCoincidentPoints, 0, 0, 2),
-    whole<F>("OutputPointsPrecision", &F::SetOutputPointsPrecision, F::DEFAULT_PRECISION, 0, 2) };
-}
-
-Table ofClassify()
-{
-  using F = vtkClassifyBoundary;
-  return { threads<F>(), real<F>("FeatureAngle", &F::SetFeatureAngle, 25, 0, 180),
-    real<F>("CornerAngle", &F::SetCornerAngle, 45, 0, 180),
-    flag<F>("UseGeometryArrays", &F::SetUseGeometryArrays, true),
-    flag<F>("FeaturesInside", &F::SetFeaturesInside, false) };
-}
-
-Table ofCompare()
-{
-  using F = vtkCompareMorphMethods;
-  // Plain: one method, one step. All of them would take too long.
-  return { threads<F>(), flag<F>("Smoothing", &F::SetSmoothing, false),
-    flag<F>("WeightedResidual", &F::SetWeightedResidual, false),
-    flag<F>("SimplexLinear", &F::SetSimplexLinear, false),
-    flag<F>("SimplexNaturalNeighbor", &F::SetSimplexNaturalNeighbor, false),
-    flag<F>("RadialBasis", &F::SetRadialBasis, false), flag<F>("FEMWARP", &F::SetFEMWARP, true),
-    flag<F>("LBWARP", &F::SetLBWARP, false), flag<F>("InversionFree", &F::SetInversionFree, false),
-    flag<F>("Absolute", &F::SetAbsolute, true), flag<F>("Relative", &F::SetRelative, false),
-    whole<F>("NumberOfSteps", &F::SetNumberOfSteps, 1, 1, 3),
-    real<F>("Percentile", &F::SetPercentile, 1, 0, 100),
-    real<F>("ScaleFactor", &F::SetScaleFactor, 1, -0.5, 1.5),
-    real<F>("MatchTolerance", &F::SetMatchTolerance, 1e-6, 0, 1),
-    flag<F>("FixUnnamedBoundary", &F::SetFixUnnamedBoundary, true),
-    real<F>("RestTime", &F::SetRestTime, -1e300, -1, 1) };
 }
 
 template <typename F>
@@ -296,42 +133,41 @@ bool isTooLong(const Property& property, double value)
 const std::vector<Filter>& filters()
 {
   static const std::vector<Filter> all = {
-    { "FEMWarpMorph", 3, true, true, maker<vtkFEMWarpMorph>(), ofFEMWarp() },
-    { "LBWarpMorph", 3, true, true, maker<vtkLBWarpMorph>(), ofLBWarp() },
+    { "FEMWarpMorph", 3, true, true, maker<vtkFEMWarpMorph>(), ofTable("FEMWarpMorph") },
+    { "LBWarpMorph", 3, true, true, maker<vtkLBWarpMorph>(), ofTable("LBWarpMorph") },
     { "WeightedResidualMorph", 3, true, true, maker<vtkWeightedResidualMorph>(),
-      joined(ofMorph(), { whole<vtkWeightedResidualMorph>("NumberOfNeighbors",
-                          &vtkWeightedResidualMorph::SetNumberOfNeighbors, 80, 1, 100) }) },
+      ofTable("WeightedResidualMorph") },
     { "RadialBasisMorph", 3, true, true, maker<vtkRadialBasisMorph>(),
-      joined(
-        ofMorph(), { whole<vtkRadialBasisMorph>("Kernel", &vtkRadialBasisMorph::SetKernel, 0, 0, 2),
-                     real<vtkRadialBasisMorph>(
-                       "SupportRadius", &vtkRadialBasisMorph::SetSupportRadius, 1, 0.1, 3),
-                     whole<vtkRadialBasisMorph>(
-                       "NumberOfCenters", &vtkRadialBasisMorph::SetNumberOfCenters, 0, 0, 100) }) },
-    { "SimplexLinearMorph", 3, true, true, maker<vtkSimplexLinearMorph>(), ofMorph() },
+      ofTable("RadialBasisMorph") },
+    { "SimplexLinearMorph", 3, true, true, maker<vtkSimplexLinearMorph>(),
+      ofTable("SimplexLinearMorph") },
     { "SimplexNaturalNeighborMorph", 3, true, true, maker<vtkSimplexNaturalNeighborMorph>(),
-      joined(ofMorph(), { real<vtkSimplexNaturalNeighborMorph>("MemoryLimit",
-                          &vtkSimplexNaturalNeighborMorph::SetMemoryLimit, 4000, 0, 0.01) }) },
+      ofTable("SimplexNaturalNeighborMorph") },
     { "InversionFreeMorph", 3, true, false, maker<vtkInversionFreeMorph>(),
-      joined(ofMorph(true), ofInversionFree()) },
-    { "SmoothingMorph", 3, true, false, maker<vtkSmoothingMorph>(),
-      joined(ofMorph(), ofSmoothing()) },
-    { "ScaledJacobian", 3, false, false, maker<vtkScaledJacobian>(),
-      { threads<vtkScaledJacobian>(),
-        flag<vtkScaledJacobian>("Certify", &vtkScaledJacobian::SetCertify, false) } },
-    { "ClassifyBoundary", 3, false, false, maker<vtkClassifyBoundary>(), ofClassify() },
+      ofTable("InversionFreeMorph", { { "Validity", vtkMorphAlgorithm::VALIDITY_REPORT } }) },
+    { "SmoothingMorph", 3, true, false, maker<vtkSmoothingMorph>(), ofTable("SmoothingMorph") },
+    { "ScaledJacobian", 3, false, false, maker<vtkScaledJacobian>(), ofTable("ScaledJacobian") },
+    { "ClassifyBoundary", 3, false, false, maker<vtkClassifyBoundary>(),
+      ofTable("ClassifyBoundary") },
     { "ExtractMorphBoundary", 2, false, false, maker<vtkExtractMorphBoundary>(),
-      { threads<vtkExtractMorphBoundary>() } },
-    { "MorphBoundary", 3, false, false, maker<vtkMorphBoundary>(), ofMorphBoundary() },
+      ofTable("ExtractMorphBoundary") },
+    { "MorphBoundary", 3, false, false, maker<vtkMorphBoundary>(), ofTable("MorphBoundary") },
     { "BoundaryDisplacement", 3, false, false, maker<vtkBoundaryDisplacement>(),
-      joined(ofDisplacement(), ofBoundaryDisplacement()) },
+      joined(vectors(), ofTable("BoundaryDisplacement")) },
     { "MorphMesh", 4, false, false, maker<vtkMorphMesh>(),
-      joined(ofDisplacement(), ofMorphMesh(vtkMorphMesh::MOVING_EVERYTHING, 0)) },
+      joined(vectors(), ofTable("MorphMesh", { { "Moving", vtkMorphMesh::MOVING_EVERYTHING } })) },
     { "FitToSurface", 2, false, false, maker<vtkMorphMesh>(),
-      joined(ofDisplacement(),
-        ofMorphMesh(vtkMorphMesh::MOVING_SURFACES, vtkMorphMesh::DISPLACEMENT_TARGET)) },
-    { "MorphShapes", 3, false, false, maker<vtkMorphShapes>(), ofMorphShapes() },
-    { "CompareMorphMethods", 1, false, false, maker<vtkCompareMorphMethods>(), ofCompare() },
+      joined(vectors(),
+        ofTable("MorphMesh", { { "Displacement", vtkMorphMesh::DISPLACEMENT_TARGET } })) },
+    { "MorphShapes", 3, false, false, maker<vtkMorphShapes>(),
+      joined({ weight<0>("Weight0", 1), weight<1>("Weight1", 0), weight<2>("Weight2", 0) },
+        ofTable("MorphShapes")) },
+    // Plain: one method, one step. All of them would take too long.
+    { "CompareMorphMethods", 1, false, false, maker<vtkCompareMorphMethods>(),
+      ofTable("CompareMorphMethods",
+        { { "Smoothing", 0 }, { "WeightedResidual", 0 }, { "SimplexLinear", 0 },
+          { "SimplexNaturalNeighbor", 0 }, { "RadialBasis", 0 }, { "LBWARP", 0 },
+          { "InversionFree", 0 }, { "NumberOfSteps", 1 } }) },
     { "MorphAdjoint", 2, false, false, maker<vtkMorphAdjoint>(), {} },
   };
   return all;

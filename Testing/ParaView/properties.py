@@ -49,7 +49,7 @@ def printed(filter_proxy, name):
     return match.group(1)
 
 #: Limits of memory, which have no end, and tolerances, which span decades.
-WITHOUT_SLIDER = ("StepMemoryLimit", "MemoryLimit", "Tolerance")
+WITHOUT_SLIDER = ("StepMemoryLimit", "MemoryLimit", "Tolerance", "HandleRadius")
 #: What widgets of the panel are made from; not among its results.
 FOR_WIDGETS = ("SurfaceList", "SurfaceSizes", "SurfaceBounds", "SurfaceBounds", "PickedSurfaces",
                "ValidWeights", "Advice")
@@ -162,7 +162,7 @@ class Properties(unittest.TestCase):
                 self.assertNotRegex(label, r"\b[B-Zb-z]\b")
                 if hint is not None:
                     self.assertEqual(own.setdefault(p.get("name"), label), label)
-        self.assertEqual(own["FixUnnamedBoundary"], "Fix the rest of the boundary")
+        self.assertEqual(own["TargetAngle"], "Target Angle (degrees)")
         self.assertEqual(own["MorphStatus"], "Status")
 
     def test_results_come_last_and_the_status_first(self):

@@ -276,7 +276,7 @@ class FirstTasks(unittest.TestCase):
         self.open(BORE)
         self.events.filter("BoundaryDisplacement")
         self.events.choose("Moving", "Surfaces")
-        self.events.tick("Patches/ArraySelectionWidget", names.index(TOP))
+        self.events.tick("Surfaces/ArraySelectionWidget", names.index(TOP))
         self.events.choose("Motion", "Vector")
         self.events.type("Vector/DoubleLineEdit2", "1.5")
         self.events.choose("Surroundings", "Stay")

@@ -29,8 +29,7 @@ NUMBERS = ("MinScaledJacobian", "MeanScaledJacobian", "InvertedCells", "WorstCel
 HELP_PAGE = MAIN + "1pqHelpWindow0/1QTextBrowser0"
 COLORS = MAIN + "variableToolbar/displayColor/Variables"
 #: Lists of texts, which have no label of their own.
-ZONES = {"FixedZones": "Zones that stay", "RigidZones": "Zones that are rigid",
-         "SoftZones": "Zones that are soft"}
+ZONES = {"FixedZones": "Fixed Zones", "RigidZones": "Rigid Zones", "SoftZones": "Soft Zones"}
 ONE_INPUT = ("MorphMesh", "FitToSurface", "BoundaryDisplacement")
 #: Of each task; numbers are typed besides.
 CLICKS = {"see which surface has which number": 4, "open the filter's page": 1,

@@ -83,7 +83,7 @@ std::string Validity::Note(int mode, const std::vector<morph::Index>& ids)
   return std::to_string(ids.size()) +
          " cells of the undeformed mesh are inverted or degenerate. Unless they become worse, they "
          "do not count as inverted by the motion: cell ids " +
-         morph::listIds(ids) + ". Validity set to Repair All repairs them, too.";
+         morph::listIds(ids) + ". Validity set to Repair all repairs them, too.";
 }
 
 void Validity::RequireFeasible() const

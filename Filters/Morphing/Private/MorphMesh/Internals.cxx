@@ -91,7 +91,7 @@ std::string vtkMorphMesh::vtkInternals::Advice() const
   if (this->NeedsHandles)
   {
     return none + "Give a handle: add a row to Handles, choose Control Points, or copy selected "
-                  "points and tick Selected points are handles.";
+                  "points and tick Selected Handles.";
   }
   if (this->Filter->Options->Moving == MOVING_SELECTION)
   {
