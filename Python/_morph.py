@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """morph(): a mesh and its displaced boundary in, the morphed mesh out, exceptions on failure."""
+import re
 import warnings
 
 import numpy
@@ -56,7 +57,8 @@ def _make(method):
 
 def _set(morph, name, value):
     """Sets a property of the filter; text is the name of one of its choices."""
-    setter = f"Set{name}To{value.replace(' ', '')}" if isinstance(value, str) else f"Set{name}"
+    words = "".join(w[:1].upper() + w[1:] for w in re.split("[^A-Za-z0-9]+", str(value)))
+    setter = f"Set{name}To{words}" if isinstance(value, str) else f"Set{name}"
     if isinstance(value, str) and not hasattr(morph, setter) and hasattr(morph, "Set" + name):
         choices = [s[len(f"Set{name}To"):] for s in dir(morph) if s.startswith(f"Set{name}To")]
         if choices:

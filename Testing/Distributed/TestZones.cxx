@@ -384,7 +384,7 @@ TEST(RankZones, CountsAndOutputsAreThoseOfTheWholeMesh)
     filter->SetInputData(grid);
     filter->SetMoving(vtkBoundaryDisplacement::MOVING_ARRAY);
     filter->SetMovingArray("Wall");
-    filter->SetMotion(vtkBoundaryDisplacement::DISPLACEMENT_ARRAY);
+    filter->SetDisplacement(vtkBoundaryDisplacement::DISPLACEMENT_ARRAY);
     filter->SetDisplacementArray("Bump");
     filter->SetKeepLayers(2);
     filter->AddRigidZone("Blade");
