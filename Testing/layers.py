@@ -275,7 +275,8 @@ def try_wrong_includes(source):
                                         "Morphing/Private/Data may not include "
                                         "Morphing/Private/Morph"),
         "a private header at the top": ("Morphing/vtkMorphStray.h", "", "no public class"),
-        "a private name at the top": ("Morphing/vtkMorphAdjoint.h.in", "namespace morph::filters {}",
+        "a private name at the top": ("Morphing/vtkMorphAdjoint.h.in",
+                                      "namespace morph::filters {}",
                                       "names what is private"),
         "a release": ("Morphing/vtkMorphMesh.cxx", "#if VTK_VERSION_NUMBER >= 0\n#endif",
                       "VTK_VERSION_NUMBER belongs in"),

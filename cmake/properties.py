@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Makes all that a property needs from Filters/Morphing/Properties.ini, which explains its keys.
 
-    python3 cmake/properties.py cxx FOLDER   headers (vtkX.h of vtkX.h.in), Options.h, Properties.cxx
+    python3 cmake/properties.py cxx FOLDER   vtkX.h of vtkX.h.in, Options.h and Properties.cxx
     python3 cmake/properties.py xml FOLDER   ParaView's XML (X.xml.in of Plugin/X.xml.in)
     python3 cmake/properties.py options FILE the table of morph-mesh's options (PropertyTable.cxx)
     python3 cmake/properties.py tests FILE   what is one number, for the tests (PropertyRows.h)
@@ -168,12 +168,14 @@ def declarations(row):
     if row.kind in ("numbers", "integers"):
         one = "double" if row.kind == "numbers" else "int"
         arguments = ", ".join(f"{one} v{i}" for i in range(row.count))
-        text += (f"  void Set{name}({arguments});\n  void Set{name}(const {one} values[{row.count}]);\n"
+        text += (f"  void Set{name}({arguments});\n"
+                 f"  void Set{name}(const {one} values[{row.count}]);\n"
                  f"  {one}* Get{name}() VTK_SIZEHINT({row.count});\n"
                  f"  void Get{name}({one} values[{row.count}]);\n")
     elif row.kind in ("names", "surfaces"):
         text += (f"  void Set{name[:-1]}Status(const char* name, int status);\n"
-                 f"  void Add{name[:-1]}(const char* name) {{ this->Set{name[:-1]}Status(name, 1); }}\n"
+                 f"  void Add{name[:-1]}(const char* name)\n"
+                 f"  {{\n    this->Set{name[:-1]}Status(name, 1);\n  }}\n"
                  f"  void RemoveAll{name}();\n")
     elif row.kind in ("text", "array"):
         text += f"  void Set{name}(const char* value);\n  const char* Get{name}() const;\n"
@@ -224,7 +226,8 @@ def definitions(cls, options, row):
         parts = ", ".join(f"values[{i}]" for i in range(n))
         return (f"void {cls}::Set{name}({arguments})\n{{\n"
                 f'  Property::Set(this, "{name}", {kept}, {{ {values} }}, {bounds});\n}}\n'
-                f"void {cls}::Set{name}(const {one} values[{n}])\n{{\n  this->Set{name}({parts});\n}}\n"
+                f"void {cls}::Set{name}(const {one} values[{n}])\n"
+                f"{{\n  this->Set{name}({parts});\n}}\n"
                 f"{one}* {cls}::Get{name}()\n{{\n  return {kept}.data();\n}}\n"
                 f"void {cls}::Get{name}({one} values[{n}])\n{{\n"
                 f"  std::copy({kept}.begin(), {kept}.end(), values);\n}}\n")
@@ -236,7 +239,9 @@ def definitions(cls, options, row):
         return (f"void {cls}::Set{name}(const char* value)\n{{\n"
                 f'  Property::Set(this, {kept}, value ? value : "");\n}}\n'
                 f"const char* {cls}::Get{name}() const\n{{\n  return {kept}.c_str();\n}}\n")
-    call = f"this, {kept}, value" if row.kind == "flag" else f'this, "{name}", {kept}, value, {bounds}'
+    call = f'this, "{name}", {kept}, value, {bounds}'
+    if row.kind == "flag":
+        call = f"this, {kept}, value"
     return (f"void {cls}::Set{name}({cxx_type(row)} value)\n{{\n  Property::Set({call});\n}}\n"
             f"{cxx_type(row)} {cls}::Get{name}() const\n{{\n  return {kept};\n}}\n")
 
@@ -268,8 +273,8 @@ def make_cxx(folder):
         write(folder / f"{cls}.h", text.replace("@Properties@", made))
         headers.append(f'#include "{cls}.h"\n')
         structs.append(struct(kept[1], own))
-        printed = "".join(f'  Property::Print(os, indent, "{row.name}", this->{kept[2]}->{row.name});\n'
-                          for row in own)
+        print_one = "  Property::Print(os, indent, {0}, this->{1}->{2});\n"
+        printed = "".join(print_one.format(f'"{row.name}"', kept[2], row.name) for row in own)
         sources.append("".join(definitions(cls, kept[2], row) for row in own) +
                        f"void {cls}::PrintOptions(ostream& os, vtkIndent indent) const\n{{\n"
                        f"{printed}}}\n")
@@ -279,7 +284,8 @@ def make_cxx(folder):
           "namespace morph\n{\n" + "\n".join(structs) + "}\n")
     write(folder / "Properties.cxx",
           made + '#include "Private/Options.h"\n#include "Private/Pipeline/Property.h"\n' +
-          "".join(headers) + "\n#include <algorithm>\n\nnamespace Property = morph::filters::Property;\n\n"
+          "".join(headers) + "\n#include <algorithm>\n\n"
+          "namespace Property = morph::filters::Property;\n\n"
           + "\n".join(sources))
 
 
@@ -305,11 +311,14 @@ def condition(text, find):
 
     def several(parts, kind, inner):
         made = [inner(part) for part in parts]
-        return made[0] if len(made) == 1 else f'<Expression type="{kind}">{"".join(made)}</Expression>'
+        if len(made) == 1:
+            return made[0]
+        return f'<Expression type="{kind}">{"".join(made)}</Expression>'
 
     made = several(text.split("|"), "or", lambda part: several(part.split("&"), "and", one))
     if made.startswith("<Expression"):
-        made = f'<PropertyWidgetDecorator type="CompositeDecorator">{made}</PropertyWidgetDecorator>'
+        made = ('<PropertyWidgetDecorator type="CompositeDecorator">'
+                f"{made}</PropertyWidgetDecorator>")
     return made
 
 
@@ -401,10 +410,12 @@ def make_xml(folder):
         groups = {}
         for row in own:
             if row["group"] and row["panel"] != "never":
-                groups.setdefault(row["group"], []).append(f'        <Property name="{row.name}"/>\n')
-        grouped = "".join(f'      <PropertyGroup label="{label}">\n{"".join(names)}      </PropertyGroup>\n'
+                groups.setdefault(row["group"], "")
+                groups[row["group"]] += f'        <Property name="{row.name}"/>\n'
+        grouped = "".join(f'      <PropertyGroup label="{label}">\n{names}      </PropertyGroup>\n'
                           for label, names in groups.items())
-        text = text.replace("@Properties@", made.rstrip("\n")).replace("@Groups@", grouped.rstrip("\n"))
+        text = text.replace("@Properties@", made.rstrip("\n"))
+        text = text.replace("@Groups@", grouped.rstrip("\n"))
         text = re.sub(r"@Override (\w+)@\n",
                       lambda m: property_xml(find(m[1]), find, ' override="1"'), text)
         write(folder / template.name, text)
@@ -498,7 +509,7 @@ def make_tests(path):
                 low, high = "0", "1" if row.kind == "flag" else str(len(row.values) - 1)
             elif row.kind == "integer":
                 low, high = low or "VTK_INT_MIN", high or "VTK_INT_MAX"
-            value = {"number": "value", "flag": "value != 0"}.get(row.kind, "static_cast<int>(value)")
+            value = {"number": "value", "flag": "value != 0"}.get(row.kind, "int(value)")
             # A choice may have fewer values in a class than its superclass accepts.
             most = high if row.kind != "choice" else str(
                 len(Row(row.name, table[row.name], []).values) - 1
@@ -574,8 +585,8 @@ def make_pages(folder):
         text = template.read_text(encoding="utf-8")
         proxy, cls = re.findall(r'<\w*SourceProxy name="(\w+)"\s+class="vtk(\w+)"', text)[-1]
         label = re.findall(r'\blabel="([^"]+)"', text[text.index(f'name="{proxy}"'):])[0]
-        page = [f"# {label}", "", f"The properties of *{label}* (`{proxy}` in Python, `vtk{cls}` in "
-                "C++), in the order of its panel."]
+        page = [f"# {label}", "", f"The properties of *{label}* (`{proxy}` in Python, "
+                f"`vtk{cls}` in C++), in the order of its panel."]
         group = None
         for row in rows(table, [proxy, cls, *chains.get(cls, [])]):
             if row.kind == "own" or row["panel"] == "never":

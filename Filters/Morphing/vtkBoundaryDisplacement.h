@@ -22,8 +22,8 @@
  * from its current position. Its geometry is that of its point arrays GeometryDimension and
  * GeometryId, or is found at its RestPosition. Port 1, optional, takes the vtkSelection of
  * MOVING_SELECTION. Selected cells move all of their nodes that are on the boundary. Port 2,
- * optional, takes the target of DISPLACEMENT_TARGET (vtkPolyData, an STL file for instance). Port 3,
- * optional, takes the selection of a zone. Port 4, optional, takes the control points of
+ * optional, takes the target of DISPLACEMENT_TARGET (vtkPolyData, an STL file for instance). Port
+ * 3, optional, takes the selection of a zone. Port 4, optional, takes the control points of
  * DISPLACEMENT_HANDLES and DISPLACEMENT_LATTICE.
  *
  * The output is the boundary as vtkClassifyBoundary writes it on its port 1, at its displaced
@@ -104,8 +104,8 @@ public:
   vtkDataArraySelection* GetSurfaceList();
 
   /**
-   * Writes into `names` all names of GetSurfaceList(), and enables the surfaces that a selection lies
-   * on, as a user who clicks on surfaces expects. `shown`: the data that were selected on: the
+   * Writes into `names` all names of GetSurfaceList(), and enables the surfaces that a selection
+   * lies on, as a user who clicks on surfaces expects. `shown`: the data that were selected on: the
    * input, a morphed mesh, or the boundary. Where selected cells and points lie on several
    * surfaces, as at an edge, the fewest surfaces are taken that explain the selection. A selection
    * that cannot be evaluated is an error. Cost: that of the selection, and a pass over the

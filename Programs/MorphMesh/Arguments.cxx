@@ -277,7 +277,10 @@ std::vector<Option> optionsOf(Arguments& result)
     }
     if (!property.option.empty())
     {
-      options.push_back({ property.option, valueName(property), property.help, property.group,
+      const std::string value = valueName(property);
+      const std::string words =
+        value == "<name>" && !property.words.empty() ? " One of " + wordsOf(property) + "." : "";
+      options.push_back({ property.option, value, property.help + words, property.group,
         [&](const std::string& value) { result.properties.add(property, value); } });
     }
   }

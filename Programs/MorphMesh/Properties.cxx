@@ -34,16 +34,6 @@ const Property& named(const std::string& name)
     [&](const Property& one) { return one.name == name; });
 }
 
-std::string wordsOf(const Property& property)
-{
-  std::string result;
-  for (const std::string& word : property.words)
-  {
-    result += (result.empty() ? "" : ", ") + word;
-  }
-  return result;
-}
-
 double number(const Property& property, const std::string& text)
 {
   char* end = nullptr;
@@ -134,6 +124,16 @@ PropertyValue valueOf(const Property& property, const std::string& text)
 }
 }
 
+std::string wordsOf(const Property& property)
+{
+  std::string result;
+  for (const std::string& word : property.words)
+  {
+    result += (result.empty() ? "" : ", ") + word;
+  }
+  return result;
+}
+
 std::string valueName(const Property& property)
 {
   switch (property.kind)
@@ -143,6 +143,10 @@ std::string valueName(const Property& property)
     case Property::Kind::Choice:
     {
       std::string words;
+      if (property.words.size() > 6)
+      {
+        return "<name>"; // the help has them in a sentence
+      }
       for (const std::string& word : property.words)
       {
         std::string one = word;

@@ -48,6 +48,8 @@ const std::vector<Property>& properties();
 
 /// How the help calls its value, "<x,y,z>" for instance; empty for a flag.
 std::string valueName(const Property& property);
+/// The words of a choice with commas between them; empty where it is none.
+std::string wordsOf(const Property& property);
 
 /// The properties that a command line gives.
 class GivenProperties

@@ -103,7 +103,8 @@ class BoundaryDisplacementTests(unittest.TestCase):
 
     def test_control_points_are_shapes(self):
         def lattice(*displacements):
-            return BoundaryDisplacement(Input=self.mesh, Displacement="Lattice", LatticeSize=[2, 3, 4],
+            return BoundaryDisplacement(Input=self.mesh, Displacement="Lattice",
+                                        LatticeSize=[2, 3, 4],
                                         LatticeBasis="B-spline", OutputPointsPrecision="Double",
                                         LatticeDisplacements=[x for row in displacements
                                                               for x in row])

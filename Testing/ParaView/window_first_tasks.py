@@ -269,7 +269,8 @@ class FirstTasks(unittest.TestCase):
 
     def test_compare_methods(self):
         mesh, names = self.names(BORE)
-        moved = BoundaryDisplacement(Input=mesh, Moving="Surfaces", Surfaces=[TOP], Displacement="Vector",
+        moved = BoundaryDisplacement(Input=mesh, Moving="Surfaces", Surfaces=[TOP],
+                                     Displacement="Vector",
                                      Vector=[0, 0, 1.5], Surroundings="Stay")
         best = updated(CompareMorphMethods(Input=mesh, Boundary=moved)).BestMethod
         self.assertEqual(best, "Inversion-free")  # the only valid one

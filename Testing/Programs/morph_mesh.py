@@ -91,23 +91,25 @@ class MorphMesh(unittest.TestCase):
             self.assertAlmostEqual(found, wanted, delta=1e-4)
         self.fails(1, "Surface 99", "--move", "Surface 99", "--translate", "1,0,0", BORE, moved)
         for status, message, *arguments in (
-                (2, "--move needs", "--move", "Surface 1", BORE, moved),
-                (2, "three numbers", "--move", "Surface 1", "--translate", "1,2", BORE, moved),
-                (2, "an axis", "--move", "Surface 1", "--rotate", "w,3", BORE, moved),
-                (2, "need --move", "--translate", "1,2,3", BORE, moved),
-                (2, "cannot be combined", "--move", "Surface 1", "--displacements", "x.csv", BORE,
+                (2, "Nothing says how it moves", "--move", "Surface 1", BORE, moved),
+                (2, "--translate needs <x,y,z>", "--move", "Surface 1", "--translate", "1,2", BORE, moved),
+                (2, "--rotate needs <x,y,z>", "--move", "Surface 1", "--rotate", "w,3", BORE,
                  moved),
-                (2, "cannot be combined", "--move", "Surface 1", "--scale", "2", "--target",
+                (2, "Nothing says what moves", "--translate", "1,2,3", BORE, moved),
+                (2, "either --displacements", "--move", "Surface 1", "--displacements", "x.csv",
+                 BORE, moved),
+                (2, "remove one of them", "--move", "Surface 1", "--scale", "2", "--target",
                  "x.stl", BORE, moved),
-                (2, "need --move, --target, --handles or --lattice", "--free", "Surface 1",
+                (2, "Nothing says what moves", "--free", "Surface 1", BORE, moved),
+                (2, "--scale needs Displacement Translate, rotate, scale, and --align", "--move",
+                 "Surface 1", "--scale", "2", "--align",
                  BORE, moved),
-                (2, "--align needs --target", "--move", "Surface 1", "--scale", "2", "--align",
-                 BORE, moved),
-                (2, "--target-reach and --target-angle need --target", "--move", "Surface 1",
+                (2, "and --target-reach needs Displacement Target", "--move", "Surface 1",
                  "--scale", "2", "--target-reach", "1", BORE, moved),
                 (2, "--target-angle needs a number from 0 to 180, not '200'", "--target", "x.stl",
                  "--target-angle", "200", BORE, moved),
-                (2, "2 files are needed (grid, output), 1 is given", "--target", "x.stl", BORE),
+                (2, "(grid, output; or grid, boundary, output), 1 is given", "--target", "x.stl",
+                 BORE),
                 (2, "1 file is needed (grid), 2 are given", "--list-surfaces", BORE, moved)):
             self.fails(status, message, *arguments)
 
@@ -370,7 +372,8 @@ class MorphMesh(unittest.TestCase):
         lattice.write_text("i,j,k,dx,dy,dz\n3,0,0,1,0,0\n", encoding="utf-8")
         self.fails(1, "no control point 3", "--lattice", lattice, BORE, moved)
         self.fails(2, "remove one of them", "--lattice", lattice, "--handles", handles, BORE, moved)
-        self.fails(2, "remove one of them", "--lattice-basis=b-spline", "--handles", handles, BORE, moved)
+        self.fails(2, "remove one of them", "--lattice-basis=b-spline", "--handles", handles, BORE,
+                   moved)
         self.fails(2, "from 2 to 30", "--lattice", lattice, "--lattice-size=1,2,2", BORE, moved)
 
     def test_the_boundary_is_fitted_to_a_target(self):
