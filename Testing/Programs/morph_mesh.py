@@ -92,7 +92,8 @@ class MorphMesh(unittest.TestCase):
         self.fails(1, "Surface 99", "--move", "Surface 99", "--translate", "1,0,0", BORE, moved)
         for status, message, *arguments in (
                 (2, "Nothing says how it moves", "--move", "Surface 1", BORE, moved),
-                (2, "--translate needs <x,y,z>", "--move", "Surface 1", "--translate", "1,2", BORE, moved),
+                (2, "--translate needs <x,y,z>", "--move", "Surface 1", "--translate", "1,2", BORE,
+                 moved),
                 (2, "--rotate needs <x,y,z>", "--move", "Surface 1", "--rotate", "w,3", BORE,
                  moved),
                 (2, "Nothing says what moves", "--translate", "1,2,3", BORE, moved),
