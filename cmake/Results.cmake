@@ -94,15 +94,18 @@ endfunction ()
 
 # Sets `property` to the property in XML.
 function (morph_result_xml name kind none panel documentation)
-  # Counts are doubles too: ParaView 5.11's panel shows no ids, and lets users edit integers.
   set(type "Double")
   set(default " default_values=\"${none}\"")
+  set(widget)
   if (none MATCHES "nan|kept")
     set(default " default_values=\"0\"")
   endif ()
   if (kind STREQUAL "text")
     set(type "String")
     set(default)
+  elseif (NOT kind STREQUAL "double")
+    set(type "IdType")
+    set(widget " panel_widget=\"WholeNumber\"")
   endif ()
   set(hints)
   if (morph_label_${name})
@@ -114,7 +117,7 @@ function (morph_result_xml name kind none panel documentation)
   string(CONCAT property
     "      <${type}VectorProperty name=\"${name}\" command=\"Get${name}\"\n"
     "                            information_only=\"1\" number_of_elements=\"1\"${default}\n"
-    "                            panel_visibility=\"${panel}\">\n"
+    "                            panel_visibility=\"${panel}\"${widget}>\n"
     "        <Simple${type}InformationHelper/>\n"
     "        <Documentation>\n${documentation}\n        </Documentation>\n${hints}"
     "      </${type}VectorProperty>\n")

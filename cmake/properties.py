@@ -322,11 +322,19 @@ def condition(text, find):
     return made
 
 
+def with_parts(text):
+    """Parts that several properties or proxies have in common: @Inputs@ is Morph/Inputs.xml."""
+    for _ in range(2):  # a part may have parts
+        for part in (PROJECT / "Plugin" / "Morph").glob("*.xml"):
+            text = text.replace(f"@{part.stem}@\n", part.read_text(encoding="utf-8"))
+    return text
+
+
 def own_xml(row, classes, find):
     for name in [f"{cls}.{row.name}.xml" for cls in classes] + [f"{row.name}.xml"]:
         path = PROJECT / "Plugin" / "Properties" / name
         if path.exists():
-            text = path.read_text(encoding="utf-8")
+            text = with_parts(path.read_text(encoding="utf-8"))
             return text.replace("@Shown@", condition(row["shown"], find) if row["shown"] else "")
     raise SystemExit(f"Plugin/Properties has no {row.name}.xml")
 
@@ -397,9 +405,7 @@ def make_xml(folder):
     chains = bases()
     for template in sorted((PROJECT / "Plugin").glob("*.xml.in")):
         text = template.read_text(encoding="utf-8")
-        for _ in range(2):  # a part may have parts
-            for part in (PROJECT / "Plugin" / "Morph").glob("*.xml"):
-                text = text.replace(f"@{part.stem}@\n", part.read_text(encoding="utf-8"))
+        text = with_parts(text)
         # The last one: those before it are internal.
         proxy, cls = re.findall(r'<\w*SourceProxy name="(\w+)"\s+class="vtk(\w+)"', text)[-1]
         classes = [cls, *chains.get(cls, [])]

@@ -375,7 +375,7 @@ class ZoneTests(unittest.TestCase):
         np.testing.assert_array_equal(points(self.morph), free)
 
     def test_region(self):
-        self.morph.ZoneRegionType = "Frozen"
+        self.morph.ZoneRegionType = "Fixed"
         self.morph.ZoneRegion = "Box"
         self.morph.ZoneRegion.Position = [1.5, 1.5, 1.5]
         self.morph.ZoneRegion.Length = [3, 3, 3]

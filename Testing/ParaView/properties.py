@@ -271,7 +271,7 @@ class Properties(unittest.TestCase):
             with self.subTest(proxy=xml.get("name")):
                 if "Solver" in groups:  # a result of every method, shown where there is a solver
                     solver = groups.pop("Solver")
-                    if xml.find("DoubleVectorProperty[@name='SolverIterations']") is not None:
+                    if xml.find("IdTypeVectorProperty[@name='SolverIterations']") is not None:
                         groups["Counts"] = solver
                 if "Method" in groups:
                     groups["Counts"] = groups.get("Counts", []) + groups.pop("Method")

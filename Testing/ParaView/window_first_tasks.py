@@ -262,7 +262,7 @@ class FirstTasks(unittest.TestCase):
         self.events.apply()
         self.events.done()
         self.events.expect(f"{PANEL}MorphStatus/MorphStatus", "Failed")
-        self.events.expect(f"{PANEL}InvertedCells/DoubleLineEdit0", "-1")
+        self.events.expect(f"{PANEL}InvertedCells/Number", "-1")
         messages = self.play({"a method alone": 5}, errors=1)
         self.assertIn("Connect Boundary Displacement", messages)
         self.assertNotIn("FORWARD_DIRECTION", messages)

@@ -67,7 +67,7 @@ class WindowOnRanks(unittest.TestCase):
                 events.do(VIEW, "mouseMove", place + ",0,4,0)")
             events.do(VIEW, "mouseRelease", place + ",4,0,0)")
             events.apply()
-            events.expect(f"{PANEL}InvertedCells/DoubleLineEdit0", "0")
+            events.expect(f"{PANEL}InvertedCells/Number", "0")
             state = folder / "dragged.pvsm"
             events.save_state(state)
             home = folder / "home"

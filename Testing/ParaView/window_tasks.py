@@ -264,7 +264,7 @@ class WindowTasks(unittest.TestCase):
             events.type("RadiusChange/DoubleLineEdit0", "0.1")
             events.apply()
             events.done()
-            events.expect(f"{PANEL}InvertedCells/DoubleLineEdit0", "-1")
+            events.expect(f"{PANEL}InvertedCells/Number", "-1")
 
             # Last: its window covers the other.
             events.task("open the filter's page")
