@@ -177,12 +177,12 @@ void vtkDisplacementAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Transform: " << own.Transform.Get() << "\n";
   const auto lists = [&](const char* name, const auto& values)
   {
-    os << indent << name << ":";
+    os << indent << name << ": ";
     for (const auto& one : values)
     {
       for (const double number : one)
       {
-        os << " " << number;
+        os << number << " ";
       }
     }
     os << "\n";

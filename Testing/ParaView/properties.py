@@ -289,7 +289,7 @@ class Properties(unittest.TestCase):
                     listed = [p.get("name") for p in group if p.get("name") in names]
                     self.assertEqual(listed, [row[0] for row in groups.pop(group.get("label"), [])])
                 self.assertEqual(groups, {})
-        self.assertEqual(with_results, 12)
+        self.assertEqual(with_results, 15)
 
     def test_every_filter_has_a_help_page(self):
         path = os.environ["MESHMORPHING_HELP"]

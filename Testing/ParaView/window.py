@@ -15,7 +15,7 @@ from pathlib import Path
 from paraview import simple
 
 from versions import HAS_SCRIPT_EDITOR
-from window_events import MAIN, PANEL, Events
+from window_events import MAIN, PANEL, Events, field
 
 PLUGIN = os.environ["MESHMORPHING_PLUGIN"]
 simple.LoadPlugin(PLUGIN, remote=False, ns=globals())
@@ -123,8 +123,9 @@ class Window(unittest.TestCase):
     def expect(self, events, texts):
         """In the panel, with all digits."""
         for name, text in zip(NUMBERS, texts):
-            events.expect(PANEL + (SCALE if name == "ScaleFactor" else f"{name}/DoubleLineEdit0"),
-                          text[:-2] if text.endswith(".0") else text)
+            place = field(name, int(text) if text.isdigit() else text)
+            place = PANEL + SCALE if name == "ScaleFactor" else place
+            events.expect(place, text[:-2] if text.endswith(".0") else text)
 
 
 if __name__ == "__main__":

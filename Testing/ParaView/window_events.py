@@ -24,6 +24,11 @@ BROWSER = MAIN + "pipelineBrowserDock/pipelineBrowser"
 FIRST = ("MorphMesh", "FitToSurface", "ScaledJacobian", "CompareMorphMethods", "MorphShapes")
 
 
+def field(name, value):
+    """The panel's field of a number."""
+    return f"{PANEL}{name}/{'Number' if isinstance(value, int) else 'DoubleLineEdit0'}"
+
+
 def category(name):
     """The menu of a filter of the plugin."""
     return "Mesh Morphing" if name in FIRST else "Mesh Morphing Steps"

@@ -14,7 +14,7 @@ from pathlib import Path
 from paraview import simple
 
 from versions import BOX_FIELDS
-from window_events import PANEL, Events
+from window_events import PANEL, Events, field
 
 PLUGIN = os.environ["MESHMORPHING_PLUGIN"]
 simple.LoadPlugin(PLUGIN, remote=False, ns=globals())
@@ -89,7 +89,8 @@ class MorphMeshInTheWindow(unittest.TestCase):
             events.apply()
             self.assertEqual((events.clicks, events.typed), (6, 1))
             for number in NUMBERS:
-                events.expect(f"{PANEL}{number}/DoubleLineEdit0", text(getattr(morph, number)))
+                value = getattr(morph, number)
+                events.expect(field(number, value), text(value))
 
             events.select("/0:0/0:0")
             events.filter("MorphMesh")

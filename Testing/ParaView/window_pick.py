@@ -16,7 +16,7 @@ from paraview import servermanager, simple
 from paraview.vtk.util.numpy_support import vtk_to_numpy
 
 from versions import BOX_FIELDS
-from window_events import PANEL
+from window_events import PANEL, field
 from window_morph_mesh import text
 from window_tasks import Tasks
 
@@ -148,7 +148,8 @@ class Pick(unittest.TestCase):
             events.apply()
             events.done()
             for number in NUMBERS:
-                events.expect(f"{PANEL}{number}/DoubleLineEdit0", text(getattr(morph, number)))
+                value = getattr(morph, number)
+                events.expect(field(number, value), text(value))
             code, messages = events.play(Path(name))
             self.assertEqual(code, 0, messages)
             self.assertNotIn("ERR|", messages)

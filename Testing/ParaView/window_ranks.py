@@ -17,7 +17,7 @@ from vtkmodules.vtkCommonDataModel import VTK_HEXAHEDRON
 import ranks
 from distributed import grid_of, model, write, write_pieces
 from versions import BOX_FIELDS
-from window_events import PANEL, VIEW, Events
+from window_events import PANEL, VIEW, Events, field
 
 PLUGIN = os.environ["MESHMORPHING_PLUGIN"]
 simple.LoadPlugin(PLUGIN, remote=False, ns=globals())
@@ -59,7 +59,8 @@ class WindowOnRanks(unittest.TestCase):
             events.set(BOX + "translateZ", "set_string", UP)
             events.apply()
             for number in NUMBERS:
-                events.expect(f"{PANEL}{number}/DoubleLineEdit0", f"{getattr(serial, number):.0f}")
+                value = getattr(serial, number)
+                events.expect(field(number, value), f"{value:.0f}")
             # The middle button drags the box as a whole; the mesh follows while it is dragged.
             events.do(VIEW, "mousePress", "(0.5,0.5,4,4,0)")
             for step in range(1, 5):

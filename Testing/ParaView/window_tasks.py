@@ -16,7 +16,7 @@ from pathlib import Path
 
 from paraview import simple
 
-from window_events import MAIN, PANEL, PROPERTIES, VIEW
+from window_events import MAIN, PANEL, PROPERTIES, VIEW, field
 from window_morph_mesh import Clicks, text
 
 PLUGIN = os.environ["MESHMORPHING_PLUGIN"]
@@ -157,7 +157,7 @@ class Tasks(Clicks):
         for name in names:
             value = getattr(morph, name)
             if value == 0 or abs(value) > 1e-12:
-                self.expect(f"{PANEL}{name}/DoubleLineEdit0", text(value))
+                self.expect(field(name, value), text(value))
 
 
 def legend(state, array):

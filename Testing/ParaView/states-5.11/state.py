@@ -16,8 +16,8 @@ paraview.simple._DisableFirstRenderCameraReset()
 renderView1 = CreateView('RenderView')
 renderView1.AxesGrid = 'GridAxes3DActor'
 renderView1.StereoType = 0
-renderView1.CameraPosition = [2.87524786094193, -0.30907599412574127, 43.03050863066496]
-renderView1.CameraFocalPoint = [2.87524786094193, -0.30907599412574127, 6.7271136563805785]
+renderView1.CameraPosition = [2.87524786094193, -0.3090759941257417, 43.03050863066496]
+renderView1.CameraFocalPoint = [2.87524786094193, -0.3090759941257417, 6.7271136563805785]
 renderView1.CameraFocalDisk = 1.0
 renderView1.CameraParallelScale = 9.396010021223933
 
@@ -47,11 +47,15 @@ bore.PointArrayStatus = ['GeometryDimension', 'GeometryId', 'CurveParameter', 'F
 
 # create a new 'Boundary Displacement'
 moved = BoundaryDisplacement(registrationName='moved', Input=bore,
-    Selection=None)
-moved.Moving = 'Inside Region'
+    Selection=None,
+    Target=None,
+    ControlPoints=None,
+    ZoneSelection=None)
+moved.Moving = 'Region'
 moved.Region = 'Box'
 moved.Transform = 'Transform'
-moved.Surroundings = 'Follow everywhere'  # what Follow was when this state was written
+moved.Surroundings = 'Follow everywhere'
+moved.ZoneRegion = 'Box'
 
 # init the 'Box' selected for 'Region'
 moved.Region.Position = [-4.0, -4.0, 6.0]
@@ -61,15 +65,18 @@ moved.Region.Length = [8.0, 8.0, 7.0]
 moved.Transform.Translate = [1.2, 0.5, 1.5]
 moved.Transform.Rotate = [10.0, 20.0, 30.0]
 
-# create a new 'Morph Simplex Linear'
-simplexlinear = MorphSimplexLinear(registrationName='Simplex-linear', Input=bore,
-    Boundary=moved)
-simplexlinear.ScaleFactor = 0.9
+# init the 'Box' selected for 'ZoneRegion'
+moved.ZoneRegion.Position = [1.0, 1.0, 1.0]
 
 # create a new 'Morph Inversion Free'
 inversionfree = MorphInversionFree(registrationName='Inversion-free', Input=bore,
     Boundary=moved)
 inversionfree.ScaleFactor = 0.9
+
+# create a new 'Morph Simplex Linear'
+simplexlinear = MorphSimplexLinear(registrationName='Simplex-linear', Input=bore,
+    Boundary=moved)
+simplexlinear.ScaleFactor = 0.9
 
 # create a new 'Morph FEMWARP'
 fEMWARP = MorphFEMWARP(registrationName='FEMWARP', Input=bore,
