@@ -6,26 +6,68 @@
 #include <cstddef>
 #include <cstdlib>
 #include <functional>
+#include <numeric>
 #include <sstream>
 
 namespace morph_mesh
 {
 namespace
 {
-const char* const Usage =
-  "Usage: morph-mesh [options] <grid> <boundary> <output>\n"
-  "       morph-mesh --move <surface> --translate <x,y,z> [options] "
-  "<grid> <output>\n"
-  "       morph-mesh --target <surface file> [options] <grid> <output>\n"
-  "       morph-mesh --handles <csv> | --lattice <csv> [options] <grid> <output>\n"
-  "       morph-mesh --displacements <csv> [options] <grid> <output>\n"
-  "       morph-mesh --list-surfaces <grid>\n"
-  "       morph-mesh --extract-boundary <grid> <boundary>\n"
-  "       morph-mesh [options] <grid> --shapes <boundary>... --table "
-  "<table> --output <folder>\n"
-  "\n"
-  "Moves the nodes of a volume mesh so that it fits its displaced "
-  "boundary, writes it, and prints its quality.\n"
+/// What comes first on a command line. Without one it is "move".
+struct Command
+{
+  const char* name;
+  Arguments::Task task;
+  const char* what;
+  const char* usage;
+  const char* examples;
+  const char* groups; ///< of options in its help; null: all
+};
+
+constexpr const char* Files = "Files and tasks";
+const Command Commands[] = {
+  { "move", Arguments::Task::Morph, "move surfaces, or take a moved boundary; the inside follows",
+    "[options] <grid> <output> | <grid> <boundary> <output>",
+    "move --move inlet --translate 0,0,0.1 duct.vtu longer.vtu\n"
+    "move --move 'Surface 3' --radius 0.2 --validity repair part.inp wider.inp\n"
+    "move --method radial-basis part.vtu moved.vtp morphed.vtu",
+    nullptr },
+  { "fit", Arguments::Task::Morph, "move surfaces onto a target, such as an STL file",
+    "--target <surface file> [options] <grid> <output>",
+    "fit --target scan.stl part.vtu fitted.vtu\n"
+    "fit --target scan.stl --align --move WALL part.inp fitted.inp\n"
+    "fit --target terrain.stl --project-along z case case-on-terrain",
+    nullptr },
+  { "list", Arguments::Task::ListSurfaces, "print name, faces, area and center of each surface",
+    "<grid>", "list part.vtu\nlist part.inp\nlist case", Files },
+  { "check", Arguments::Task::Check, "measure the quality of a grid, without a morph",
+    "[--criteria <name>,...] [--require-valid] <grid>",
+    "check part.vtu\ncheck --criteria NonOrthogonality=70,Skewness case\n"
+    "check --require-valid part.inp",
+    Files },
+  { "repair", Arguments::Task::Repair, "untangle inverted cells; the boundary stays",
+    "[options] <grid> <output>",
+    "repair tangled.vtu valid.vtu\nrepair --free WALL tangled.inp valid.inp\n"
+    "repair --effort thorough --method inversion-free tangled.vtu better.vtu",
+    nullptr },
+  { "extract", Arguments::Task::ExtractBoundary, "write the boundary, to be moved elsewhere",
+    "<grid> <boundary>",
+    "extract part.vtu boundary.vtp\nextract part.inp boundary.vtp\n"
+    "extract case boundary.vtk",
+    Files },
+  { "shapes", Arguments::Task::WriteDesigns, "a mesh for each row of a table of designs",
+    "--shapes <boundary>... --table <table> -o <folder> <grid>",
+    "shapes part.vtu --shapes wide.vtp long.vtp --table designs.csv -o designs\n"
+    "shapes part.vtu --method lbwarp --shapes wide.vtp --table designs.csv -o designs\n"
+    "shapes part.vtu --shapes wide.vtp turn.vtp --as-rotation turn --table t.csv -o designs",
+    Files },
+};
+
+const char* const About =
+  "Moves the nodes of a volume mesh so that it fits its displaced boundary, writes it, and prints "
+  "its quality.\n\n";
+
+const char* const Formats =
   "The boundary is what --extract-boundary writes, with its points moved "
   "by any program that keeps the point\n"
   "array MorphPointId; or points with --boundary-id-array; or "
@@ -110,7 +152,7 @@ void takeDesigns(const std::vector<std::string>& files, Arguments& result)
   {
     throw UsageError("Designs need --shapes, --table and --output, all three.");
   }
-  if (files.size() != 1 || result.task == Arguments::Task::ExtractBoundary)
+  if (files.size() != 1)
   {
     throw UsageError("With --shapes one more file is needed, the grid; " +
                      std::to_string(files.size()) + " are given.");
@@ -123,29 +165,34 @@ void takeDesigns(const std::vector<std::string>& files, Arguments& result)
   result.task = Arguments::Task::WriteDesigns;
 }
 
-void takeFiles(const std::vector<std::string>& files, Arguments& result)
+void takeFiles(std::vector<std::string> files, Arguments& result)
 {
-  if (!result.shapes.empty() || !result.table.empty() || !result.output.empty() ||
+  using Task = Arguments::Task;
+  if (result.task == Task::WriteDesigns || !result.shapes.empty() || !result.table.empty() ||
       !result.rotations.empty())
   {
     takeDesigns(files, result);
     return;
   }
-  const bool morphs = result.task == Arguments::Task::Morph;
-  const bool lists = result.task == Arguments::Task::ListSurfaces;
-  const bool reads = morphs && files.size() == 3;
-  if (!reads && files.size() != (lists ? 1u : 2u))
+  const bool hasOutput = result.task != Task::ListSurfaces && result.task != Task::Check;
+  if (!result.output.empty() && hasOutput)
   {
-    throw UsageError(std::string(lists    ? "1 file is needed (grid), "
-                                 : morphs ? "2 or 3 files are needed (grid, output; or grid, "
-                                            "boundary, output), "
-                                          : "2 files are needed (grid, boundary), ") +
+    files.push_back(result.output);
+  }
+  const bool morphs = result.task == Task::Morph;
+  const bool reads = morphs && files.size() == 3;
+  if (!reads && files.size() != (hasOutput ? 2u : 1u))
+  {
+    throw UsageError(std::string(!hasOutput ? "1 file is needed (grid), "
+                                 : morphs   ? "2 or 3 files are needed (grid, output; or grid, "
+                                              "boundary, output), "
+                                            : "2 files are needed (grid, output), ") +
                      std::to_string(files.size()) +
                      (files.size() == 1 ? " is given." : " are given."));
   }
   result.grid = files.front();
   result.boundary = reads ? files[1] : "";
-  result.output = lists ? "" : files.back();
+  result.output = hasOutput ? files.back() : "";
   if (morphs)
   {
     checkMotion(result);
@@ -211,8 +258,9 @@ std::vector<Option> optionsOf(Arguments& result)
       "the weights, comma-separated values: a column for each shape, named as its file without "
       "extension,\nand a line for each design",
       "Files and tasks", text(result.table) },
-    { "--output", "<folder>",
-      "of design_0000.vtu and so on, and quality.csv; a run that was stopped continues there",
+    { "--output", "<file or folder>",
+      "the output, in place of the last file; of designs a folder, in which a run that was stopped "
+      "continues",
       "Files and tasks", text(result.output) },
     { "--as-rotation", "<shape>",
       "the weight of this shape is the factor of its angle; may be repeated", "Files and tasks",
@@ -306,20 +354,83 @@ std::string wrapped(const std::string& text)
   return result + line + "\n";
 }
 
-std::string helpOf(const std::vector<Option>& options)
+/// `command`: null for all of them.
+std::string helpOf(const std::vector<Option>& options, const Command* command)
 {
-  std::string result = Usage, group;
+  std::ostringstream text;
+  if (command)
+  {
+    text << "Usage: morph-mesh " << command->name << " " << command->usage << "\n"
+         << wrapped(command->what) << "\n";
+    std::istringstream examples(command->examples);
+    for (std::string line; std::getline(examples, line);)
+    {
+      text << "  morph-mesh " << line << "\n";
+    }
+  }
+  else
+  {
+    text << "Usage: morph-mesh <command> [options] <files>\n\n";
+    for (const Command& one : Commands)
+    {
+      text << "  " << one.name << std::string(10 - std::string(one.name).size(), ' ') << one.what
+           << "\n";
+    }
+    text << "\nmorph-mesh <command> --help has the files, options and examples of one. Without a "
+            "command it is move.\n\n"
+         << About << Formats;
+  }
+  std::string group;
   for (const Option& option : options)
   {
+    if (command && command->groups && option.group != command->groups)
+    {
+      continue;
+    }
     if (option.group != group)
     {
       group = option.group;
-      result += "\n" + group + ":\n";
+      text << "\n" << group << ":\n";
     }
-    result += "  " + option.name + (option.value.empty() ? "" : " ") + option.value + "\n" +
-              wrapped(option.help);
+    text << "  " << option.name << (option.value.empty() ? "" : " ") << option.value << "\n"
+         << wrapped(option.help);
   }
-  return result + ExitStatus;
+  text << ExitStatus;
+  return text.str();
+}
+
+/// How many letters have to be changed, added or left out.
+std::size_t distance(const std::string& a, const std::string& b)
+{
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), 0);
+  for (std::size_t i = 0; i < a.size(); ++i)
+  {
+    std::size_t diagonal = row[0];
+    row[0] = i + 1;
+    for (std::size_t j = 0; j < b.size(); ++j)
+    {
+      const std::size_t changed = diagonal + (a[i] != b[j]);
+      diagonal = row[j + 1];
+      row[j + 1] = std::min({ changed, row[j] + 1, row[j + 1] + 1 });
+    }
+  }
+  return row.back();
+}
+
+/// The full name of an option of one letter.
+std::string longName(const std::string& name)
+{
+  const std::pair<const char*, const char*> letters[] = { { "-h", "--help" }, { "-V", "--version" },
+    { "-o", "--output" }, { "-q", "--quiet" } };
+  for (const auto& [letter, full] : letters)
+  {
+    if (name == letter)
+    {
+      return full;
+    }
+  }
+  return name;
 }
 
 /// Takes `argument` as option, with its value from `next` where it has one.
@@ -327,12 +438,16 @@ template <typename Next>
 void takeOption(const std::vector<Option>& options, const std::string& argument, Next next)
 {
   const std::size_t equals = argument.find('=');
-  const std::string name = argument.substr(0, equals);
+  const std::string name = longName(argument.substr(0, equals));
   const auto option = std::find_if(
     options.begin(), options.end(), [&](const Option& one) { return one.name == name; });
   if (option == options.end())
   {
-    throw UsageError("There is no option " + name + ".");
+    const auto near = std::min_element(options.begin(), options.end(),
+      [&](const Option& a, const Option& b)
+      { return distance(name, a.name) < distance(name, b.name); });
+    throw UsageError("There is no option " + name + "." +
+                     (distance(name, near->name) > 3 ? "" : " Did you mean " + near->name + "?"));
   }
   // A flag of the table may be --certify=off.
   option->take(equals != std::string::npos ? argument.substr(equals + 1)
@@ -348,7 +463,13 @@ Arguments parseArguments(int argc, char* argv[])
   std::vector<std::string> files;
   bool onlyFiles = false;
   bool isAfterShapes = false; // the option with more than one value
-  for (int i = 1; i < argc; ++i)
+  const Command* command = nullptr;
+  for (const Command& one : Commands)
+  {
+    command = argc > 1 && argv[1] == std::string(one.name) ? &one : command;
+  }
+  result.task = command ? command->task : result.task;
+  for (int i = command ? 2 : 1; i < argc; ++i)
   {
     const std::string argument = argv[i];
     if (onlyFiles || argument[0] != '-')
@@ -374,9 +495,13 @@ Arguments parseArguments(int argc, char* argv[])
     }
     if (result.task == Arguments::Task::ShowHelp || result.task == Arguments::Task::ShowVersion)
     {
-      result.help = helpOf(options);
+      result.help = helpOf(options, command);
       return result;
     }
+  }
+  if (command && command->name == std::string("fit") && result.target.empty())
+  {
+    throw UsageError("fit needs --target.");
   }
   takeFiles(files, result);
   return result;

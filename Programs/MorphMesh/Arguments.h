@@ -18,6 +18,8 @@ struct Arguments
     ExtractBoundary,
     ListSurfaces,
     WriteDesigns,
+    Check,
+    Repair,
     ShowHelp,
     ShowVersion
   };

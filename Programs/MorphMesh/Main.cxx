@@ -75,6 +75,12 @@ void configure(Morphing& morphing, const Arguments& arguments)
   if (isMade)
   {
     morphing.mesh->SetValidity(vtkMorphAlgorithm::VALIDITY_REPORT);
+    if (arguments.task == Arguments::Task::Repair) // a motion of zero
+    {
+      morphing.mesh->SetValidity(vtkMorphAlgorithm::VALIDITY_REPAIR_ALL);
+      morphing.mesh->SetMovingToEverything();
+      morphing.mesh->SetDisplacementToVector();
+    }
     morphing.mesh->SetNumberOfThreads(arguments.threads);
     given.apply({ morphing.mesh, morphing.method }, "with " + arguments.method());
     return;
@@ -104,6 +110,18 @@ void setBoundary(Morphing& morphing, vtkUnstructuredGrid* grid, const Arguments&
   {
     readMotion(morphing.mesh, arguments);
   }
+}
+
+/// Prints the quality of a grid.
+int check(const Arguments& arguments)
+{
+  const vtkSmartPointer<vtkScaledJacobian> measured = measure(readGrid(arguments.grid), arguments);
+  if (!arguments.quiet)
+  {
+    printQuality(measured);
+  }
+  const bool isValid = measured->GetInvertedCells() + measured->GetDegenerateCells() == 0;
+  return arguments.requireValid && !isValid ? 3 : 0;
 }
 
 /// "out.vtu" and 3: "out-3.vtu".
@@ -231,6 +249,9 @@ int run(int argc, char* argv[])
     case Arguments::Task::ListSurfaces:
       printSurfaces(readGrid(arguments.grid), arguments.grid, arguments.threads);
       return 0;
+    case Arguments::Task::Check:
+      return check(arguments);
+    case Arguments::Task::Repair:
     case Arguments::Task::Morph:
       break;
   }
@@ -252,7 +273,12 @@ int main(int argc, char* argv[])
   installConsole();
   try
   {
-    return run(argc, argv);
+    const int status = run(argc, argv);
+    if (!std::cout.flush())
+    {
+      throw Failure("Cannot write to the standard output.");
+    }
+    return status;
   }
   catch (const UsageError& error)
   {

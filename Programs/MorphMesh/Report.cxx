@@ -19,17 +19,21 @@ namespace morph_mesh
 {
 namespace
 {
-template <typename Value>
-void row(const char* what, Value before, Value after)
+/// A line of the table, with a value in each column.
+template <typename... Values>
+void row(const std::string& what, const Values&... values)
 {
-  std::cout << std::left << std::setw(24) << what << std::right << std::setw(12) << before
-            << std::setw(12) << after << "\n";
+  std::cout << std::left << std::setw(24) << what << std::right;
+  ((std::cout << std::setw(12) << values), ...);
+  std::cout << "\n";
 }
 
-/// A row for the worst value, the cells beyond the limit and the worst cell of each criterion.
-void printCriteria(vtkFieldData* before, vtkFieldData* after)
+/// A row for the worst value, the cells beyond the limit and the worst cell of each criterion, with
+/// a column for each of the data.
+template <typename... Data>
+void printCriteria(vtkFieldData* first, Data*... others)
 {
-  auto* names = vtkStringArray::SafeDownCast(before->GetAbstractArray("Criterion"));
+  auto* names = vtkStringArray::SafeDownCast(first->GetAbstractArray("Criterion"));
   for (vtkIdType i = 0; names && i < names->GetNumberOfValues(); ++i)
   {
     const auto number = [i](vtkFieldData* data, const char* column)
@@ -37,13 +41,12 @@ void printCriteria(vtkFieldData* before, vtkFieldData* after)
     const auto whole = [&](vtkFieldData* data, const char* column)
     { return static_cast<vtkIdType>(number(data, column)); };
     std::ostringstream limit;
-    limit << "cells beyond " << number(before, "CriterionLimit");
-    row(names->GetValue(i).c_str(), number(before, "CriterionWorst"),
-      number(after, "CriterionWorst"));
-    row(("  " + limit.str()).c_str(), whole(before, "CriterionCellsBeyond"),
-      whole(after, "CriterionCellsBeyond"));
+    limit << "  cells beyond " << number(first, "CriterionLimit");
+    row(names->GetValue(i), number(first, "CriterionWorst"), number(others, "CriterionWorst")...);
     row(
-      "  worst cell", whole(before, "CriterionWorstCellId"), whole(after, "CriterionWorstCellId"));
+      limit.str(), whole(first, "CriterionCellsBeyond"), whole(others, "CriterionCellsBeyond")...);
+    row("  worst cell", whole(first, "CriterionWorstCellId"),
+      whole(others, "CriterionWorstCellId")...);
   }
 }
 }
@@ -61,6 +64,19 @@ vtkSmartPointer<vtkScaledJacobian> measure(vtkUnstructuredGrid* grid, const Argu
     std::cerr << "morph-mesh: warning: " << warning << "\n";
   }
   return filter;
+}
+
+void printQuality(vtkScaledJacobian* measured)
+{
+  vtkUnstructuredGrid* grid = measured->GetOutput();
+  std::cout << grid->GetNumberOfPoints() << " nodes, " << grid->GetNumberOfCells() << " cells\n"
+            << std::fixed << std::setprecision(4);
+  row("minimum scaled Jacobian", measured->GetMinScaledJacobian());
+  row("mean scaled Jacobian", measured->GetMeanScaledJacobian());
+  row("inverted cells", measured->GetInvertedCells());
+  row("collapsed cells", measured->GetDegenerateCells());
+  row("worst cell", measured->GetWorstCellId());
+  printCriteria(grid->GetFieldData());
 }
 
 void printReport(vtkScaledJacobian* before, vtkMorphAlgorithm* morph, vtkScaledJacobian* after)

@@ -14,6 +14,9 @@ namespace morph_mesh
 /// Measures a mesh, also by the criteria of the command line. Throws Failure.
 vtkSmartPointer<vtkScaledJacobian> measure(vtkUnstructuredGrid* grid, const Arguments& arguments);
 
+/// Prints the mesh's size and its quality, to standard output.
+void printQuality(vtkScaledJacobian* measured);
+
 /// Prints the mesh's size, its quality before and after, and the time taken, to standard output.
 /// `after`: null without criteria.
 void printReport(vtkScaledJacobian* before, vtkMorphAlgorithm* morph, vtkScaledJacobian* after);

@@ -21,6 +21,9 @@ METHODS = ("femwarp", "inversion-free", "lbwarp", "radial-basis", "simplex-linea
            "simplex-natural-neighbor", "smoothing", "weighted-residual")
 
 
+COMPLETION = Path(__file__).resolve().parents[2] / "Programs/MorphMesh/morph-mesh.bash"
+
+
 def run(*arguments):
     return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True,
                           timeout=120)
@@ -522,6 +525,57 @@ class MorphMesh(unittest.TestCase):
         result = run("--version")
         self.assertRegex(result.stdout, r"^morph-mesh \d+\.\d+\.\d+, VTK \d+\.\d+\.\d+\n$")
         self.assertEqual(result.returncode, 0)
+
+    def test_commands(self):
+        surfaces = run("list", BORE)
+        self.assertEqual(surfaces.stdout, run("--list-surfaces", BORE).stdout)
+        moved = self.folder / "moved.vtu"
+        options = ("--move", "Surface 1", "--translate", "z,0.1", BORE)
+        first = run("move", *options, "-o", moved, "-q")
+        self.assertEqual((first.returncode, first.stdout), (0, ""), first.stderr)
+        flat = self.folder / "flat.vtu"
+        self.assertEqual(run(*options, flat, "--quiet").returncode, 0)
+        self.assertEqual(moved.read_bytes(), flat.read_bytes())
+        shown = run("check", "--criteria", "Skewness", moved)
+        self.assertEqual(shown.returncode, 0)
+        self.assertIn("minimum scaled Jacobian", shown.stdout)
+        self.assertIn("Skewness", shown.stdout)
+        self.fails(2, "fit needs --target", "fit", *options, flat)
+        for command in ("move", "fit", "list", "check", "repair", "extract", "shapes"):
+            page = run(command, "-h").stdout
+            self.assertEqual(page.count("\n  morph-mesh " + command), 3, page)
+            self.assertIn(f"  {command} ", run("--help").stdout)
+        self.assertEqual(run("-V").stdout, run("--version").stdout)
+        self.fails(2, "Did you mean --translate?", *options, flat, "--tranlsate", "1,0,0")
+
+    def test_repair_and_check(self):
+        """A cell that was inverted before is mended; the boundary stays."""
+        tangled, mended = self.folder / "tangled.vtu", self.folder / "mended.vtu"
+        self.assertEqual(self.morph("--scale-factor", "-5", "--validity=none").returncode, 0)
+        os.rename(self.folder / "out.vtu", tangled)
+        self.assertEqual(run("check", "--require-valid", tangled).returncode, 3)
+        result = run("repair", tangled, mended)
+        self.assertIn(result.returncode, (0, 1), result.stderr)
+        if result.returncode == 0:
+            self.assertEqual(run("check", "--require-valid", mended).returncode, 0)
+
+    def test_bash_completes_commands_options_and_surfaces(self):
+        def completed(*words):
+            script = (f"source {COMPLETION}; COMP_WORDS=({PROGRAM} {' '.join(words)});"
+                      f"COMP_CWORD={len(words)}; _morph_mesh;"
+                      "printf '%s\\n' \"${COMPREPLY[@]}\"")
+            return subprocess.run(["bash", "-c", script], capture_output=True, text=True,
+                                  check=True).stdout.splitlines()
+
+        self.assertIn("--translate", completed("--tr"))
+        self.assertIn("Surface\\ 1", completed(str(BORE), "--move", "Surf"))
+
+    def test_output_that_cannot_be_written_fails(self):
+        with open("/dev/full", "w", encoding="utf-8") as full:
+            result = subprocess.run([PROGRAM, "list", BORE], stdout=full, check=False,
+                                    stderr=subprocess.PIPE, text=True)
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("Cannot write to the standard output", result.stderr)
 
     def test_wrong_command_lines(self):
         files = (BORE, self.boundary, self.folder / "out.vtu")
