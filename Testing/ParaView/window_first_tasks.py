@@ -278,7 +278,7 @@ class FirstTasks(unittest.TestCase):
         self.events.filter("BoundaryDisplacement")
         self.events.choose("Moving", "Surfaces")
         self.events.tick("Surfaces/ArraySelectionWidget", names.index(TOP))
-        self.events.choose("Motion", "Vector")
+        self.events.choose("Displacement", "Vector")
         self.events.type("Vector/DoubleLineEdit2", "1.5")
         self.events.choose("Surroundings", "Stay")
         self.events.apply()
