@@ -335,7 +335,7 @@ def boundary_rows():
         default = "Transform" if changes else "Vector"
         yield (f"BoundaryDisplacement.{name}/canister_hex", "solved", morph_mesh(
             "canister_hex", changes, "BoundaryDisplacement",
-            **motion({**chosen, **options}, "Motion", default)))
+            **motion({**chosen, **options}, "Displacement", default)))
         yield (f"MorphMesh.{name}/canister_hex", "solved", morph_mesh(
             "canister_hex", changes, Surfaces=["Surface 0"],
             **motion(options, "Displacement", default)))
