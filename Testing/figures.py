@@ -80,6 +80,15 @@ class Figures(unittest.TestCase):
                          lambda cells: (cells[0].replace(",", ""), cells[1]),
                          [("nodes", "dragged"), "picture_ms", "floor_ms"])
 
+    def test_sentences(self):
+        text = " ".join((ROOT / "Documentation/WhatToExpect.md").read_text("utf-8").split())
+        whole, = rows(RESULTS / "whole-program.csv")
+        self.assertIn(f"{int(whole['nodes']):,} nodes in {whole['seconds']} s, with "
+                      f"{whole['memory_GB']} GB", text)
+        shown = rows(RESULTS / "surface.csv")[0]
+        self.assertIn(f"takes {shown['mesh_picture_ms']} ms to the picture, and "
+                      f"{shown['surface_picture_ms']} ms with the surface", text)
+
     def test_direct_solvers(self):
         self.check_table(table("WhatToExpect.md", "## Against direct solvers"),
                          rows(RESULTS / "direct-solvers.csv"), lambda cells: (cells[0],),
