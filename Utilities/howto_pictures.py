@@ -49,6 +49,18 @@ def search_path(plugin):
     return f"{build}/bin:{build}/installed-examples:{os.environ['PATH']}"
 
 
+def expected(page):
+    """What a page says that its code prints: patterns, in which ... stands for any characters."""
+    text = re.sub(r"^```.*?^```", "", (PAGES / f"{page}.md").read_text(encoding="utf-8"),
+                  flags=re.MULTILINE | re.DOTALL)
+    found = []
+    for sentence in re.findall(r"\bprints\b.*?(?:\.(?=\s+[A-Z]|\n\n)|:\n\n(?: {4}[^\n]*\n)+)", text,
+                               re.DOTALL):
+        found += re.findall(r"^ {4}(.*)$|`([^`]+)`", sentence, re.MULTILINE)
+    return [re.escape(" ".join((one or other).split())).replace(r"\.\.\.", r"\S*")
+            for one, other in found]
+
+
 def missing(page, plugin):
     """What a page needs that is not there."""
     linked = Path(plugin).read_bytes() if page in NEEDS else b""
@@ -58,7 +70,8 @@ def missing(page, plugin):
 
 
 def run(page, plugin, images):
-    """Runs a page, and copies its picture to the folder `images`; returns its path."""
+    """Runs a page, and copies its picture to the folder `images`; returns its path, and what the
+    page has printed."""
     text = (PAGES / f"{page}.md").read_text(encoding="utf-8")
     picture = re.search(r"images/howto-([\w-]+\.png)", text).group(1)
     # This may be a process of MPI itself, run by root, on a machine of few processors.
@@ -74,6 +87,7 @@ def run(page, plugin, images):
         for example in EXAMPLES.iterdir():
             if example.is_dir():
                 shutil.copytree(example, Path(name) / example.name)
+        printed = ""
         for language, code in blocks(page, plugin):
             command = commands[language]
             (Path(name) / command[-1]).write_text(code, encoding="utf-8")
@@ -81,7 +95,8 @@ def run(page, plugin, images):
                                   capture_output=True, text=True, check=False)
             if done.returncode != 0:
                 raise RuntimeError(f"{page}.md: {done.stdout}{done.stderr}")
-        return shutil.copy(Path(name) / picture, Path(images) / f"howto-{picture}")
+            printed += done.stdout
+        return shutil.copy(Path(name) / picture, Path(images) / f"howto-{picture}"), printed
 
 
 def main():
@@ -98,7 +113,7 @@ def main():
         if missing(page, plugin):
             print(f"{page}.md left out, there is no {', '.join(missing(page, plugin))}")
             continue
-        print(run(page, plugin, options.folder))
+        print(run(page, plugin, options.folder)[0])
 
 
 if __name__ == "__main__":

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The picture of Documentation/InversionFree.md: the small canister's hexahedra where FEMWARP
-inverts cells, by FEMWARP and by the inversion-free morph. It shows two layers at two thirds of its
-height, and above them the inverted cells alone.
+"""The picture of the inversion-free method: the small canister's hexahedra where FEMWARP inverts
+cells, by FEMWARP and by the inversion-free morph. It shows two layers at two thirds of its height,
+and above them the inverted cells alone.
 
     xvfb-run -a -s "-noreset -screen 0 1280x1024x24" \\
         pvpython --force-offscreen-rendering Utilities/inversion_free_picture.py

@@ -4,8 +4,8 @@
 
     pvpython Utilities/inversion_free_table.py    # a minute on an idle machine; needs no Gmsh
 
-Prints the table of Documentation/InversionFree.md: minimum scaled Jacobian, and in parentheses the
-number of inverted cells where there are any."""
+Prints a table: minimum scaled Jacobian, and in parentheses the number of inverted cells where there
+are any."""
 
 import argparse
 import sys

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Experiments that support the reading of the study's results in Documentation/Study/Details.md.
-Each takes a few seconds.
+"""Experiments that support the reading of the study's results in Documentation/Study.md. Each
+takes a few seconds.
 
     pvpython Utilities/study_checks.py
 

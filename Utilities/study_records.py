@@ -122,14 +122,6 @@ class Records:
             steps.append(found[len(steps)])
         return steps
 
-    def commits(self):
-        """{commit: how many series come from it}."""
-        found = {}
-        for steps in self._steps.values():
-            one = next(iter(steps.values())).commit
-            found[one] = found.get(one, 0) + 1
-        return found
-
     def series(self):
         """All series with a result."""
         return list(self._steps)

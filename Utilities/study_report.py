@@ -32,7 +32,7 @@ def write_report(folder, records, steps):
     """Writes Results.md and figure-*.png to the folder, as far as there are results.
 
     `steps`: to S_F."""
-    text = ["# Results", "", LEGEND, "", _commits(records), ""]
+    text = ["# Results", "", LEGEND, ""]
     for surfaces in sorted({series.surfaces for series in records.series()}):
         found = [series for series in records.series() if series.surfaces == surfaces]
         for model in [name for name in Models.NAMES + Models.VARIANTS
@@ -51,13 +51,6 @@ def write_report(folder, records, steps):
     if (folder / "scaling.csv").is_file():
         text += _scaling_table(folder, scaling.read(folder / "scaling.csv"))
     (folder / "Results.md").write_text("\n".join(text) + "\n", encoding="utf-8")
-
-
-def _commits(records):
-    """Which sources the series come from."""
-    named = [f"{commit or 'not recorded'} ({count})"
-             for commit, count in sorted(records.commits().items())]
-    return f"Commits of the sources, and how many series come from each: {', '.join(named)}."
 
 
 def _table(head, rows):
@@ -206,7 +199,7 @@ def _klu_table(found):
         rows.append(row)
     return (["## The paper's direct solver", "",
              "Seconds for the systems of FEMWARP and LBWARP: ours, and KLU's analysis, "
-             "factorisation and solution (1 thread) in the same run; and that over our step, "
+             "factorization and solution (1 thread) in the same run; and that over our step, "
              "evaluate alone. KLU has a limit of seconds a system; where it did not end, the row "
              "has the limit.", ""]
             + _table(["mesh", "method", "prepare", "evaluate", "KLU", "KLU, solution alone",

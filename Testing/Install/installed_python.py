@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The Python module as it is installed: the example of Documentation/Install.md, numpy there and
+"""The Python module as it is installed: the example of HowTo/PlainVtk.md, numpy there and
 back, docstrings, and what the module refuses.
 
 Run: PYTHONPATH=<prefix>/lib/python3/dist-packages:<VTK's> MESHMORPHING_MODELS=<small models>
@@ -42,7 +42,7 @@ def boundary_of(grid):
 
 class InstalledPython(unittest.TestCase):
     def test_documented_example(self):
-        page = (ROOT / "Documentation/Install.md").read_text(encoding="utf-8")
+        page = (ROOT / "Documentation/HowTo/PlainVtk.md").read_text(encoding="utf-8")
         blocks = re.findall(r"^```py\n(.*?)^```", page, re.MULTILINE | re.DOTALL)
         self.assertEqual(len(blocks), 1)
         lines = [line for line in blocks[0].splitlines()

@@ -1,0 +1,106 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""The figures in the tables of the pages are those of the data files, rounded as the pages show."""
+import csv
+import re
+import unittest
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+STUDY = ROOT / "Documentation/Study"
+RESULTS = ROOT / "Testing/Benchmark/results"
+
+
+def rows(path):
+    with open(path, encoding="utf-8") as file:
+        return list(csv.DictReader(file))
+
+
+def table(page, heading):
+    """The rows of the table below the heading, or of the table whose first cell it is."""
+    text = (ROOT / "Documentation" / page).read_text(encoding="utf-8")
+    start = text.index(heading)
+    lines = re.search(r"(?:^\|.*\n)+", text[start:], re.MULTILINE)[0].splitlines()
+    return [[cell.strip() for cell in line.strip("|").split("|")] for line in lines[2:]]
+
+
+class Figures(unittest.TestCase):
+    def check(self, shown, value):
+        """What a page shows, such as 0.30 s or 1,320, is this value."""
+        number = re.search(r"-?[\d,]+(?:\.(\d+))?", shown)
+        self.assertIsNotNone(number, shown)
+        digits = len(number[1] or "")
+        self.assertLessEqual(abs(float(number[0].replace(",", "")) - float(value)),
+                             0.5001 * 10 ** -digits, f"the page has {shown}, the data {value}")
+
+    def check_table(self, found, data, key, columns):
+        """Each row of the page has its row in the data; columns: of the data, one a column."""
+        self.assertGreater(len(found), 1)
+        for cells in found:
+            row = next(r for r in data if key(cells) == tuple(r[k] for k in columns[0]))
+            for shown, column in zip(cells[len(cells) - len(columns) + 1:], columns[1:]):
+                if shown or row[column] not in ("", "0.00"):
+                    with self.subTest(row=cells[0], column=column):
+                        self.check(shown, row[column])
+
+    def test_minima_by_method(self):
+        data = {(r["model"], r["kind"], r["method"]): r for r in rows(STUDY / "results.csv")
+                if (r["surfaces"], r["stepping"], float(r["t"])) == ("exact", "absolute", 1)}
+        for kind, heading in (("hex", "| hexahedra"), ("tet", "| tetrahedra")):
+            found = table("WhichMethod.md", heading)
+            self.assertEqual(len(found), 8)
+            for method, *cells in found:
+                for model, shown in zip(("bore", "pipe", "canister", "courier"), cells):
+                    with self.subTest(method=method, model=model, kind=kind):
+                        row = data[model, kind, method]
+                        self.assertEqual(shown[0] == "(", int(row["inverted"]) > 0)
+                        self.check(shown, row["inverted" if shown[0] == "(" else "minimum"])
+
+    def test_seconds_by_method(self):
+        data = {(r["model"], r["kind"], r["method"]): r for r in rows(STUDY / "timing.csv")
+                if r["stepping"] == "absolute"}
+        found = table("WhatToExpect.md", "## By method")
+        self.assertEqual(len(found), 8)
+        for method, *cells in found:
+            for number, (model, kind) in enumerate((("bore", "hex"), ("canister", "hex"),
+                                                    ("courier", "tet"))):
+                row = data[model, kind, method]
+                with self.subTest(method=method, model=model):
+                    self.check(cells[2 * number], row["prepare"])
+                    self.check(cells[2 * number + 1], row["evaluate"])
+
+    def test_seconds_by_size(self):
+        self.check_table(table("WhatToExpect.md", "## By size"), rows(RESULTS / "by-size.csv"),
+                         lambda cells: (cells[0].replace(",", ""), cells[1]),
+                         [("nodes", "method"), "first_step_s", "later_step_s", "memory_GB"])
+
+    def test_dragging(self):
+        self.check_table(table("WhatToExpect.md", "## While dragging"),
+                         rows(RESULTS / "dragging.csv"),
+                         lambda cells: (cells[0].replace(",", ""), cells[1]),
+                         [("nodes", "dragged"), "picture_ms", "floor_ms"])
+
+    def test_sentences(self):
+        text = " ".join((ROOT / "Documentation/WhatToExpect.md").read_text("utf-8").split())
+        whole, = rows(RESULTS / "whole-program.csv")
+        self.assertIn(f"{int(whole['nodes']):,} nodes in {whole['seconds']} s, with "
+                      f"{whole['memory_GB']} GB", text)
+        shown = rows(RESULTS / "surface.csv")[0]
+        self.assertIn(f"takes {shown['mesh_picture_ms']} ms to the picture, and "
+                      f"{shown['surface_picture_ms']} ms with the surface", text)
+
+    def test_direct_solvers(self):
+        self.check_table(table("WhatToExpect.md", "## Against direct solvers"),
+                         rows(RESULTS / "direct-solvers.csv"), lambda cells: (cells[0],),
+                         [("mesh",), "first_step_s", "later_step_s", "CHOLMOD_s",
+                          "CHOLMOD_solution_s", "KLU_s"])
+
+    def test_openfoam(self):
+        self.check_table(table("WhatToExpect.md", "## Beside OpenFOAM"),
+                         rows(RESULTS / "openfoam.csv"), lambda cells: (cells[0],),
+                         [("motion",), "seconds", "non_orthogonality_deg", "skewness",
+                          "wrong_pyramids", "inverted_cells"])
+
+
+if __name__ == "__main__":
+    unittest.main()
