@@ -93,14 +93,14 @@ class MorphShapesTest(unittest.TestCase):
         turned.Region.Origin, turned.Region.Normal = [7.5, 0, 0], [-1, 0, 0]
         turned.Transform.Rotate = [90, 0, 0]
         blend = MorphShapes(Input=self.part, Shapes=[turned], Weights=[0.5],
-                            Motions=["As Rotation"])
+                            Motions=["As rotation"])
         rest = numpy.array(fetched(self.part).Points)
         end = rest[:, 0] == 8
         half = numpy.sqrt(0.5)
         expected = rest[end] @ numpy.array([[1, 0, 0], [0, half, half], [0, -half, half]])
         numpy.testing.assert_allclose(points(blend)[end], expected, atol=1e-5)
         self.assertEqual(blend.SolveCount, 2)
-        blend.Motions = ["As Displacement"]
+        blend.Motions = ["As displacement"]
         lost = numpy.linalg.norm(points(blend)[end][:, 1:], axis=1)
         numpy.testing.assert_allclose(lost, half * numpy.linalg.norm(rest[end][:, 1:], axis=1),
                                       atol=1e-5)
@@ -127,7 +127,7 @@ class MorphShapesTest(unittest.TestCase):
 
     def test_state(self):
         blend = self.blended(Weights=[0.25, 0.75], ShapeNames=["bend", "stretch"],
-                             Motions=["As Displacement", "As Displacement"], Method="LBWARP")
+                             Motions=["As displacement", "As displacement"], Method="LBWARP")
         before = points(blend)
         with tempfile.TemporaryDirectory() as folder:
             path = str(Path(folder, "state.pvsm"))
