@@ -107,7 +107,7 @@ for name in "${systems[@]}"; do
   build=build/portable/$name
   # Headers alone, so that those of this system's C library stay out.
   mkdir -p "$build/include"
-  for header in CGAL boost nanoflann.hpp eigen3/Eigen eigen3/unsupported; do
+  for header in CGAL boost fast_float fmt nanoflann.hpp eigen3/Eigen eigen3/unsupported; do
     ln -sfn "/usr/include/$header" "$build/include/$(basename "$header")"
   done
   cmake -S Testing/Portable -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=None "${cmake[@]}" \
