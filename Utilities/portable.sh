@@ -57,6 +57,7 @@ system() {
       run=(qemu-aarch64) ;;
     emscripten)
       compiler=em++
+      left_out=(Parallel.AThreadTakesAtLeastTheGrain) # there is one thread
       cmake=(-DCMAKE_TOOLCHAIN_FILE=/usr/share/emscripten/cmake/Modules/Platform/Emscripten.cmake)
       flags=(-fexceptions -DCGAL_ALWAYS_ROUND_TO_NEAREST)
       link=(-sALLOW_MEMORY_GROWTH -sTOTAL_STACK=8MB -sWASM_ASYNC_COMPILATION=0 -sNODERAWFS
