@@ -26,6 +26,8 @@ LIBRARIES = {
     "Eigen": r"(unsupported/)?Eigen/",
     "MPI": r"mpi\.h$",
     "ParaView": r"(vtkSM([^P]|P[a-z]|PV)|vtkPV|vtkSI|pq)",
+    "fast_float": r"fast_float/",
+    "fmt": r"fmt/",
     "hypre": r"(HYPRE|_hypre)",
     "nanoflann": r"nanoflann",
     "netCDF": r"netcdf(_mem)?\.h$",

@@ -26,6 +26,7 @@ END
 packages=(
   cmake g++ ninja-build python3-numpy
   paraview paraview-dev python3-paraview libcgal-dev libeigen3-dev libnanoflann-dev
+  libfast-float-dev libfmt-dev
   libutfcpp-dev libopenmpi-dev openmpi-bin libhypre-dev libhdf5-openmpi-dev libhdf5-dev
   libtheora-dev libogg-dev libnetcdf-dev libdouble-conversion-dev libexpat1-dev libfreetype-dev
   libgl2ps-dev libglew-dev libjpeg-dev liblz4-dev liblzma-dev libxml2-dev libpng-dev libtiff-dev

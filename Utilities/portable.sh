@@ -57,6 +57,7 @@ system() {
       run=(qemu-aarch64) ;;
     emscripten)
       compiler=em++
+      left_out=(Parallel.AThreadTakesAtLeastTheGrain) # there is one thread
       cmake=(-DCMAKE_TOOLCHAIN_FILE=/usr/share/emscripten/cmake/Modules/Platform/Emscripten.cmake)
       flags=(-fexceptions -DCGAL_ALWAYS_ROUND_TO_NEAREST)
       link=(-sALLOW_MEMORY_GROWTH -sTOTAL_STACK=8MB -sWASM_ASYNC_COMPILATION=0 -sNODERAWFS
@@ -107,7 +108,7 @@ for name in "${systems[@]}"; do
   build=build/portable/$name
   # Headers alone, so that those of this system's C library stay out.
   mkdir -p "$build/include"
-  for header in CGAL boost nanoflann.hpp eigen3/Eigen eigen3/unsupported; do
+  for header in CGAL boost fast_float fmt nanoflann.hpp eigen3/Eigen eigen3/unsupported; do
     ln -sfn "/usr/include/$header" "$build/include/$(basename "$header")"
   done
   cmake -S Testing/Portable -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=None "${cmake[@]}" \

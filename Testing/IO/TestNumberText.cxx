@@ -47,6 +47,8 @@ TEST(NumberText, ExactNumbersComeBackAndKeepTheManner)
     }
     ASSERT_NE(exactNumber(value, "1.0D+00").find('D'), std::string::npos);
   }
+  const double power = std::ldexp(1., -44); // 5.684341886080801e-14 is nearer, and another number
+  EXPECT_EQ(parseNumber(exactNumber(power, "1e0")).value_or(0), power);
   EXPECT_EQ(exactNumber(0.25, "1.000000"), "0.250000");
   EXPECT_EQ(exactNumber(0.25, "1.000E+00"), "2.500E-01");
 }

@@ -17,7 +17,9 @@ namespace
 {
 constexpr Index Grain = 1024;
 constexpr Index MostBlocks = 32;
-constexpr Index MostEntries = Index(1) << 36; // 800 GB: not even requested
+/// 800 GB are not even requested, and Eigen counts as wide as addresses are.
+constexpr Index MostEntries =
+  std::min<Index>(Index(1) << 36, std::numeric_limits<Eigen::Index>::max());
 
 using PaddedPoints = WeightMatrix::PaddedPoints;
 

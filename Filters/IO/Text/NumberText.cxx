@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Text/NumberText.h"
 
+#include <fast_float/fast_float.h>
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -12,19 +15,14 @@ namespace
 {
 constexpr std::string_view Letters = "eEdDqQ";
 
-std::string text(double value, std::chars_format format, int precision)
+std::string withDecimals(double value, int decimals)
 {
-  std::array<char, 400> buffer;
-  const auto result =
-    std::to_chars(buffer.data(), buffer.data() + buffer.size(), value, format, precision);
-  return result.ec == std::errc() ? std::string(buffer.data(), result.ptr) : std::string();
+  return fmt::format("{:.{}f}", value, decimals);
 }
 
-std::string shortest(double value, std::chars_format format)
+std::string withExponent(double value, int decimals)
 {
-  std::array<char, 400> buffer;
-  const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value, format);
-  return std::string(buffer.data(), result.ptr);
+  return fmt::format("{:.{}e}", value, decimals);
 }
 
 /// The digits between the point and the exponent.
@@ -39,15 +37,25 @@ int decimals(std::string_view number)
   return static_cast<int>(std::min(end, number.size()) - point - 1);
 }
 
-/// With a point, which makes it a real number where that matters.
-std::string withPoint(std::string number)
+/// With a point, which makes it a real number where that matters, and so many digits after it at
+/// least.
+std::string withPoint(std::string number, int digits = 0)
 {
+  const std::size_t end = std::min(number.find('e'), number.size());
+  number.insert(end, static_cast<std::size_t>(std::max(0, digits - decimals(number))), '0');
   if (number.find('.') == std::string::npos)
   {
-    const std::size_t exponent = number.find('e');
-    number.insert(exponent == std::string::npos ? number.size() : exponent, ".");
+    number.insert(end, ".");
   }
   return number;
+}
+
+/// How many digits there are from the first that is not 0 to the last.
+std::size_t significantDigits(std::string_view number)
+{
+  std::string digits(number.substr(0, number.find('e')));
+  digits.erase(std::remove(digits.begin(), digits.end(), '.'), digits.end());
+  return 1 + digits.find_last_of("123456789") - digits.find_first_of("123456789");
 }
 
 /// "-0.5" as "-.5".
@@ -83,7 +91,7 @@ std::optional<std::string> mostPrecise(std::size_t width, Write write)
   for (int precision = std::min<int>(17, static_cast<int>(width)); precision >= 0; --precision)
   {
     std::string number = write(precision);
-    if (!number.empty() && number.size() <= width)
+    if (number.size() <= width)
     {
       return number;
     }
@@ -138,21 +146,10 @@ std::optional<double> parseNumber(std::string_view number)
       return std::nullopt; // "nan", "inf" and hexadecimal numbers too
     }
   }
-  double value = 0;
-  const auto result = std::from_chars(plain.data(), plain.data() + length, value);
-  if (result.ptr != plain.data() + length)
-  {
-    return std::nullopt;
-  }
-  if (result.ec == std::errc::result_out_of_range)
-  {
-    // Too small or too large: an exponent tells.
-    const std::string_view whole(plain.data(), length);
-    const bool isTiny = whole.find("e-") != std::string_view::npos;
-    return isTiny ? std::optional<double>(0) : std::nullopt;
-  }
-  return result.ec == std::errc() && std::isfinite(value) ? std::optional<double>(value)
-                                                          : std::nullopt;
+  double value = HUGE_VAL;
+  const char* const end = plain.data() + length;
+  const bool isNumber = fast_float::from_chars(plain.data(), end, value).ptr == end;
+  return isNumber && std::isfinite(value) ? std::optional<double>(value) : std::nullopt;
 }
 
 std::optional<long long> parseInteger(std::string_view number)
@@ -170,30 +167,29 @@ std::optional<long long> parseInteger(std::string_view number)
 
 std::string exactNumber(double value, std::string_view model)
 {
-  const std::size_t letter = model.find_first_of(Letters);
   const int asked = std::min(decimals(model), 17);
+  const std::size_t letter = model.find_first_of(Letters);
+  std::string number = fmt::format("{}", value); // the shortest that gives back the value
+  auto digits = static_cast<int>(significantDigits(number)) - 1;
   if (letter == std::string_view::npos)
   {
-    std::string number = shortest(value, std::chars_format::fixed);
-    if (decimals(number) < asked)
+    if (const std::size_t exponent = number.find('e'); exponent != std::string::npos)
     {
-      number = text(value, std::chars_format::fixed, asked);
+      number = withDecimals(value, std::max(0, digits - std::stoi(number.substr(exponent + 1))));
     }
+    number = withPoint(number, asked);
     if (number.size() <= 24)
     {
-      return withPoint(number);
+      return number;
     }
   }
-  std::string number = shortest(value, std::chars_format::scientific);
-  if (letter != std::string_view::npos && decimals(number) < asked)
+  // Beside a power of two, the nearest number of so many digits may give back another one.
+  do
   {
-    number = text(value, std::chars_format::scientific, std::min(asked, 16));
-  }
-  number = withPoint(number);
-  if (letter != std::string_view::npos)
-  {
-    number[number.find('e')] = model[letter];
-  }
+    number = withExponent(value, digits++);
+  } while (digits <= 17 && parseNumber(number) != value);
+  number = withPoint(number, std::min(asked, 16));
+  number[number.find('e')] = letter == std::string_view::npos ? 'e' : model[letter];
   return number;
 }
 
@@ -202,15 +198,15 @@ std::optional<std::string> fittingNumber(double value, std::size_t width, bool s
   const auto fixed = mostPrecise(width,
     [&](int precision)
     {
-      std::string number = withPoint(text(value, std::chars_format::fixed, precision));
+      std::string number = withPoint(withDecimals(value, precision));
       if (number.size() > width)
       {
         dropLeadingZero(number);
       }
       return number;
     });
-  const auto scientific = mostPrecise(width, [&](int precision)
-    { return shortened(text(value, std::chars_format::scientific, precision), shortExponent); });
+  const auto scientific = mostPrecise(
+    width, [&](int precision) { return shortened(withExponent(value, precision), shortExponent); });
   const auto error = [&](const std::optional<std::string>& number)
   { return number ? std::abs(parseNumber(*number).value_or(HUGE_VAL) - value) : HUGE_VAL; };
   return error(fixed) <= error(scientific) ? fixed : scientific;
