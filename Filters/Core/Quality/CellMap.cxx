@@ -680,10 +680,8 @@ CellMap::Magnitudes CellMap::magnitudes(const Vector* x) const
   return result;
 }
 
-double CellMap::determinant(
-  const Derivatives& derivatives, int halvings, BernsteinHalving::Coefficients& c) const
+void CellMap::areas(const Derivatives& derivatives, Vector* area) const
 {
-  Vector area[BernsteinHalving::MostTerms];
   std::fill(area, area + this->areaTerms_, Vector::Zero());
   const std::uint8_t* term = this->areaTerm_.data();
   for (int i = 0; i < this->derivative_[0].terms.size(); ++i)
@@ -693,8 +691,15 @@ double CellMap::determinant(
       area[*term++] += derivatives.c[0][i].cross(derivatives.c[1][j]);
     }
   }
+}
+
+double CellMap::determinant(
+  const Derivatives& derivatives, int halvings, BernsteinHalving::Coefficients& c) const
+{
+  Vector area[BernsteinHalving::MostTerms];
+  this->areas(derivatives, area);
   std::fill(c.begin(), c.begin() + this->volumeTerms_, 0);
-  term = this->volumeTerm_.data();
+  const std::uint8_t* term = this->volumeTerm_.data();
   for (int i = 0; i < this->areaTerms_; ++i)
   {
     for (int j = 0; j < this->derivative_[2].terms.size(); ++j)
@@ -727,6 +732,50 @@ double CellMap::determinant(
   // 1.01 covers terms of higher order; the last term covers coordinates that underflow in the
   // scaling.
   return 1.01 * 6 * (roundings * Unit * exact + perturbation) + std::ldexp(1., -400);
+}
+
+void CellMap::gradient(const Derivatives& derivatives,
+  const BernsteinHalving::Coefficients& weights, Vector* gradient) const
+{
+  // The passes of determinant() and derivatives(), backwards.
+  Vector area[BernsteinHalving::MostTerms], byArea[BernsteinHalving::MostTerms];
+  this->areas(derivatives, area);
+  std::fill(byArea, byArea + this->areaTerms_, Vector::Zero());
+  Derivatives slope;
+  std::fill(&slope.c[0][0], &slope.c[0][0] + 3 * MostTerms, Vector::Zero());
+  const std::uint8_t* term = this->volumeTerm_.data();
+  for (int i = 0; i < this->areaTerms_; ++i)
+  {
+    for (int j = 0; j < this->derivative_[2].terms.size(); ++j, ++term)
+    {
+      const double weight = weights[*term] * this->inverseMultinomial_[*term];
+      byArea[i] += weight * derivatives.c[2][j];
+      slope.c[2][j] += weight * area[i];
+    }
+  }
+  term = this->areaTerm_.data();
+  for (int i = 0; i < this->derivative_[0].terms.size(); ++i)
+  {
+    for (int j = 0; j < this->derivative_[1].terms.size(); ++j, ++term)
+    {
+      slope.c[0][i] += derivatives.c[1][j].cross(byArea[*term]);
+      slope.c[1][j] += byArea[*term].cross(derivatives.c[0][i]);
+    }
+  }
+  std::fill(gradient, gradient + this->nodes_, Vector::Zero());
+  for (int j = 0; j < 3; ++j)
+  {
+    const Derivative& derivative = this->derivative_[j];
+    for (int k = 0; k < derivative.terms.size(); ++k)
+    {
+      for (int i = derivative.first[k]; i < derivative.first[k + 1]; ++i)
+      {
+        const Weight& weight = derivative.weights[i];
+        gradient[weight.node] += weight.value * slope.c[j][k];
+        gradient[weight.reference] -= weight.value * slope.c[j][k];
+      }
+    }
+  }
 }
 
 /// Calls sum(j, term, factor) for the terms of the three derivatives.

@@ -153,6 +153,9 @@ public:
   /// `halvings` successive subdivisions.
   double determinant(
     const Derivatives& derivatives, int halvings, BernsteinHalving::Coefficients& c) const;
+  /// Computes how the sum of the determinant's coefficients times `weights` changes with the nodes.
+  void gradient(const Derivatives& derivatives, const BernsteinHalving::Coefficients& weights,
+    Vector* gradient) const;
 
   /// Returns the derivatives at a parametric point as the columns of a matrix. For pyramids, the
   /// derivatives along r and s lack their factor 1 - t.
@@ -191,6 +194,9 @@ private:
   void evaluate(const double (&at)[3], Sum&& sum) const;
   void setDerivative(int coordinate, const Rows& rows);
   void setProduct();
+  /// Computes the coefficients of the cross product of the first two derivatives, times their
+  /// multinomial coefficients.
+  void areas(const Derivatives& derivatives, Vector* area) const;
 
   const BernsteinDomain* domain_;
   bool hasApex_;
