@@ -41,9 +41,9 @@ public:
   /// too.
   TargetMatrices targets(const Aim& aim, Monitor& monitor) const;
 
-  /// Untangles `points`, #nodes x 3, by moving the nodes within 2 rings of the cells `seeds`, then
-  /// within three times as many of those that are left, until these are most of the mesh. Then all
-  /// nodes move. `nearOnly`: whether it ends before, if there has been a smaller part; `points`
+  /// Untangles `points`, #nodes x 3, by moving the nodes within 2 rings of the cells `seeds`. Next
+  /// move those within three times as many of what is left, until these are most of the mesh. Then
+  /// all nodes move. `nearOnly`: whether it ends before, if there has been a smaller part; `points`
   /// then stay. Returns whether all tetrahedra that count are positive. `effort`: added to. Cost:
   /// that of the energy on a mesh of the parts alone, and passes over the nodes.
   bool run(std::vector<Index> seeds, const Aim& aim, bool nearOnly, Points& points,
