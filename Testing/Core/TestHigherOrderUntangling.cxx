@@ -129,6 +129,32 @@ TEST(HigherOrderUntangling, TwistedAndBentBricksAndCylindersComeOutValidWhereThe
   std::cout << "Helped " << helped << "\n";
 }
 
+TEST(HigherOrderUntangling, CellsWithoutMovedPrescribedNodesComeBackBesideThose)
+{
+  for (const Brick& brick : bricks())
+  {
+    SCOPED_TRACE(brick.name);
+    const Mesh& mesh = brick.mesh;
+    const morph::NodePartition partition = motions::outerPartition(mesh);
+    Points points = mesh.points;
+    std::srand(meshes::seed());
+    for (std::size_t i = 0; i < partition.higherOrderNodes.size(); i += 2)
+    {
+      points.row(partition.higherOrderNodes[i]) += 0.45 * Eigen::RowVector3d::Random();
+    }
+    for (std::size_t i = 0; i < partition.prescribed.size(); i += 3)
+    {
+      points.row(partition.prescribed[i]) += 0.35 * Eigen::RowVector3d::Random();
+    }
+    const Index before = invertedOf(mesh, points);
+    meshes::ThreadedMonitor monitor;
+    const morph::HigherOrderUntangling result =
+      morph::untangleHigherOrder(mesh, partition, signsOf(mesh), points, monitor);
+    EXPECT_LT(3 * static_cast<Index>(result.left.size()), 2 * before);
+    EXPECT_EQ(invertedOf(mesh, points), static_cast<Index>(result.left.size()));
+  }
+}
+
 TEST(HigherOrderUntangling, CellsThatStayAreNamedAndValidMeshesStay)
 {
   Mesh mesh = meshes::quadraticHexes(2, 2, 2, false);

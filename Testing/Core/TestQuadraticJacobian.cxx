@@ -13,8 +13,10 @@
 #include <Eigen/LU>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace
 {
@@ -199,6 +201,37 @@ TEST(QuadraticJacobian, CoefficientsAreWithinTheirBound)
       EXPECT_LE(std::abs(found / unit - expected), error / unit) << nameOf(type.type);
       const double* largest = derivatives.largest;
       EXPECT_LT(error, 1e-11 * largest[0] * largest[1] * largest[2]) << nameOf(type.type);
+    }
+  }
+}
+
+TEST(QuadraticJacobian, GradientsOfCoefficientsAgreeWithDifferences)
+{
+  std::mt19937 generator(meshes::seed());
+  std::uniform_real_distribution<double> one(-1, 1);
+  for (const quadratic::Type& type : quadratic::Types)
+  {
+    const CellMap& map = *CellMap::find(type.type);
+    Cell cell = quadratic::random(type.type, type.amount, generator);
+    BernsteinHalving::Coefficients weights{};
+    std::generate(weights.begin(), weights.begin() + map.terms(), [&] { return one(generator); });
+    const auto weighted = [&](const Cell& x)
+    {
+      BernsteinHalving::Coefficients c{};
+      map.determinant(map.derivatives(x.data()), 0, c);
+      return std::inner_product(c.begin(), c.begin() + map.terms(), weights.begin(), 0.);
+    };
+    Vector gradient[CellMap::MostNodes];
+    map.gradient(map.derivatives(cell.data()), weights, gradient);
+    for (std::size_t i = 0; i < cell.size(); ++i)
+    {
+      for (int j = 0; j < 3; ++j)
+      {
+        // A coordinate alone is in one row of the matrix, so the determinant is affine in it.
+        Cell moved = cell;
+        moved[i][j] += 1;
+        EXPECT_NEAR(gradient[i][j], weighted(moved) - weighted(cell), 1e-10) << int(type.type);
+      }
     }
   }
 }

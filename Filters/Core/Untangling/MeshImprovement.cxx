@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Untangling/MeshImprovement.h"
 
-#include "Energies/MeshEnergy.h"
+#include "Boundary/FoldedFaces.h"
 #include "Mesh/CellEdges.h"
 #include "Mesh/KRing.h"
 #include "Support/Error.h"
@@ -19,8 +19,7 @@ namespace morph
 namespace
 {
 constexpr int RaisedRings = 10; // of cells around repaired ones, whose nodes raise the minimum
-// Rings of cells around inverted ones that move first: few in a repair.
-constexpr int RingsOfRepair = 2, RingsOfMorph = 5;
+constexpr int Rounds = 3;       // that leave out what stays inverted at fixed nodes
 
 void add(const MinimizerEffort& own, MinimizerEffort& effort)
 {
@@ -74,21 +73,57 @@ double MeshImprovement::goal(const MovableQuality& quality, const Points& points
   return spoilt ? bounds.movable : std::min(bounds.fixed, bounds.movable);
 }
 
-std::vector<Index> MeshImprovement::untangleWhole(
-  const Aim& aim, Points& points, MinimizerEffort& effort, Monitor& monitor) const
+std::vector<Index> MeshImprovement::untangle(const Aim& aim, const std::vector<Index>& inverted,
+  const Points& start, const Keep& keepBetter, MinimizerEffort& effort, Monitor& monitor) const
 {
-  MeshEnergy energy(this->mesh_, this->partition_.free, this->communicator_);
-  FoldoverContinuation stages(energy, this->options_.preconditioner);
-  const Untangling::Result result = Untangling(this->mesh_, this->orientation_, this->partition_,
-    this->boundary_, this->geometry_, this->communicator_)
-                                      .run(
-                                        [&] {
-                                          return untanglingTargets(this->mesh_, this->orientation_,
-                                            aim, monitor, this->communicator_);
-                                        },
-                                        energy, stages, points, monitor);
-  add(stages.effort(), effort);
-  return result.onFolds;
+  const Untangling untangling(this->mesh_, this->orientation_, this->partition_.free,
+    this->options_.preconditioner, this->communicator_);
+  std::vector<char> isFixed(this->mesh_.numberOfNodes(), 0);
+  for (const Index node : this->partition_.prescribed)
+  {
+    isFixed[node] = 1;
+  }
+  const auto run = [&](const std::vector<Index>& seeds, const std::vector<std::uint32_t>& included,
+                     bool nearOnly, Points& points)
+  {
+    const bool done =
+      untangling.run(seeds, { aim.guide, aim.target, included }, nearOnly, points, effort, monitor);
+    keepBetter(points);
+    return done;
+  };
+  const std::vector<Index> folded =
+    this->options_.nearOnly
+      ? std::vector<Index>()
+      : foldedFaces(this->mesh_.points, start, this->boundary_, this->geometry_, isFixed);
+  const bool isFolded = !this->communicator_.all(folded.empty());
+  Points trial = start;
+  bool done = !isFolded && run(inverted, aim.included, this->options_.nearOnly, trial);
+  if (done || this->options_.nearOnly)
+  {
+    return {};
+  }
+  TargetMatrices targets = untangling.targets(aim, monitor);
+  excludeOnFoldedFaces(this->mesh_, this->boundary_, folded, targets);
+  for (int round = isFolded ? 0 : 1; round <= Rounds && !done; ++round)
+  {
+    // Behind a fold some tetrahedra cannot be positive.
+    if (round > 0 && this->communicator_.all(
+                       excludeInvertedAtFixedNodes(this->mesh_, isFixed, trial, targets) == 0))
+    {
+      break;
+    }
+    done = run(tangledCells(this->mesh_, trial, targets), targets.included, false, trial);
+  }
+  targets.included = aim.included;
+  run(tangledCells(this->mesh_, trial, targets), aim.included, true, trial);
+  std::vector<Index> cells;
+  for (const Index f : folded)
+  {
+    cells.push_back(this->boundary_.cells[f]);
+  }
+  std::sort(cells.begin(), cells.end());
+  cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+  return cells;
 }
 
 MeshImprovement::Outcome MeshImprovement::run(const Points& guide, TargetConstruction target,
@@ -100,36 +135,29 @@ MeshImprovement::Outcome MeshImprovement::run(const Points& guide, TargetConstru
   const std::vector<Index> inverted = notPositive(best.scaledJacobian);
   const bool wasValid = best.inverted == 0;
   Outcome outcome;
-  const auto keepBetter = [&](Points& trial)
-  { return quality.keepBetter(std::move(trial), points, best, monitor); };
-  if (!wasValid)
+  const Keep keepBetter = [&](const Points& trial)
+  { return quality.keepBetter(trial, points, best, monitor); };
+  std::vector<std::uint32_t> included(this->mesh_.numberOfCells(), ~0u);
+  for (const Index c : this->hopeless_)
   {
-    ProgressRange near(monitor, 0.1, 0.3);
-    Points trial = points;
-    if (untangleNear(this->mesh_, this->orientation_, this->partition_.free, inverted,
-          isRepair ? RingsOfRepair : RingsOfMorph, { guide, target, this->hopeless_ }, trial,
-          outcome.effort, near, this->communicator_))
-    {
-      keepBetter(trial);
-    }
+    included[c] = 0;
   }
   const Points start = points;
+  std::vector<Index> onFolds;
   for (const TargetConstruction aim : { target, TargetConstruction::IdealSkew })
   {
     // Of a valid undeformed mesh the shapes are worth aiming for.
     const bool isWorthwhile = aim == target || !(this->options_.minimumAtRest > 0);
-    if (best.inverted > 0 && isWorthwhile && !this->options_.nearOnly)
+    if (best.inverted > 0 && isWorthwhile)
     {
-      ProgressRange whole(monitor, 0.3, 0.6);
-      Points trial = start;
-      std::vector<Index> onFolds =
-        this->untangleWhole({ guide, aim, this->hopeless_ }, trial, outcome.effort, whole);
-      if (keepBetter(trial))
-      {
-        outcome.onFolds = std::move(onFolds);
-      }
+      ProgressRange untangling(monitor, 0.1, 0.6);
+      onFolds = this->untangle(
+        { guide, aim, included }, inverted, start, keepBetter, outcome.effort, untangling);
     }
   }
+  const std::vector<Index> left = notPositive(best.scaledJacobian);
+  std::set_intersection(
+    onFolds.begin(), onFolds.end(), left.begin(), left.end(), std::back_inserter(outcome.onFolds));
   outcome.untangled = best.inverted == 0;
   const bool raises =
     wasValid ? !isRepair && this->options_.raisesValid : !isRepair || outcome.untangled;

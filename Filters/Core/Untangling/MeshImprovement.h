@@ -7,9 +7,10 @@
 #include "Morpher/Morpher.h"
 #include "Quality/MovableQuality.h"
 #include "Support/Communicator.h"
-#include "Untangling/NearUntangling.h"
+#include "Untangling/Untangling.h"
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace morph
@@ -64,9 +65,14 @@ private:
   /// Returns the minimum scaled Jacobian beyond which raising it is of no use, as the boundary
   /// holds that of the whole mesh there; infinite where it does not.
   double goal(const MovableQuality& quality, const Points& points) const;
-  /// Untangles by the energy of the whole mesh. Returns the inverted cells on folds.
-  std::vector<Index> untangleWhole(
-    const Aim& aim, Points& points, MinimizerEffort& effort, Monitor& monitor) const;
+  using Keep = std::function<bool(const Points& trial)>;
+  /// Untangles from `start`, whose inverted cells are `inverted`. At a folded face of the boundary
+  /// (see foldedFaces()) either its cell or the neighbors are inverted. The mesh is then first
+  /// untangled without the tetrahedra on folded faces, and next without those that stay inverted at
+  /// two or more fixed nodes; from there with all, near the inverted ones. Keeps what is better.
+  /// Returns the cells on folds.
+  std::vector<Index> untangle(const Aim& aim, const std::vector<Index>& inverted,
+    const Points& start, const Keep& keepBetter, MinimizerEffort& effort, Monitor& monitor) const;
   const Mesh& mesh_;
   const std::vector<std::int8_t>& orientation_;
   const NodePartition& partition_;

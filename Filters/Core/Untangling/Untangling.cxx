@@ -1,171 +1,95 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Untangling/Untangling.h"
 
-#include "Boundary/FoldedFaces.h"
+#include "Energies/MeshEnergy.h"
 #include "Mesh/KRing.h"
-#include "Quality/ScaledJacobian.h"
-#include "Support/ProgressRange.h"
+#include "Mesh/SubMesh.h"
+#include "Untangling/FoldoverContinuation.h"
 
-#include <algorithm>
-#include <tuple>
+#include <memory>
 
 namespace morph
 {
 namespace
 {
-constexpr int Rounds = 3;
-constexpr int Rings = 5; // of cells
-// Maximum numbers of stages with folds. The whole mesh needs few: then only single places are
-// tangled. Cells near folded faces become valid soon or never.
-constexpr int StagesOfAll = 12, StagesNear = 60, StagesWithFolds = 12;
-constexpr int StagesAfter = 1; // of a mesh that is untangled but for its folds
-}
+constexpr int FirstRings = 2; // of cells around inverted ones, whose nodes move first
+constexpr int Widening = 3;   // of the rings around what has stayed inverted
 
-Untangling::Untangling(const Mesh& mesh, const std::vector<std::int8_t>& orientation,
-  const NodePartition& partition, const BoundaryFaces& faces, const Classification& geometry,
-  const Communicator& communicator)
-  : mesh_(mesh)
-  , orientation_(orientation)
-  , faces_(faces)
-  , geometry_(geometry)
-  , communicator_(communicator)
-  , free_(partition.free)
-  , isFixed_(mesh.numberOfNodes(), 0)
+TargetMatrices includedTargets(const Mesh& mesh, const std::vector<std::int8_t>& orientation,
+  const Aim& aim, Monitor& monitor, const Communicator& communicator)
 {
-  for (Index node : partition.prescribed)
+  TargetMatrices targets = targetMatrices(
+    mesh, orientation, aim.guide, aim.target, CellWeights::Equal, monitor, communicator);
+  for (Index c = 0; c < mesh.numberOfCells(); ++c)
   {
-    this->isFixed_[node] = 1;
+    targets.included[c] &= aim.included[c];
   }
+  return targets;
+}
 }
 
-bool Untangling::InvertedCounts::operator<(const InvertedCounts& other) const
+TargetMatrices Untangling::targets(const Aim& aim, Monitor& monitor) const
 {
-  return std::tie(this->others, this->folds) < std::tie(other.others, other.folds);
+  return includedTargets(this->mesh_, this->orientation_, aim, monitor, this->communicator_);
 }
 
-std::vector<Index> Untangling::cellsBehind(const std::vector<Index>& folded) const
+bool Untangling::run(std::vector<Index> seeds, const Aim& aim, bool nearOnly, Points& points,
+  MinimizerEffort& effort, Monitor& monitor) const
 {
-  std::vector<Index> cells(folded.size());
-  std::transform(
-    folded.begin(), folded.end(), cells.begin(), [&](Index f) { return this->faces_.cells[f]; });
-  std::sort(cells.begin(), cells.end());
-  cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
-  return cells;
-}
-
-Untangling::InvertedCounts Untangling::countInverted(
-  const std::vector<Index>& cellsBehind, const Points& points, Monitor& monitor) const
-{
-  InvertedCounts result;
-  // By corners: nodes between them follow last.
-  for (Index c :
-    invertedCells(measureCorners(this->mesh_, points, this->orientation_, {}, monitor)))
+  const Adjacency around = nodeToCells(this->mesh_);
+  const auto count = [&](const std::vector<Index>& ids)
+  { return this->communicator_.sum(static_cast<double>(ids.size())); };
+  Points trial = points;
+  double before = -1;
+  for (int rings = FirstRings;; rings *= Widening)
   {
-    if (std::binary_search(cellsBehind.begin(), cellsBehind.end(), c))
+    KRing ring = kRingOfCells(this->mesh_, around, this->free_, seeds, rings, this->communicator_);
+    const double nodes = count(ring.nodes);
+    // A part that has stopped to grow is a body of its own.
+    const bool isWhole = 2 * nodes > count(this->free_) || nodes == before;
+    before = nodes;
+    if (isWhole && nearOnly && rings > FirstRings)
     {
-      result.onFolds.push_back(c);
+      return false;
     }
-    else
+    if (isWhole)
     {
-      ++result.others;
-    }
-  }
-  result.others = this->communicator_.sum(result.others);
-  result.folds = this->communicator_.sum(static_cast<Index>(result.onFolds.size()));
-  return result;
-}
-
-bool Untangling::untanglePatch(const std::vector<Index>& cells, int rings,
-  const TargetMatrices& targets, FoldoverContinuation& stages, int most, Points& points,
-  Monitor& monitor) const
-{
-  MeshEnergy energy(this->mesh_,
-    kRingOfCells(
-      this->mesh_, nodeToCells(this->mesh_), this->free_, cells, rings, this->communicator_)
-      .nodes,
-    this->communicator_);
-  energy.setTargets(targets);
-  FoldoverContinuation near(energy);
-  const bool done = near.untangle(points, monitor, most);
-  stages.include(near.effort());
-  return done;
-}
-
-bool Untangling::untangleAwayFromFolds(TargetMatrices& targets, MeshEnergy& energy,
-  FoldoverContinuation& stages, Points& points, Monitor& monitor) const
-{
-  for (int round = 0; round <= Rounds; ++round)
-  {
-    const double part = 1. / (Rounds + 1);
-    ProgressRange own(monitor, part * round, part * (round + 0.5));
-    ProgressRange whole(monitor, part * (round + 0.5), part * (round + 1));
-    const std::vector<Index> tangled = tangledCells(this->mesh_, points, targets);
-    if (round > 0)
-    {
-      const Index excluded =
-        excludeInvertedAtFixedNodes(this->mesh_, this->isFixed_, points, targets);
-      if (this->communicator_.all(excluded == 0))
+      ring.nodes = this->free_;
+      ring.cells.clear();
+      for (Index c = 0; c < this->mesh_.numberOfCells(); ++c)
       {
-        return false;
+        if (numberOfCorners(cellShape(this->mesh_, c)->shape) > 0)
+        {
+          ring.cells.push_back(c);
+        }
       }
     }
-    if (this->untanglePatch(tangled, Rings, targets, stages, StagesNear, points, own))
+    const SubMesh part(this->mesh_, ring.cells);
+    const std::unique_ptr<Communicator> processes = this->communicator_.part(part.nodes);
+    const Points guide = aim.guide(part.nodes, allColumns);
+    const TargetMatrices targets = includedTargets(part.mesh, part.take(this->orientation_),
+      { guide, aim.target, part.take(aim.included) }, monitor, *processes);
+    MeshEnergy energy(part.mesh, part.numbersOf(ring.nodes), *processes);
+    energy.setTargets(targets);
+    Points local = trial(part.nodes, allColumns);
+    const bool isSame = part.mesh.numberOfNodes() == this->mesh_.numberOfNodes();
+    const bool done = minimiseFoldover(
+      energy, isWhole && isSame ? this->preconditioner_ : nullptr, local, effort, monitor);
+    const std::vector<Index> left = tangledCells(part.mesh, local, targets);
+    if (done || isWhole || count(left) <= count(seeds))
     {
-      energy.setTargets(targets);
-      return stages.untangle(points, whole, StagesAfter);
-    }
-  }
-  return false;
-}
-
-Untangling::Result Untangling::run(const std::function<TargetMatrices()>& targets,
-  MeshEnergy& energy, FoldoverContinuation& stages, Points& points, Monitor& monitor) const
-{
-  const std::vector<Index> folded = foldedFaces(this->mesh_.points, points, this->faces_,
-                             this->geometry_, this->isFixed_),
-                           cellsBehind = this->cellsBehind(folded);
-  Points besides;
-  ProgressRange first(monitor, 0, 0.5), second(monitor, 0.5, 0.8), third(monitor, 0.8, 0.9),
-    last(monitor, 0.9, 1);
-  if (this->communicator_.all(folded.empty()))
-  {
-    energy.setTargets(targets());
-    if (stages.untangle(points, first))
-    {
-      return { true, {} };
-    }
-    besides = points;
-    TargetMatrices others = targets();
-    this->untangleAwayFromFolds(others, energy, stages, besides, second);
-  }
-  else
-  {
-    besides = points;
-    TargetMatrices others = targets();
-    excludeOnFoldedFaces(this->mesh_, this->faces_, folded, others);
-    energy.setTargets(others);
-    if (!stages.untangle(besides, first, StagesOfAll))
-    {
-      this->untangleAwayFromFolds(others, energy, stages, besides, second);
-    }
-    points = besides;
-    others = targets();
-    if (this->untanglePatch(cellsBehind, Rings, others, stages, StagesWithFolds, points, third))
-    {
-      energy.setTargets(others);
-      if (stages.untangle(points, last))
+      trial(part.nodes, allColumns) = local;
+      seeds.clear();
+      for (const Index c : left)
       {
-        return { true, {} };
+        seeds.push_back(part.cells[c]);
       }
     }
+    if (done || isWhole)
+    {
+      points.swap(trial);
+      return done;
+    }
   }
-  InvertedCounts all = this->countInverted(cellsBehind, points, monitor);
-  const InvertedCounts fewer = this->countInverted(cellsBehind, besides, monitor);
-  if (!(all < fewer))
-  {
-    points = besides;
-    all = fewer;
-  }
-  return { false, all.onFolds };
 }
 }

@@ -5,8 +5,8 @@
 #include "Mesh/NodePartition.h"
 #include "Support/Monitor.h"
 
-#include <cstddef>
 #include <functional>
+#include <vector>
 
 namespace morph
 {
@@ -21,9 +21,10 @@ void Adapt(morph::Morpher& method);
 
 /// Repairs `moved`, #nodes x 3, in rounds: each puts the centres back to the means of their nodes
 /// and repairs the pieces. Keeps the mesh with the fewest bad polyhedra and other cells. Returns
-/// whether none are left. `reference`: see morph::Morpher::setReference(). `bad`: their number.
+/// whether none are left. It ends where the boundary itself inverts a piece of each that is left.
+/// `reference`: see morph::Morpher::setReference(). `bad`: returns their ids.
 bool Run(const morph::Mesh& mesh, const morph::Points& reference,
   const morph::NodePartition& partition,
-  const std::function<std::size_t(const morph::Points& points)>& bad, morph::Points& moved,
-  morph::Monitor& monitor);
+  const std::function<std::vector<morph::Index>(const morph::Points& points)>& bad,
+  morph::Points& moved, morph::Monitor& monitor);
 }

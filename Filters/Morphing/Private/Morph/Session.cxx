@@ -263,7 +263,7 @@ StepResult Session::MorphStep(const morph::Mesh& from, const BoundaryMatch::Resu
   {
     auto repairing = part(0.7, 0.75);
     const auto bad = [&](const morph::Points& points)
-    { return morph::invertedCells(from, points, this->Kept.Orientation(), repairing).size(); };
+    { return morph::invertedCells(from, points, this->Kept.Orientation(), repairing); };
     PolyhedralRepair::Run(from, this->Kept.Mesh().points, partition, bad, result.Moved, repairing);
   }
   if (validity.IsInversionFree)

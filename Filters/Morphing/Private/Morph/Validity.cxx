@@ -183,13 +183,12 @@ Validity::Outcome Validity::OfSubSteps(
 
 bool Validity::Repair(morph::Points& moved, morph::Monitor& monitor) const
 {
-  const auto bad = [&](const morph::Points& points)
-  { return this->Inverted(points, monitor).size(); };
+  const auto bad = [&](const morph::Points& points) { return this->Inverted(points, monitor); };
   if (morph::hasPolyhedra(this->Mesh))
   {
     return PolyhedralRepair::Run(this->Mesh, this->Reference, this->Partition, bad, moved, monitor);
   }
-  std::size_t least = bad(moved);
+  std::size_t least = bad(moved).size();
   // Near the inverted cells at first: the linear methods of the whole mesh take far longer. Cells
   // that were inverted before are not seen there: they would be repaired, too, or nothing would.
   const bool leavesSome = !this->Before.cells().empty();
@@ -209,7 +208,7 @@ bool Validity::Repair(morph::Points& moved, morph::Monitor& monitor) const
       seesOthers ? others : this->Mesh, seesOthers ? ofOthers : this->Partition, first);
     morph::Points repaired = moved;
     repair.repair(repaired, second);
-    const std::size_t left = bad(repaired);
+    const std::size_t left = bad(repaired).size();
     if (left < least)
     {
       moved.swap(repaired);
