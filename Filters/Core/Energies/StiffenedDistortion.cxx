@@ -154,8 +154,8 @@ struct StiffenedDistortion::BatchGradient
       {
         for (int i = 0; i < 3; ++i)
         {
-          to[a][i] += 0.25 * (CentreSigns[a][0] * force[0][i] + CentreSigns[a][1] * force[1][i] +
-                               CentreSigns[a][2] * force[2][i]);
+          to[a][i] += 0.25 * (CenterSigns[a][0] * force[0][i] + CenterSigns[a][1] * force[1][i] +
+                               CenterSigns[a][2] * force[2][i]);
         }
       }
     }
@@ -247,7 +247,7 @@ struct StiffenedDistortion::BatchHessian
         x, nullptr, samples.bounds[samples.corners.count], samples.ideal, samples.floor);
       SimdMatrix block[3][3];
       CosineModel(s, samples.level).blocks(block);
-      addByCentre(block, sum);
+      addByCenter(block, sum);
     }
   }
 

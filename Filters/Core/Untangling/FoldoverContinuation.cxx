@@ -27,7 +27,7 @@ double regularisation(double least)
 }
 }
 
-bool minimiseFoldover(MeshEnergy& energy, const NodePreconditioner* preconditioner, Points& points,
+bool minimizeFoldover(MeshEnergy& energy, const NodePreconditioner* preconditioner, Points& points,
   MinimizerEffort& effort, Monitor& monitor)
 {
   const auto evaluate = [&]

@@ -22,7 +22,7 @@ namespace
 /// What each coefficient is to reach, in units of six times the volume of the straight cell. Half
 /// of it is enough. From 0.03 to 0.1 it leaves as few cells within 6 %, from 0.2 on more.
 constexpr double Margin = 0.1;
-constexpr int Steps = 100; // of the minimiser; three times as many leave as many cells
+constexpr int Steps = 100; // of the minimizer; three times as many leave as many cells
 
 using Vector = Eigen::Vector3d;
 

@@ -17,7 +17,7 @@ struct HigherOrderUntangling
 
 /// Untangles quadratic cells that are inverted although the cells through their corners have a
 /// positive volume. The mid-side, face and body nodes of such cells move if they are not
-/// prescribed; all corners stay. The nodes minimise what the Bernstein coefficients of the Jacobian
+/// prescribed; all corners stay. The nodes minimize what the Bernstein coefficients of the Jacobian
 /// determinants (CellMap.h) of all quadratic cells around them lack of a margin, by its square. A
 /// determinant is affine in a single node, so that penalty is convex in each node, and positive
 /// coefficients certify a cell. The search ends once all are. If no fewer cells are inverted then,

@@ -73,7 +73,7 @@ bool Untangling::run(std::vector<Index> seeds, const Aim& aim, bool nearOnly, Po
     energy.setTargets(targets);
     Points local = trial(part.nodes, allColumns);
     const bool isSame = part.mesh.numberOfNodes() == this->mesh_.numberOfNodes();
-    const bool done = minimiseFoldover(
+    const bool done = minimizeFoldover(
       energy, isWhole && isSame ? this->preconditioner_ : nullptr, local, effort, monitor);
     const std::vector<Index> left = tangledCells(part.mesh, local, targets);
     if (done || isWhole || count(left) <= count(seeds))
