@@ -9,10 +9,11 @@ namespace morph
 {
 namespace
 {
-constexpr int StepsOfStage = 4; // more are wasted, as the next regularisation changes the mesh
-constexpr int MostStages = 60;
-constexpr int Patience = 4;   // stages without progress before untangling gives up
-constexpr double Gain = 0.05; // increase of the minimum determinant that is progress
+// Within the ranges given, the sum of inverted cells over 109 hard meshes changes by less than 1 %.
+constexpr int StepsOfStage = 4; // 3 leave 3 % more cells; 6 leave 2 % more, and take longer
+constexpr int MostStages = 60;  // to 90
+constexpr int Patience = 4;     // stages without progress before it gives up: 4 to 8
+constexpr double Gain = 0.05;   // of the minimum determinant, which is progress: 0.05 to 0.1
 
 double chi(double D, double epsilon)
 {
