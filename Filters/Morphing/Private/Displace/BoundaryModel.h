@@ -3,7 +3,7 @@
 
 #include "Mesh/Topology.h"
 #include "Private/Data/Geometry.h"
-#include "Private/Displace/NamedSets.h"
+#include "Private/Data/NamedSets.h"
 
 #include <vtkSmartPointer.h>
 #include <vtkType.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Private/Displace/NamedSets.h"
+#include "Private/Data/NamedSets.h"
 
 #include "Mesh/CellShape.h"
 
