@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Fits the weights of three shapes of the bore to a target volume and a target position of its
-hole, with SciPy's optimiser and the adjoint of Morph Shapes.
+hole, with SciPy's optimizer and the adjoint of Morph Shapes.
 
 The shapes widen the hole, shift it, and stretch the part. The objective is the sum of squares of
 two relative errors: of the part's volume, and of the mean position of the hole's nodes. Its

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Morphs the bore, as hexahedra and as tetrahedra, from its initial to its final shape with each
-method, the way a script in an optimisation loop would: one filter, a new boundary each step, the
+method, the way a script in an optimization loop would: one filter, a new boundary each step, the
 undeformed mesh prepared once.
 
 Run by Utilities/demo.sh, which builds the plugin first, or by hand (a picture needs a display):
@@ -168,7 +168,7 @@ def print_rows(model, all_series):
 
 
 def rear_half(mesh):
-    """Ids of the cells whose centre has y > 0."""
+    """Ids of the cells whose center has y > 0."""
     return np.flatnonzero(mesh.points[mesh.cells].mean(axis=1)[:, 1] > 0)
 
 

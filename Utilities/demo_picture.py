@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The demo's picture: meshes cut open and side by side at one scale, coloured by scaled Jacobian in
+"""The demo's picture: meshes cut open and side by side at one scale, colored by scaled Jacobian in
 the colors that the plugin gives to arrays of that name."""
 
 from dataclasses import dataclass

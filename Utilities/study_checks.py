@@ -82,7 +82,7 @@ def edge(mesh):
 def check_steppings():
     """LBWARP should end in relative steps where it ends in absolute ones; the others should not.
 
-    LBWARP's weights are the mean where a node is the centre of its neighbors, and affinely so
+    LBWARP's weights are the mean where a node is the center of its neighbors, and affinely so
     everywhere. The morph keeps means of neighbors, so the next relative step finds the same
     weights."""
     print("Relative against absolute steps: small bore, hexahedra, S_F\n"
@@ -124,9 +124,9 @@ def check_canister():
         if not len(bad):
             print(f"  {method}: no inverted cell up to t = {(last - 1) / STEPS:.2f}")
             continue
-        centres = mesh.points[bad].mean(axis=1)
+        centers = mesh.points[bad].mean(axis=1)
         inner = int((radius[bad].min(axis=1) < rings[0] + 1e-6).sum())
-        angle = np.degrees(np.abs(np.arctan2(centres[:, 1], centres[:, 0]))).max()
+        angle = np.degrees(np.abs(np.arctan2(centers[:, 1], centers[:, 0]))).max()
         print(f"  {method}: first at t = {number / STEPS:.2f}, {len(bad)} cells, of which {inner} "
               f"at the hole, within {angle:.0f} degrees of the way it moves")
 

@@ -14,7 +14,7 @@ import study_timing as timing  # noqa: E402
 from study_records import Series, last_valid  # noqa: E402
 from study_series import METHODS  # noqa: E402
 
-#: Told apart by colour and by marker.
+#: Told apart by color and by marker.
 STYLES = dict(zip(METHODS, (("#7f7f7f", "v"), ("#e69f00", "s"), ("#0072b2", "o"), ("#56b4e9", "D"),
                             ("#009e73", "^"), ("#cc79a7", "x"), ("#000000", "P"),
                             ("#d55e00", "*"))))

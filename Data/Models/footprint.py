@@ -64,7 +64,7 @@ def locate(points, shape, tolerance):
         value = points[:, column]
         near = np.argmin(np.abs(value[:, None] - line), axis=1)
         value = np.where(np.abs(value - line[near]) <= tolerance, line[near], value)
-        # Beyond the grid extrapolated, to be recognised as outside.
+        # Beyond the grid extrapolated, to be recognized as outside.
         cell = np.clip(np.searchsorted(line, value, side="right") - 1, 0, len(line) - 2)
         places[:, 1 + column] = cell + (value - line[cell]) / (line[cell + 1] - line[cell])
 

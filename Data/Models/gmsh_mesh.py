@@ -16,8 +16,8 @@ _TRIANGLE, _QUADRILATERAL, _TETRAHEDRON = 2, 3, 4
 
 def tetrahedra(build, size):
     """A ModelMesh of tetrahedra with edges near `size` in the solid that `build(gmsh.model.occ)`
-    makes: frontal triangles, Delaunay tetrahedra, optimised. The same call gives the same mesh.
-    Raises RuntimeError if Gmsh fails. Initialises and finalises Gmsh. Cost: about 3 s for 100,000
+    makes: frontal triangles, Delaunay tetrahedra, optimized. The same call gives the same mesh.
+    Raises RuntimeError if Gmsh fails. Initializes and finalises Gmsh. Cost: about 3 s for 100,000
     tetrahedra."""
     return _run(build, size, {"Mesh.Optimize": 1, "Mesh.OptimizeThreshold": 0.5}, _read_tetrahedra)
 

@@ -94,7 +94,7 @@ class Model(ABC):
     @abstractmethod
     def tet_mesh(self, small=False):
         """A ClassifiedMesh of tetrahedra at S_0, by Gmsh: at the paper's size, or small. The same
-        call on the same machine gives the same mesh. Initialises and finalises Gmsh: anything else
+        call on the same machine gives the same mesh. Initializes and finalises Gmsh: anything else
         the process had in it is lost. Raises RuntimeError if Gmsh fails."""
 
     # The same for all.

@@ -9,7 +9,7 @@ and cells, 11,520 and 8,532, are those of a structured mesh with 36 cells around
 and 79 along; cells of one size, 2 pi / 36, then give the lengths at S_0. The final shape is chosen:
 the paper tells which parameters grow and which shrink, not how much.
 
-The centre line starts at the origin, runs along z, turns towards x and ends along x. The circles
+The center line starts at the origin, runs along z, turns towards x and ends along x. The circles
 where straights and elbow join are curves of the model: the surfaces touch there without an edge.
 
     station 0 -- FIRST straight -- 1 -- ELBOW -- 2 -- SECOND straight -- 3
@@ -32,7 +32,7 @@ class PipeShape(Shape):
 
     outer_radius: float
     thickness: float
-    elbow_radius: float  #: of the centre line
+    elbow_radius: float  #: of the center line
     straight: float  #: length of each of the two straights
 
     def __post_init__(self):
@@ -97,7 +97,7 @@ def _center_line(station, shape):
 
 
 def _unbent(points, shape):
-    """station, u, y of points: u towards the elbow's centre and y across the centre line."""
+    """station, u, y of points: u towards the elbow's center and y across the center line."""
     x, y, z = columns(points)
     straight, elbow = shape.straight, shape.elbow_radius
     along, aside = z - straight, elbow - x
@@ -111,8 +111,8 @@ def _unbent(points, shape):
 
 
 class Pipe(Model):
-    """A place is (station, depth, angle): in [0, 3] along the centre line, in [0, 1] from the inner
-    wall to the outer, radians about the centre line from the elbow's inside."""
+    """A place is (station, depth, angle): in [0, 3] along the center line, in [0, 1] from the inner
+    wall to the outer, radians about the center line from the elbow's inside."""
 
     name = "pipe"
     initial, final = S_0, S_F
@@ -165,7 +165,7 @@ class Pipe(Model):
         return normal
 
     def volume(self, shape):
-        # Pappus: the section's centroid is on the centre line.
+        # Pappus: the section's centroid is on the center line.
         length = 2 * shape.straight + np.pi / 2 * shape.elbow_radius
         return np.pi * (shape.outer_radius**2 - shape.inner_radius**2) * length
 

@@ -46,15 +46,15 @@ AffineParts::AffineParts(const DistributedMesh& mesh, const std::vector<Index>& 
   }
   mesh.ranks().sum(this->count_.data(), this->count_.size());
   sumAll(mesh.ranks(), sums);
-  this->centre_ = sums;
+  this->center_ = sums;
   for (std::size_t c = 0; c < sums.size(); ++c)
   {
-    this->centre_[c] /= std::max(1., this->count_[c]);
+    this->center_[c] /= std::max(1., this->count_[c]);
   }
   std::vector<Eigen::Matrix3d> spread(sums.size(), Eigen::Matrix3d::Zero());
   for (const Coupled& pair : this->coupled_)
   {
-    const Eigen::RowVector3d arm = rest.row(prescribed[pair.node]) - this->centre_[pair.component];
+    const Eigen::RowVector3d arm = rest.row(prescribed[pair.node]) - this->center_[pair.component];
     spread[pair.component] += arm.transpose() * arm;
   }
   sumAll(mesh.ranks(), spread);
@@ -68,7 +68,7 @@ AffineParts::AffineParts(const DistributedMesh& mesh, const std::vector<Index>& 
   const auto add = [&](Index node, Index c, Index first)
   {
     Eigen::Map<Eigen::RowVector3d> most(largest.data() + 6 * c + first);
-    most = most.cwiseMax(directions[c].leverages(rest.row(node) - this->centre_[c]));
+    most = most.cwiseMax(directions[c].leverages(rest.row(node) - this->center_[c]));
   };
   for (const Coupled& pair : this->coupled_)
   {
@@ -231,14 +231,14 @@ std::vector<AffineFit> AffineParts::fits(
   for (const Coupled& pair : this->coupled_)
   {
     stretch[pair.component] +=
-      (rest.row(this->prescribed_[pair.node]) - this->centre_[pair.component]).transpose() *
+      (rest.row(this->prescribed_[pair.node]) - this->center_[pair.component]).transpose() *
       (prescribed.row(pair.node) - mean[pair.component]);
   }
   sumAll(mesh.ranks(), stretch);
   std::vector<AffineFit> result;
   for (std::size_t c = 0; c < mean.size(); ++c)
   {
-    result.emplace_back(this->centre_[c], mean[c], this->inverse_[c], stretch[c]);
+    result.emplace_back(this->center_[c], mean[c], this->inverse_[c], stretch[c]);
   }
   return result;
 }
@@ -264,7 +264,7 @@ void AffineParts::addTranspose(
     const Index c = pair.component;
     prescribed.row(pair.node) +=
       force[c] / this->count_[c] +
-      (mesh.mesh().points.row(this->prescribed_[pair.node]) - this->centre_[c]) * moment[c];
+      (mesh.mesh().points.row(this->prescribed_[pair.node]) - this->center_[c]) * moment[c];
   }
 }
 }

@@ -31,7 +31,7 @@ public:
   /// prescribed nodes, ghosts included.
   std::vector<AffineFit> fits(const DistributedMesh& mesh, const Points& prescribed) const;
 
-  /// A sum of forces on points of a component, and their moments about its centre.
+  /// A sum of forces on points of a component, and their moments about its center.
   struct Load
   {
     Eigen::RowVector3d force = Eigen::RowVector3d::Zero();
@@ -41,7 +41,7 @@ public:
     Load& load, Index component, const Eigen::RowVector3d& x, const Eigen::RowVector3d& force) const
   {
     load.force += force;
-    load.moment += (x - this->centre_[component]).transpose() * force;
+    load.moment += (x - this->center_[component]).transpose() * force;
   }
   /// The adjoint of the fits' displacements at the loads' points: adds the derivatives to
   /// `prescribed` (#prescribed x 3) at the nodes that this rank owns. `loads`: of this rank, for
@@ -62,7 +62,7 @@ private:
   std::vector<Index> prescribed_; ///< local nodes
   std::vector<Coupled> coupled_;
   std::vector<double> count_; ///< of coupled nodes, for each component
-  std::vector<Eigen::RowVector3d> centre_;
+  std::vector<Eigen::RowVector3d> center_;
   std::vector<Eigen::Matrix3d> inverse_; ///< see PrincipalDirections
 };
 }

@@ -22,7 +22,7 @@ CutMesh::CutMesh(const DistributedMesh& whole, int layers, Monitor& monitor)
   Piece piece = this->ownPieces(*cut);
   this->pieces_ =
     std::make_unique<DistributedMesh>(whole.ranks(), std::move(piece), layers, monitor);
-  // Each rank sums up a centre in its own order: all take the bits of its owner.
+  // Each rank sums up a center in its own order: all take the bits of its owner.
   *this->pieces_ = this->pieces_->at(this->extend(whole.mesh().points));
 }
 
@@ -111,7 +111,7 @@ void CutMesh::takeMeans(const PolyhedronPieces& cut, const std::vector<Index>& c
   this->means_.setFromTriplets(means.begin(), means.end());
 }
 
-/// Appends the ids of the centres.
+/// Appends the ids of the centers.
 void CutMesh::numberCenters(const PolyhedronPieces& cut, const std::vector<Index>& centers,
   const std::vector<std::uint8_t>& isAtGhost, std::vector<std::int64_t>& ids) const
 {
@@ -145,7 +145,7 @@ void CutMesh::numberCenters(const PolyhedronPieces& cut, const std::vector<Index
   }
 }
 
-/// Numbers the centres `rows` of faces between two ranks, by the ids of the faces' nodes.
+/// Numbers the centers `rows` of faces between two ranks, by the ids of the faces' nodes.
 void CutMesh::agreeOnFaces(const std::vector<Index>& rows, const PolyhedronPieces& cut,
   std::int64_t firstId, std::vector<std::int64_t>& idOfRow) const
 {

@@ -15,8 +15,8 @@
 namespace morph::distributed
 {
 /// A distributed mesh whose polyhedra are cut as PolyhedronPieces does: each rank cuts the cells
-/// that it owns, and the pieces are a distributed mesh of their own. Nodes keep their ids. Centres
-/// have ids beyond these; the centre of a face between two ranks has one id on both. The first
+/// that it owns, and the pieces are a distributed mesh of their own. Nodes keep their ids. Centers
+/// have ids beyond these; the center of a face between two ranks has one id on both. The first
 /// piece of a cell has the id of the cell. Constructor and extend() are collective.
 class CutMesh
 {
@@ -32,7 +32,7 @@ public:
   /// PolyhedronPieces::extend() for points and displacements. `points`: #local nodes x 3 of the
   /// whole mesh; returns #local nodes x 3 of the pieces, ghosts as their owners have them.
   Points extend(const Points& points) const;
-  /// Returns the rows of the nodes without the centres, ghosts as their owners have them: #local
+  /// Returns the rows of the nodes without the centers, ghosts as their owners have them: #local
   /// nodes x 3 of the whole mesh. Nodes of no cell keep their row of `points`, of that size.
   /// Collective.
   Points reduce(const Points& all, Points points) const;
@@ -57,9 +57,9 @@ private:
   const DistributedMesh* whole_;
   std::unique_ptr<DistributedMesh> pieces_;
   std::vector<Index> nodeOf_;    ///< #local nodes of the whole mesh
-  std::vector<Index> wholeNode_; ///< of each of this rank's nodes of pieces that is no centre
+  std::vector<Index> wholeNode_; ///< of each of this rank's nodes of pieces that is no center
   std::vector<Index> cellOf_;    ///< of each of this rank's pieces
   Index faceCenters_ = 0;        ///< this rank's; they are the first rows of means_
-  Means means_;                  ///< #this rank's centres x #local nodes of the whole mesh
+  Means means_;                  ///< #this rank's centers x #local nodes of the whole mesh
 };
 }

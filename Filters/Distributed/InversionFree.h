@@ -18,7 +18,7 @@ namespace morph::distributed
 /// mesh. Then it takes the stages of the serial method
 /// (MeshImprovement.h) on the cells that each rank owns. So energies, the line search and the
 /// minimum are those of the whole mesh. It needs a valid undeformed mesh. A folded boundary is
-/// recognised by the outer faces of each rank alone.
+/// recognized by the outer faces of each rank alone.
 ///
 /// Counts: those of morph::InversionFree.
 class InversionFree : public Method

@@ -26,9 +26,9 @@ std::unique_ptr<morph::Morpher> vtkRadialBasisMorph::CreateMorpher()
                      : this->Options->Kernel == KERNEL_WENDLAND_C2 ? Kind::WendlandC2
                                                                    : Kind::Triharmonic);
   morpher->setSupportRadius(this->Options->SupportRadius);
-  morpher->setNumberOfCentres(
+  morpher->setNumberOfCenters(
     this->Options->NumberOfCenters > 0
-      ? std::max<morph::Index>(this->Options->NumberOfCenters, morph::RadialBasis::FewestCentres)
+      ? std::max<morph::Index>(this->Options->NumberOfCenters, morph::RadialBasis::FewestCenters)
       : 0);
   return morpher;
 }

@@ -6,10 +6,10 @@
 
 #include <QSet>
 
-/// Keeps a filter's results coloured in the window. ParaView chooses the colours when it first
+/// Keeps a filter's results colored in the window. ParaView chooses the colors when it first
 /// shows an output. Where that was empty, or had another array, later results would be white. A
-/// filter asks for it by the hint <ActiveColors/>; its results are then coloured by their active
-/// scalars, unless the user has chosen an array that is there, or a solid colour.
+/// filter asks for it by the hint <ActiveColors/>; its results are then colored by their active
+/// scalars, unless the user has chosen an array that is there, or a solid color.
 class ActiveColors : public HintedResults
 {
   Q_OBJECT

@@ -12,16 +12,16 @@ class vtkPVXMLElement;
 class vtkSMProperty;
 class vtkSMProxy;
 
-/// Lets the box of a transform turn and scale about the centre of what moves. ParaView's transform
+/// Lets the box of a transform turn and scale about the center of what moves. ParaView's transform
 /// does so about the origin, and places its box around the whole input.
 ///
-/// The box is placed around the surfaces that are ticked, so that it turns about their centre when
+/// The box is placed around the surfaces that are ticked, so that it turns about their center when
 /// it is dragged. Where a region moves, whose own box may be around the whole input as well, it is
 /// a bit larger than the input. When a rotation or a scale is typed, the translation is changed
-/// with it, so that the centre stays where it is. The filter's property Center is the centre where
+/// with it, so that the center stays where it is. The filter's property Center is the center where
 /// AutoCenter is off.
 ///
-/// With the filter's TransformAboutCenter the numbers are about the centre themselves. The box is
+/// With the filter's TransformAboutCenter the numbers are about the center themselves. The box is
 /// hidden then: ParaView draws it about the origin.
 class BoxAboutCenter : public QObject
 {

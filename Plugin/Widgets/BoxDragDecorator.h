@@ -17,7 +17,7 @@ class vtkWidgetRepresentation;
 /// transform or a region. The filter follows while it is dragged (LiveDrag). Its outline has the
 /// color of the attribute `color`, so that two boxes at one place can be told apart. In XML:
 /// <PropertyWidgetDecorator type="BoxDrag" color="1 0.6 0"/>. With the attributes of BoxAboutCenter
-/// the box of a transform turns and scales about the centre of what moves.
+/// the box of a transform turns and scales about the center of what moves.
 class BoxDragDecorator : public pqPropertyWidgetDecorator
 {
   Q_OBJECT

@@ -7,13 +7,13 @@
 
 class vtkSMProxy;
 
-/// The colours of the array SurfaceId: a category for each surface, with its name in the legend.
+/// The colors of the array SurfaceId: a category for each surface, with its name in the legend.
 namespace SurfaceColors
 {
 /// The first 24 can be told apart.
 std::array<double, 3> ColorOf(std::size_t place);
 
-/// Gives `table`, the array's colours, the surfaces that the filter's property SurfaceSizes lists.
+/// Gives `table`, the array's colors, the surfaces that the filter's property SurfaceSizes lists.
 /// Does nothing where there are more than a legend can hold (24), and to categories of the user.
 void Name(vtkSMProxy* table, vtkSMProxy* filter);
 }

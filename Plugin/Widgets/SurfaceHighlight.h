@@ -11,7 +11,7 @@ class pqView;
 class vtkSMProxy;
 class vtkSMSourceProxy;
 
-/// Surfaces of a filter's list as coloured lines in a view, apart from its pipeline. The server
+/// Surfaces of a filter's list as colored lines in a view, apart from its pipeline. The server
 /// cuts them out (vtkListedSurfaces). Neither the source nor its representation is registered, so
 /// that no browser, state or trace has them.
 class SurfaceHighlight

@@ -258,7 +258,7 @@ std::vector<Option> optionsOf(Arguments& result)
       "write the arrays that the morph adds, too: scaled Jacobian and the like; by default the\n"
       "arrays of <grid> alone",
       "Files and tasks", flag(result.results) },
-    { "--list-surfaces", "", "print name, faces, area and centre of each surface, and stop",
+    { "--list-surfaces", "", "print name, faces, area and center of each surface, and stop",
       "Files and tasks", task(Task::ListSurfaces) },
     { "--extract-boundary", "", "write the grid's boundary, to be moved, and stop",
       "Files and tasks", task(Task::ExtractBoundary) },

@@ -435,7 +435,7 @@ void printSurfaces(vtkUnstructuredGrid* grid, const std::string& path, int threa
   }
   std::cout << std::left << std::setw(14) << "name" << std::right << std::setw(10) << "faces"
             << std::setw(14) << "area"
-            << "  centre\n";
+            << "  center\n";
   for (const auto& [name, sum] : named)
   {
     const double area = sum.Area > 0 ? sum.Area : 1;

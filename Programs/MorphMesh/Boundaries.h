@@ -42,6 +42,6 @@ inline constexpr const char* DisplacementName = "Displacement";
 vtkSmartPointer<vtkAlgorithm> readDisplacements(
   vtkUnstructuredGrid* grid, const std::string& path, bool nodeNumbers);
 
-/// Prints the name, the number of faces, the area and the centre of each surface. Throws Failure.
+/// Prints the name, the number of faces, the area and the center of each surface. Throws Failure.
 void printSurfaces(vtkUnstructuredGrid* grid, const std::string& path, int threads);
 }

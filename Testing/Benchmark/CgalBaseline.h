@@ -24,7 +24,7 @@ public:
   {
     double seconds = 0;              ///< of CGAL's function alone
     std::vector<morph::Index> sites; ///< natural neighbors
-    std::vector<double> weights;     ///< their normalised coordinates
+    std::vector<double> weights;     ///< their normalized coordinates
   };
   /// sibson_natural_neighbor_coordinates_3. Throws std::runtime_error where it finds none.
   Sibson sibson(const Eigen::RowVector3d& x) const;

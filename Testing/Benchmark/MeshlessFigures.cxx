@@ -65,7 +65,7 @@ void Run::addStreaming(
   }
 }
 
-/// Two scales: 2,000 centres, and compact kernels on the other sites.
+/// Two scales: 2,000 centers, and compact kernels on the other sites.
 void Run::radialBasis(const Problem& problem)
 {
   const std::string tail = withThreads(this->cores_);
@@ -77,23 +77,23 @@ void Run::radialBasis(const Problem& problem)
     say(problem.name + ", radial basis, repetition " + std::to_string(i + 1));
     this->settleDown();
     method = timeConfigured<morph::RadialBasis>(
-      problem, [&](morph::RadialBasis& m) { m.setNumberOfCentres(this->options_.quick ? 200 : 0); },
+      problem, [&](morph::RadialBasis& m) { m.setNumberOfCenters(this->options_.quick ? 200 : 0); },
       *makeMonitor(this->cores_), times, moved);
   }
   const double nodes = static_cast<double>(problem.partition.free.size());
-  const double pairs = nodes * static_cast<double>(method->centres());
+  const double pairs = nodes * static_cast<double>(method->centers());
   const double rate = measureRootRate(*makeMonitor(this->cores_));
   const auto sites = static_cast<double>(problem.partition.prescribed.size());
   const Target prepare = this->options_.quick ? Target::none() : Target::atMost(3);
   const Target warm = this->options_.quick ? Target::none() : Target::atMost(0.3);
-  this->add(problem, "radial basis: centres", static_cast<double>(method->centres()), "");
+  this->add(problem, "radial basis: centers", static_cast<double>(method->centers()), "");
   this->add(problem, "radial basis: prepare" + tail, median(times.prepare), "s", prepare);
   this->add(problem, "radial basis: warm" + tail, median(times.warm), "s", warm);
   this->add(problem, "radial basis: bytes of a matrix of sites by nodes", 8 * sites * nodes, "B");
   this->add(problem, "radial basis: kernels a second in a warm step, 17 operations each" + tail,
     pairs / median(times.warm), "1/s");
   this->add(problem, "the limit, square roots a second" + tail, rate, "1/s");
-  this->add(problem, "radial basis: warm / one square root a centre and free node",
+  this->add(problem, "radial basis: warm / one square root a center and free node",
     median(times.warm) * rate / pairs, "", Target::atMost(3));
 }
 

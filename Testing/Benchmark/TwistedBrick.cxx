@@ -110,20 +110,20 @@ Problem twistedBrick(int nx, int ny, int nz, int axis, double jitter)
   const int u = (axis + 1) % 3;
   const int v = (axis + 2) % 3;
   const double length = cells[axis];
-  const double centreU = 0.5 * cells[u];
-  const double centreV = 0.5 * cells[v];
+  const double centerU = 0.5 * cells[u];
+  const double centerV = 0.5 * cells[v];
   const std::vector<morph::Index>& prescribed = problem.partition.prescribed;
   problem.target.resize(static_cast<morph::Index>(prescribed.size()), 3);
   for (std::size_t i = 0; i < prescribed.size(); ++i)
   {
     const auto point = rest.row(prescribed[i]);
     const double angle = Twist * point[axis] / length;
-    const double fromU = point[u] - centreU;
-    const double fromV = point[v] - centreV;
+    const double fromU = point[u] - centerU;
+    const double fromV = point[v] - centerV;
     const auto row = static_cast<morph::Index>(i);
     problem.target(row, axis) = Stretch * point[axis];
-    problem.target(row, u) = centreU + std::cos(angle) * fromU - std::sin(angle) * fromV;
-    problem.target(row, v) = centreV + std::sin(angle) * fromU + std::cos(angle) * fromV;
+    problem.target(row, u) = centerU + std::cos(angle) * fromU - std::sin(angle) * fromV;
+    problem.target(row, v) = centerV + std::sin(angle) * fromU + std::cos(angle) * fromV;
   }
   return problem;
 }

@@ -19,7 +19,7 @@ struct Problem
 };
 
 /// A brick of nx x ny x nz unit hexahedra. Its boundary is twisted by 90 degrees about the line
-/// through the centre along `axis` (0: x, 2: z), linearly over the brick's length, and stretched
+/// through the center along `axis` (0: x, 2: z), linearly over the brick's length, and stretched
 /// 1.5 times along that axis. Inner nodes of the undeformed mesh are off their lattice places by up
 /// to `jitter` in each coordinate, always the same.
 Problem twistedBrick(int nx, int ny, int nz, int axis, double jitter = 0);

@@ -14,7 +14,7 @@ Eigen::MatrixXd solve(const Eigen::MatrixXd& A, const Eigen::MatrixXd& b);
 Eigen::MatrixXd solve(const Eigen::SparseMatrix<double>& A, const Eigen::MatrixXd& b);
 ///@}
 
-/// Returns the x of least norm among those that minimise |A x - b|. `A`: m x n; `b`: m x k.
+/// Returns the x of least norm among those that minimize |A x - b|. `A`: m x n; `b`: m x k.
 /// `threshold`: columns below it, relative to the largest pivot, count as dependent.
 Eigen::MatrixXd leastSquares(
   const Eigen::MatrixXd& A, const Eigen::MatrixXd& b, double threshold = 1e-12);

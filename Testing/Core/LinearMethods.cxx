@@ -59,11 +59,11 @@ const std::vector<LinearMethod>& linearMethods()
         method->setKernel(RadialKernel::Kind::WendlandC2);
         return method;
       } },
-    { "RadialBasisFewCentres",
+    { "RadialBasisFewCenters",
       []
       {
         auto method = std::make_unique<RadialBasis>();
-        method->setNumberOfCentres(20);
+        method->setNumberOfCenters(20);
         return method;
       } },
     { "RadialBasisThinPlate",

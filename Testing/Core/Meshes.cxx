@@ -161,7 +161,7 @@ Mesh hexesAndWedges(int nx, int ny, int nz)
 
 Mesh hexesAndPyramids(int nx, int ny, int nz)
 {
-  std::vector<Eigen::RowVector3d> centres;
+  std::vector<Eigen::RowVector3d> centers;
   const Index latticeNodes = static_cast<Index>(nx + 1) * (ny + 1) * (nz + 1);
   Mesh mesh = boxes(nx, ny, nz,
     [&](Mesh& m, const std::array<Index, 8>& b, int i, int j, int k)
@@ -171,9 +171,9 @@ Mesh hexesAndPyramids(int nx, int ny, int nz)
         add(m, Hexahedron, { b.begin(), b.end() });
         return;
       }
-      const Index centre = latticeNodes + static_cast<Index>(centres.size());
-      centres.push_back(Eigen::RowVector3d(i + .5, j + .5, k + .5));
-      // Base seen from the centre counter-clockwise. On the box's own surface the base is free to
+      const Index center = latticeNodes + static_cast<Index>(centers.size());
+      centers.push_back(Eigen::RowVector3d(i + .5, j + .5, k + .5));
+      // Base seen from the center counter-clockwise. On the box's own surface the base is free to
       // be cut in two tets.
       static constexpr int Base[6][4] = { { 0, 3, 7, 4 }, { 1, 5, 6, 2 }, { 0, 4, 5, 1 },
         { 3, 2, 6, 7 }, { 0, 1, 2, 3 }, { 4, 7, 6, 5 } };
@@ -183,19 +183,19 @@ Mesh hexesAndPyramids(int nx, int ny, int nz)
         const int* q = Base[f];
         if (outer[f])
         {
-          add(m, Tetra, { b[q[0]], b[q[1]], b[q[2]], centre });
-          add(m, Tetra, { b[q[0]], b[q[2]], b[q[3]], centre });
+          add(m, Tetra, { b[q[0]], b[q[1]], b[q[2]], center });
+          add(m, Tetra, { b[q[0]], b[q[2]], b[q[3]], center });
         }
         else
         {
-          add(m, Pyramid, { b[q[0]], b[q[1]], b[q[2]], b[q[3]], centre });
+          add(m, Pyramid, { b[q[0]], b[q[1]], b[q[2]], b[q[3]], center });
         }
       }
     });
-  mesh.points.conservativeResize(latticeNodes + static_cast<Index>(centres.size()), 3);
-  for (std::size_t i = 0; i < centres.size(); ++i)
+  mesh.points.conservativeResize(latticeNodes + static_cast<Index>(centers.size()), 3);
+  for (std::size_t i = 0; i < centers.size(); ++i)
   {
-    mesh.points.row(latticeNodes + static_cast<Index>(i)) = centres[i];
+    mesh.points.row(latticeNodes + static_cast<Index>(i)) = centers[i];
   }
   return mesh;
 }

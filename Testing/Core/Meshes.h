@@ -26,7 +26,7 @@ Mesh hexes(int nx, int ny, int nz);
 Mesh tets(int nx, int ny, int nz);
 /// Each box in two wedges.
 Mesh wedges(int nx, int ny, int nz);
-/// A checkerboard of hexahedra and of boxes cut into six pyramids round their centre; pyramids with
+/// A checkerboard of hexahedra and of boxes cut into six pyramids round their center; pyramids with
 /// their base on the outside are cut into two tets.
 Mesh hexesAndPyramids(int nx, int ny, int nz);
 /// Hexahedra below, wedges above.

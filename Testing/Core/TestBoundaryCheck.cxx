@@ -48,7 +48,7 @@ std::vector<std::int8_t> orientationOf(const Mesh& mesh)
   return cellSigns(mesh, connectedComponents(mesh));
 }
 
-/// One hexahedron of 2 x 2 x 2 whose node at the centre of the box alone is free.
+/// One hexahedron of 2 x 2 x 2 whose node at the center of the box alone is free.
 struct Block
 {
   Mesh mesh = meshes::hexes(2, 2, 2);
@@ -145,14 +145,14 @@ TEST(BoundaryCheck, ANodeWithoutAPlaceIsNamed)
   EXPECT_TRUE(block.at(motions::affine).all().empty());
 
   // The middle of one side goes past the middle of the opposite one: each cell's own corners stay
-  // right, and no place of the centre is on the inner side of both.
+  // right, and no place of the center is on the inner side of both.
   const ForbiddenCells sides = block.at(
     [](const Row& x) {
       return x == Row(0, 1, 1) ? Row(1.2, 1, 1) : x == Row(2, 1, 1) ? Row(0.8, 1, 1) : x;
     });
   ASSERT_FALSE(sides.all().empty());
 
-  // One cell alone: its only free node is the centre, and its corner goes so far that three sides
+  // One cell alone: its only free node is the center, and its corner goes so far that three sides
   // look away from each other.
   const ForbiddenCells corner =
     block.at([](const Row& x) { return x.norm() == 0 ? Row(1.5, 1.5, 1.5) : x; });
@@ -161,7 +161,7 @@ TEST(BoundaryCheck, ANodeWithoutAPlaceIsNamed)
 
 TEST(BoundaryCheck, AgreesWithASearchForThePlace)
 {
-  // The centre's place is searched by brute force; where the check forbids there is none.
+  // The center's place is searched by brute force; where the check forbids there is none.
   std::mt19937 random(meshes::seed());
   int forbidden = 0, allowed = 0;
   for (int round = 0; round < 60; ++round)

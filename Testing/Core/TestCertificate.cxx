@@ -256,7 +256,7 @@ TEST(Certificate, AgreesWithDenseSampling)
 
 TEST(Certificate, FindsWhatTheScaledJacobianMisses)
 {
-  // Every corner, and a hexahedron's centre, positive; the inside not. Wedges like that are twisted
+  // Every corner, and a hexahedron's center, positive; the inside not. Wedges like that are twisted
   // by nearly half a turn.
   Cell twisted = RightWedge;
   for (int k = 3; k < 6; ++k)

@@ -160,16 +160,16 @@ TEST(CrossingFaces, OfNeighborsAtANode)
 struct OrientedBox
 {
   Eigen::Matrix3d axes; ///< unit, in columns
-  Eigen::Vector3d centre, half;
+  Eigen::Vector3d center, half;
 
   bool has(const Eigen::Vector3d& point) const
   {
-    return ((this->axes.transpose() * (point - this->centre)).cwiseAbs() - this->half).maxCoeff() <
+    return ((this->axes.transpose() * (point - this->center)).cwiseAbs() - this->half).maxCoeff() <
            0;
   }
   Eigen::Vector3d corner(int i) const
   {
-    return this->centre + this->axes * this->half.cwiseProduct(Eigen::Vector3d(
+    return this->center + this->axes * this->half.cwiseProduct(Eigen::Vector3d(
                                          i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1));
   }
 };
@@ -195,7 +195,7 @@ double overlap(const OrientedBox& a, const OrientedBox& b)
   {
     const auto reach = [&](const OrientedBox& box)
     { return (box.axes.transpose() * direction).cwiseAbs().dot(box.half); };
-    least = std::min(least, reach(a) + reach(b) - std::abs(direction.dot(a.centre - b.centre)));
+    least = std::min(least, reach(a) + reach(b) - std::abs(direction.dot(a.center - b.center)));
   }
   return least;
 }
@@ -220,7 +220,7 @@ TEST(CrossingFaces, AgreeWithSeparatingAxesForRandomBoxes)
     const Eigen::Vector4d q(any(random), any(random), any(random), any(random));
     OrientedBox box;
     box.axes = Eigen::Quaterniond(q.normalized()).matrix();
-    box.centre = reach * Eigen::Vector3d(any(random), any(random), any(random));
+    box.center = reach * Eigen::Vector3d(any(random), any(random), any(random));
     box.half = Eigen::Vector3d(2 + any(random), 2 + any(random), 2 + any(random));
     return box;
   };
@@ -241,7 +241,7 @@ TEST(CrossingFaces, AgreeWithSeparatingAxesForRandomBoxes)
         [&](const Row& p) -> Row
         {
           return (
-            box.centre + box.axes * box.half.cwiseProduct((p.array() - 1).matrix().transpose()))
+            box.center + box.axes * box.half.cwiseProduct((p.array() - 1).matrix().transpose()))
             .transpose();
         });
     };

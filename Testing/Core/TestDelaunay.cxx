@@ -142,7 +142,7 @@ std::set<std::vector<std::array<double, 3>>> byCoordinates(const Delaunay& delau
 
 TEST(Delaunay, SpheresAreEmpty)
 {
-  // The test itself: the centre of a tetrahedron is inside, a far point is not.
+  // The test itself: the center of a tetrahedron is inside, a far point is not.
   Points corners(4, 3);
   corners << 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1;
   const Delaunay::Tetrahedron one{ { 0, 1, 2, 3 }, {} };

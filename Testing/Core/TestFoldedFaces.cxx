@@ -84,12 +84,12 @@ TEST(FoldedFaces, QuadrilateralsWithOneCornerTurnedOver)
   const std::vector<Index> folded = b.folded(moved);
   ASSERT_EQ(folded.size(), 1u);
   const Index* nodes = b.faces.connectivity.data() + b.faces.offsets[folded[0]];
-  Row centre = Row::Zero();
+  Row center = Row::Zero();
   for (int k = 0; k < 4; ++k)
   {
-    centre += b.mesh.points.row(nodes[k]) / 4;
+    center += b.mesh.points.row(nodes[k]) / 4;
   }
-  EXPECT_EQ(centre, Row(3.5, 3.5, 6));
+  EXPECT_EQ(center, Row(3.5, 3.5, 6));
 }
 
 TEST(FoldedFaces, ASurfaceThatBendsIsNotFolded)

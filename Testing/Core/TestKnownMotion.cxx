@@ -116,10 +116,10 @@ double difference(const MotionSums& a, const MotionSums& b, const Points& at)
 /// Whether places lie in the affine span of some nodes.
 bool holds(const Points& nodes, const Points& places)
 {
-  const Row centre = nodes.colwise().mean();
-  const Points arms = nodes.rowwise() - centre;
+  const Row center = nodes.colwise().mean();
+  const Points arms = nodes.rowwise() - center;
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(arms.transpose() * arms, Eigen::ComputeFullU);
-  Points off = places.rowwise() - centre;
+  Points off = places.rowwise() - center;
   for (int j = 0; j < 3; ++j)
   {
     if (svd.singularValues()[j] > 1e-10 * svd.singularValues()[0])

@@ -148,9 +148,9 @@ TEST_P(LinearMorphers, RigidMotionAndScaleGoThrough)
 
 TEST_P(LinearMorphers, SymmetriesOfTheMeshGoThrough)
 {
-  if (GetParam().name == "RadialBasisFewCentres")
+  if (GetParam().name == "RadialBasisFewCenters")
   {
-    GTEST_SKIP() << "Which of equally far sites become centres depends on their order.";
+    GTEST_SKIP() << "Which of equally far sites become centers depends on their order.";
   }
   Mesh cube = meshes::hexes(6, 6, 6); // each place has many sites as far as the last neighbor
   cube.points.array() -= 3;
@@ -328,19 +328,19 @@ TEST_P(LinearMorphers, PrescribedInnerNodesStayWhereTheyArePut)
 {
   const Mesh mesh = meshes::hexes(4, 4, 4);
   std::vector<Index> ids = outerPartition(mesh).prescribed;
-  const Index centre = 62;
-  ids.push_back(centre);
+  const Index center = 62;
+  ids.push_back(center);
   const NodePartition partition = partitionNodes(mesh, ids);
   Points target = meshes::rows(mesh.points, partition.prescribed);
-  const auto at = std::find(partition.prescribed.begin(), partition.prescribed.end(), centre);
+  const auto at = std::find(partition.prescribed.begin(), partition.prescribed.end(), center);
   target(at - partition.prescribed.begin(), 0) += .3;
   const Points result = morphed(mesh, partition, target);
-  EXPECT_EQ(result(centre, 0), mesh.points(centre, 0) + .3);
+  EXPECT_EQ(result(center, 0), mesh.points(center, 0) + .3);
   // Its neighbors follow: all of them together, for ties may leave one of them out.
   double sum = 0;
   for (Index step : { 1, 5, 25 })
   {
-    sum += result(centre + step, 0) + result(centre - step, 0) - 2 * mesh.points(centre, 0);
+    sum += result(center + step, 0) + result(center - step, 0) - 2 * mesh.points(center, 0);
   }
   EXPECT_GT(sum, .006);
 }

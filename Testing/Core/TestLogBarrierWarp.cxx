@@ -64,7 +64,7 @@ Mesh withNodeOutside(Index node, const Eigen::RowVector3d& shift)
   mesh.points.row(node) += shift;
   return mesh;
 }
-constexpr Index Centre = 171; // of hexes(6, 6, 6)
+constexpr Index Center = 171; // of hexes(6, 6, 6)
 }
 
 TEST(LogBarrierWarp, WeightsSumToOneAndReproduceTheRestPositions)
@@ -341,7 +341,7 @@ TEST(LogBarrierWarp, FreeNodesOnTheEdgesOfGrowingLayersAreInTheirHull)
 
 TEST(LogBarrierWarp, ANodeOutsideItsHullIsNamed)
 {
-  const Mesh mesh = withNodeOutside(Centre, { 1.3, .1, .2 });
+  const Mesh mesh = withNodeOutside(Center, { 1.3, .1, .2 });
   const NodePartition partition = outerPartition(mesh);
   Monitor monitor;
   LogBarrierWarp method;
@@ -357,7 +357,7 @@ TEST(LogBarrierWarp, ANodeOutsideItsHullIsNamed)
 
 TEST(LogBarrierWarp, RelaxTakesTheSecondRingFirst)
 {
-  const Mesh mesh = withNodeOutside(Centre, { 1.3, .1, .2 });
+  const Mesh mesh = withNodeOutside(Center, { 1.3, .1, .2 });
   const NodePartition partition = outerPartition(mesh);
   ThreadedMonitor monitor;
   LogBarrierWarp method;
@@ -378,12 +378,12 @@ TEST(LogBarrierWarp, RelaxTakesTheSecondRingFirst)
 
   // The row is wider than the ring and its transpose has entries where it has none.
   Points gradient = Points::Zero(mesh.numberOfNodes(), 3), step, plus, minus;
-  gradient(Centre + 1, 0) = 1;
+  gradient(Center + 1, 0) = 1;
   method.applyTranspose(gradient, step, monitor);
   const Points at = rows(mesh.points, partition.prescribed);
   method.evaluate(at + step, plus, monitor);
   method.evaluate(at - step, minus, monitor);
-  EXPECT_NEAR((plus(Centre + 1, 0) - minus(Centre + 1, 0)) / 2, step.squaredNorm(),
+  EXPECT_NEAR((plus(Center + 1, 0) - minus(Center + 1, 0)) / 2, step.squaredNorm(),
     1e-8 * step.squaredNorm());
 }
 

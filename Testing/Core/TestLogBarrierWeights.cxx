@@ -128,7 +128,7 @@ TEST(LogBarrierWeights, PlaceTheNodeExactly)
   }
 }
 
-TEST(LogBarrierWeights, MaximiseTheBarrier)
+TEST(LogBarrierWeights, MaximizeTheBarrier)
 {
   std::mt19937 random(meshes::seed());
   for (int k = 5; k < 40; ++k)

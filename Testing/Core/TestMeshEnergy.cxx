@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The energy of a mesh, and the minimisers, on every kind of cell.
+// The energy of a mesh, and the minimizers, on every kind of cell.
 #include "Energies/MeshEnergy.h"
 #include "Meshes.h"
 #include "Motions.h"

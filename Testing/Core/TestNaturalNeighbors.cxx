@@ -164,7 +164,7 @@ TEST(NaturalNeighbors, ReproduceLinearFieldsAndAreNotNegative)
 }
 
 // The place is on the spheres of many tetrahedra, in whatever position the box is.
-TEST(NaturalNeighbors, TheCentreOfATurnedBoxHasThem)
+TEST(NaturalNeighbors, TheCenterOfATurnedBoxHasThem)
 {
   std::mt19937 random(meshes::seed());
   std::uniform_real_distribution<double> value(-1, 1);

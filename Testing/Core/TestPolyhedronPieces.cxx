@@ -90,7 +90,7 @@ TEST(PolyhedronPieces, TetrahedraAndHexahedraStayWholeWhereTheyAreValid)
   EXPECT_EQ(pieces.mesh().numberOfNodes(), 9);
 }
 
-TEST(PolyhedronPieces, AHexahedronThatIsCutHasSixPyramidsAndOneCentre)
+TEST(PolyhedronPieces, AHexahedronThatIsCutHasSixPyramidsAndOneCenter)
 {
   Monitor monitor;
   const PolyhedronPieces pieces(asPolyhedra(hexes(3, 3, 3)), monitor, true);
@@ -98,7 +98,7 @@ TEST(PolyhedronPieces, AHexahedronThatIsCutHasSixPyramidsAndOneCentre)
   EXPECT_EQ(pieces.mesh().types, std::vector<std::uint8_t>(6 * 27, Pyramid));
 }
 
-TEST(PolyhedronPieces, CentresFollowAffineMotionsAndTheirGradientReturns)
+TEST(PolyhedronPieces, CentersFollowAffineMotionsAndTheirGradientReturns)
 {
   Monitor monitor;
   for (const auto& [name, mesh] : polyhedral())
@@ -117,7 +117,7 @@ TEST(PolyhedronPieces, CentresFollowAffineMotionsAndTheirGradientReturns)
   }
 }
 
-TEST(PolyhedronPieces, CentresOfPrescribedFacesArePrescribed)
+TEST(PolyhedronPieces, CentersOfPrescribedFacesArePrescribed)
 {
   Monitor monitor;
   const Mesh mesh = honeycomb(2);

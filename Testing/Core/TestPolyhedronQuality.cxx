@@ -46,14 +46,14 @@ TEST(PolyhedronQuality, IsOneForABoxWhateverItsSides)
 
 TEST(PolyhedronQuality, IsTheLeastOfTheDefinition)
 {
-  // A sheared box, whose centres are means of corners.
+  // A sheared box, whose centers are means of corners.
   Mesh mesh = asPolyhedra(hexes(1, 1, 1));
   Eigen::Matrix3d shear;
   shear << 1, 0.5, 0.2, 0, 1, 0.3, 0, 0, 1;
   mesh.points = (mesh.points * shear.transpose()).eval();
   const auto det = [](const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c)
   { return std::abs(a.normalized().dot(b.normalized().cross(c.normalized()))); };
-  // Edge, apothem and line of centres are parallel to its three directions.
+  // Edge, apothem and line of centers are parallel to its three directions.
   EXPECT_NEAR(measured(mesh).minimum, det(shear.col(0), shear.col(1), shear.col(2)), 1e-14);
 
   // In a regular hexagonal prism the three are perpendicular.
@@ -64,7 +64,7 @@ TEST(PolyhedronQuality, HasNodesInAFlatFaceAndOnAnEdge)
 {
   const Quality quality = measured(refinedLayer(2));
   EXPECT_EQ(quality.inverted + quality.degenerate, 0);
-  // The quarter of the top: its centre lies beside the cell's by half a side each way.
+  // The quarter of the top: its center lies beside the cell's by half a side each way.
   EXPECT_NEAR(quality.minimum, 1 / std::sqrt(1.5), 0.01);
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Valid ranges of polyhedra against bisection, on random motions: their tetrahedra, with
-// centres whose weights are those at s = 0, found here by themselves; and against the measure.
+// centers whose weights are those at s = 0, found here by themselves; and against the measure.
 #include "Mesh/Polyhedra.h"
 #include "Mesh/Topology.h"
 #include "Motions.h"
@@ -36,7 +36,7 @@ Vector at(const Points& x, const Weights& weights)
   return sum;
 }
 
-/// A face's centre: the mean of the centres of its triangles, weighted by their areas.
+/// A face's center: the mean of the centers of its triangles, weighted by their areas.
 Weights faceCenter(const Points& x, const Index* nodes, Index size)
 {
   Weights mean, center;
@@ -110,7 +110,7 @@ Cell cellOf(const Mesh& mesh, Index c)
   }
   for (std::size_t f = 0; f < cell.faces.size(); ++f)
   {
-    // The centre of a pyramid is at three quarters of the way from its apex.
+    // The center of a pyramid is at three quarters of the way from its apex.
     const double share = .75 * pyramids[f] / volume + .25 / static_cast<double>(cell.faces.size());
     for (const auto& [node, weight] : cell.centers[f])
     {
@@ -267,7 +267,7 @@ TEST_P(PolyhedronRanges, AreThoseOfBisection)
   EXPECT_GE(bothFinite, Cases / 2);
   RecordProperty("measured", measured);
   RecordProperty("ends", ends);
-  // The measure's own centres change on the way: its ends are near, not the same.
+  // The measure's own centers change on the way: its ends are near, not the same.
   EXPECT_GE(measured, .88 * ends) << measured << " of " << ends;
 }
 

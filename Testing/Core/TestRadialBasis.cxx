@@ -36,14 +36,14 @@ struct Options
 {
   Kind kernel = Kind::Triharmonic;
   double radius = 1;
-  Index centres = 0;
+  Index centers = 0;
 };
 
 void configure(RadialBasis& method, const Options& options)
 {
   method.setKernel(options.kernel);
   method.setSupportRadius(options.radius);
-  method.setNumberOfCentres(options.centres);
+  method.setNumberOfCenters(options.centers);
 }
 
 Points morphed(const Mesh& mesh, const NodePartition& partition, const Options& options = {},
@@ -150,11 +150,11 @@ TEST(RadialBasis, IsExactAtAllSites)
   const Mesh mesh = withNodes(ball, partition, places);
   for (const Kind kernel : { Kind::Triharmonic, Kind::ThinPlate, Kind::WendlandC2 })
   {
-    for (const Index centres : { 0, 4, 40, 300 })
+    for (const Index centers : { 0, 4, 40, 300 })
     {
-      const Points moved = morphed(mesh, partition, { kernel, 1, centres });
+      const Points moved = morphed(mesh, partition, { kernel, 1, centers });
       EXPECT_LT(difference(moved.bottomRows(places.rows()), motions::mapped(places, bend)), 1e-10)
-        << static_cast<int>(kernel) << " " << centres;
+        << static_cast<int>(kernel) << " " << centers;
     }
   }
 }
@@ -183,17 +183,17 @@ TEST(RadialBasis, IsExactAtStronglyGradedSites)
   EXPECT_LT(difference(moved, expected), 1e-10 * meshes::size(expected));
 }
 
-TEST(RadialBasis, FewerCentresLeaveResidualsThatAreReported)
+TEST(RadialBasis, FewerCentersLeaveResidualsThatAreReported)
 {
   const Mesh mesh = shapes::boxWithHole(24, 4, 6);
   const NodePartition partition = motions::outerPartition(mesh);
   const Points all = morphed(mesh, partition);
   double last = std::numeric_limits<double>::max();
   std::vector<double> differences;
-  for (const Index centres : { 10, 40, 160 })
+  for (const Index centers : { 10, 40, 160 })
   {
     double residual = 0;
-    const Points moved = morphed(mesh, partition, { Kind::Triharmonic, 1, centres }, &residual);
+    const Points moved = morphed(mesh, partition, { Kind::Triharmonic, 1, centers }, &residual);
     differences.push_back(difference(moved, all));
     EXPECT_GT(residual, 0);
     EXPECT_LT(residual, last);
@@ -206,24 +206,24 @@ TEST(RadialBasis, FewerCentresLeaveResidualsThatAreReported)
   EXPECT_EQ(residual, 0);
 }
 
-TEST(RadialBasis, TheResidualIsThatOfTheCentresAlone)
+TEST(RadialBasis, TheResidualIsThatOfTheCentersAlone)
 {
   const Mesh mesh = shapes::cylinder(4, 6);
   const NodePartition partition = motions::outerPartition(mesh);
   const Points sites = meshes::rows(mesh.points, partition.prescribed);
   meshes::ThreadedMonitor monitor;
   RadialBasis method;
-  method.setNumberOfCentres(30);
+  method.setNumberOfCenters(30);
   method.prepare(mesh, partition, monitor);
-  EXPECT_EQ(method.centres(), 30);
+  EXPECT_EQ(method.centers(), 30);
   EXPECT_EQ(method.correctedSites(), sites.rows() - 30);
   Points moved;
   method.evaluate(motions::targets(mesh, partition, bend), moved, monitor);
 
-  // Only the centres prescribed: no correction.
+  // Only the centers prescribed: no correction.
   RadialBasis coarse;
   NodePartition few;
-  for (const Index i : method.centreNodes())
+  for (const Index i : method.centerNodes())
   {
     few.prescribed.push_back(i);
   }
@@ -251,25 +251,25 @@ TEST(RadialBasis, ManySitesAreMultiscaleNearTheDenseResult)
   Mesh mesh = shapes::cylinder(16, 60); // 4,000 sites and some
   const NodePartition partition = motions::outerPartition(mesh);
   const auto n = static_cast<Index>(partition.prescribed.size());
-  ASSERT_GT(n, RadialBasis::MostCentres);
+  ASSERT_GT(n, RadialBasis::MostCenters);
   meshes::ThreadedMonitor monitor(2);
   RadialBasis method;
   method.prepare(mesh, partition, monitor);
-  EXPECT_EQ(method.centres(), RadialBasis::CentresOfMany);
-  EXPECT_EQ(method.correctedSites(), n - RadialBasis::CentresOfMany);
+  EXPECT_EQ(method.centers(), RadialBasis::CentersOfMany);
+  EXPECT_EQ(method.correctedSites(), n - RadialBasis::CentersOfMany);
   Points moved, affine;
   method.evaluate(motions::targets(mesh, partition, bend), moved, monitor);
   method.evaluate(motions::targets(mesh, partition, motions::affine), affine, monitor);
   const Points expected = motions::mapped(mesh.points, motions::affine);
   EXPECT_LT(difference(affine, expected), 1e-10 * meshes::size(expected));
-  method.setNumberOfCentres(RadialBasis::MostCentres);
+  method.setNumberOfCenters(RadialBasis::MostCenters);
   Points nearlyDense;
   method.prepare(mesh, partition, monitor);
   method.evaluate(motions::targets(mesh, partition, bend), nearlyDense, monitor);
   EXPECT_LT(difference(moved, nearlyDense), 1e-3 * meshes::size(mesh.points));
 }
 
-TEST(RadialBasis, NeitherRoundingNorNumbersChooseTheCentresOfASymmetricBody)
+TEST(RadialBasis, NeitherRoundingNorNumbersChooseTheCentersOfASymmetricBody)
 {
   const Mesh mesh = shapes::cylinder(16, 60);
   std::mt19937 random(meshes::seed());
@@ -301,7 +301,7 @@ TEST(RadialBasis, SitesThatNearlyCoincideAreCorrected)
   meshes::ThreadedMonitor monitor;
   RadialBasis method;
   method.prepare(mesh, partition, monitor);
-  EXPECT_EQ(method.centres(), n);
+  EXPECT_EQ(method.centers(), n);
   EXPECT_EQ(method.correctedSites(), n);
   Points moved;
   method.evaluate(motions::targets(mesh, partition, bend), moved, monitor);
@@ -321,7 +321,7 @@ TEST(RadialBasis, SitesAtOnePlaceAreOne)
   meshes::ThreadedMonitor monitor;
   RadialBasis method;
   method.prepare(mesh, partition, monitor);
-  EXPECT_EQ(method.centres(), static_cast<Index>(partition.prescribed.size()) - 1);
+  EXPECT_EQ(method.centers(), static_cast<Index>(partition.prescribed.size()) - 1);
   // Both keep their own positions; the nodes inside follow their mean.
   Points target = motions::targets(mesh, partition, bend), moved, ofMean;
   target.row(0) += Row(.2, 0, 0);
@@ -378,12 +378,12 @@ TEST(RadialBasis, OptionsHaveRanges)
   {
     EXPECT_THROW(method.setSupportRadius(radius), Error) << radius;
   }
-  for (const Index centres : { -1, 1, 3, 4001 })
+  for (const Index centers : { -1, 1, 3, 4001 })
   {
-    EXPECT_THROW(method.setNumberOfCentres(centres), Error) << centres;
+    EXPECT_THROW(method.setNumberOfCenters(centers), Error) << centers;
   }
   EXPECT_EQ(method.supportRadius(), 1);
-  EXPECT_EQ(method.numberOfCentres(), 0);
+  EXPECT_EQ(method.numberOfCenters(), 0);
   EXPECT_EQ(method.kernel(), Kind::Triharmonic);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The parts of radial basis functions: kernels, their sums, order of the centres, factorisation.
+// The parts of radial basis functions: kernels, their sums, order of the centers, factorisation.
 #include "Meshes.h"
 #include "Motions.h"
 

@@ -150,7 +150,7 @@ TEST(ScaledJacobian, KnownValues)
 
 TEST(ScaledJacobian, CenterOfAHexCounts)
 {
-  // Strongly distorted hexes: never above the centre's own determinant, and sometimes equal to it.
+  // Strongly distorted hexes: never above the center's own determinant, and sometimes equal to it.
   std::mt19937 random(meshes::seed());
   for (int trial = 0; trial < 200000; ++trial)
   {
@@ -168,11 +168,11 @@ TEST(ScaledJacobian, CenterOfAHexCounts)
     ASSERT_LE(value, center + 1e-14);
     if (std::abs(value - center) < 1e-14)
     {
-      SUCCEED() << "centre decides at trial " << trial;
+      SUCCEED() << "center decides at trial " << trial;
       return;
     }
   }
-  FAIL() << "the centre never decided";
+  FAIL() << "the center never decided";
 }
 
 TEST(ScaledJacobian, QuadraticCellsAndVoxelsByTheirCorners)

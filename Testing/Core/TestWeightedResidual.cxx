@@ -397,14 +397,14 @@ TEST(WeightedResidual, NodesAtAPrescribedPlaceGoWithIt)
 {
   Mesh mesh = meshes::hexes(4, 4, 4);
   const NodePartition partition = outerPartition(mesh);
-  const Index centre = 62, corner = 0, beside = 63, side = 64;
-  mesh.points.row(centre) = mesh.points.row(corner);
+  const Index center = 62, corner = 0, beside = 63, side = 64;
+  mesh.points.row(center) = mesh.points.row(corner);
   mesh.points.row(beside) = mesh.points.row(side).array() + 1e-13;
   const Points target = targets(mesh, partition, bend);
   const Points result = morphed(mesh, partition, target);
   const auto displacement = [&](Index id) -> Eigen::RowVector3d
   { return result.row(id) - mesh.points.row(id); };
-  EXPECT_LT((displacement(centre) - displacement(corner)).norm(), 1e-14);
+  EXPECT_LT((displacement(center) - displacement(corner)).norm(), 1e-14);
   EXPECT_LT((displacement(beside) - displacement(side)).norm(), 1e-12);
   EXPECT_TRUE(result.allFinite());
 

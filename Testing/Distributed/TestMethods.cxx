@@ -43,8 +43,8 @@ std::vector<std::pair<std::string, std::unique_ptr<Morpher>>> methods()
   all.emplace_back("natural neighbor", std::make_unique<morph::SimplexNaturalNeighbor>());
   all.emplace_back("radial basis", std::make_unique<morph::RadialBasis>());
   auto few = std::make_unique<morph::RadialBasis>();
-  few->setNumberOfCentres(20);
-  all.emplace_back("radial basis, 20 centres", std::move(few));
+  few->setNumberOfCenters(20);
+  all.emplace_back("radial basis, 20 centers", std::move(few));
   return all;
 }
 

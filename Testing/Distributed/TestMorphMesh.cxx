@@ -76,8 +76,8 @@ TEST(RankMorphMesh, MovesSurfacesAsOnOneRank)
   turn->RotateZ(10);
   turn->RotateX(5);
   const std::vector<std::pair<std::string, Configure>> cases = { { "placement", turnAndShift },
-    // No rank has all of what moves, and its centre.
-    { "transform about the centre",
+    // No rank has all of what moves, and its center.
+    { "transform about the center",
       [&](vtkMorphMesh* filter)
       {
         turnAndShift(filter);

@@ -55,7 +55,7 @@ void addArray(
   data->AddArray(array);
 }
 
-morph::Points centres(const morph::Mesh& mesh)
+morph::Points centers(const morph::Mesh& mesh)
 {
   morph::Points result = morph::Points::Zero(mesh.numberOfCells(), 3);
   for (Index c = 0; c < mesh.numberOfCells(); ++c)
@@ -89,7 +89,7 @@ vtkSmartPointer<vtkUnstructuredGrid> gridOf(const morph::Mesh& mesh)
   addArray(points, "Wall", mesh.points, [](const Row& x) { return x[2] == 0; });
   addArray(points, "Clamp", mesh.points, [](const Row& x) { return x[0] >= 4.5 && x[2] > 0; });
   addArray(points, "Empty", mesh.points, [](const Row&) { return false; });
-  const morph::Points at = centres(mesh);
+  const morph::Points at = centers(mesh);
   addArray(grid->GetCellData(), "Blade", at,
     [](const Row& x)
     { return std::abs(x[0] - 3) < 1 && std::abs(x[1] - 3) < 1 && std::abs(x[2] - 2.5) < 1; });
@@ -221,7 +221,7 @@ std::vector<std::pair<std::string, morph::Mesh>> meshesOfBox()
 morph::Mesh polyhedraAbove()
 {
   morph::Mesh mesh = meshes::hexes(6, 6, 6);
-  const morph::Points at = centres(mesh);
+  const morph::Points at = centers(mesh);
   mesh = meshes::asPolyhedra(mesh, [&](Index cell) { return at(cell, 2) > 2; });
   meshes::jitterInterior(mesh, 0.1, meshes::seed());
   return mesh;

@@ -50,12 +50,12 @@ Pieces cut(vtkUnstructuredGrid* grid, int pieces,
   for (vtkIdType c = 0; c < grid->GetNumberOfCells(); ++c)
   {
     grid->GetCellPoints(c, corners);
-    grids::Row centre(0, 0, 0);
+    grids::Row center(0, 0, 0);
     for (vtkIdType k = 0; k < corners->GetNumberOfIds(); ++k)
     {
-      centre += Eigen::Map<const grids::Row>(grid->GetPoint(corners->GetId(k)));
+      center += Eigen::Map<const grids::Row>(grid->GetPoint(corners->GetId(k)));
     }
-    cells[pieceOf(centre / static_cast<double>(corners->GetNumberOfIds()))].push_back(c);
+    cells[pieceOf(center / static_cast<double>(corners->GetNumberOfIds()))].push_back(c);
   }
   Pieces result;
   for (const std::vector<vtkIdType>& chosen : cells)

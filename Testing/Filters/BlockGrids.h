@@ -15,7 +15,7 @@ namespace blocks
 {
 using Pieces = std::vector<vtkSmartPointer<vtkUnstructuredGrid>>;
 
-/// Cuts a grid: each cell goes to the piece `pieceOf` its centre. A piece has nodes of its own, in
+/// Cuts a grid: each cell goes to the piece `pieceOf` its center. A piece has nodes of its own, in
 /// ascending order, with all arrays. `withIds`: with global ids of points and cells, in the order
 /// of the grid's.
 Pieces cut(vtkUnstructuredGrid* grid, int pieces,

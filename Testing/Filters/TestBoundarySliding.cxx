@@ -318,7 +318,7 @@ TEST(BoundarySliding, TheRadiusOfAHoleIsOneNumber)
   EXPECT_NE(listener.Errors[1].find("is none"), std::string::npos) << listener.Errors[1];
 }
 
-TEST(BoundarySliding, ScalesAndTurnsAboutTheCentreOfWhatMoves)
+TEST(BoundarySliding, ScalesAndTurnsAboutTheCenterOfWhatMoves)
 {
   auto grid = grids::make(meshes::hexes(4, 4, 4));
   auto filter = displaced::make(grid);
@@ -371,7 +371,7 @@ TEST(BoundarySliding, ScalesAndTurnsAboutTheCentreOfWhatMoves)
   }
 }
 
-TEST(BoundarySliding, ANonlinearTransformAboutTheCentreOfWhatMoves)
+TEST(BoundarySliding, ANonlinearTransformAboutTheCenterOfWhatMoves)
 {
   auto grid = grids::make(meshes::hexes(4, 4, 4));
   vtkNew<vtkCylindricalTransform> polar; // (r, phi, z) to (r cos(phi), r sin(phi), z)

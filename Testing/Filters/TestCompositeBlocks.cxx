@@ -382,7 +382,7 @@ TEST(CompositeBlocks, SetsAreNamesOfSurfaces)
   EXPECT_EQ(filter->GetSurfaceSizes()->GetValue(1), "4");
   vtkDataObject* output = filter->GetOutputDataObject(0);
   EXPECT_EQ(pointsOf(output, 2), (grids::points(patch).rowwise() + Row(-0.3, 0.1, 0)).eval());
-  // The faces of a set are coloured as the cells behind them.
+  // The faces of a set are colored as the cells behind them.
   auto* faces = vtkPolyData::SafeDownCast(blocks::leaves(output)[2]);
   vtkDataArray* quality = faces->GetCellData()->GetScalars();
   ASSERT_NE(quality, nullptr);

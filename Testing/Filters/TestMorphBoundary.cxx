@@ -591,9 +591,9 @@ TEST(MorphBoundary, OneErrorAndNoOutput)
   auto wrongTarget = lathe([](double) { return 1.; }, 8, 2, false);
   wrongTarget->GetPoints()->SetPoint(5, NAN, 0, 0);
   auto ball = grids::make(shapes::ball(8));
-  morph::Points centre(1, 3);
-  centre << 0, 0, 0;
-  auto inside = grids::cloud(centre);
+  morph::Points center(1, 3);
+  center << 0, 0, 0;
+  auto inside = grids::cloud(center);
   grids::addIds(inside, "MorphPointId", { 13 });
   struct Case
   {

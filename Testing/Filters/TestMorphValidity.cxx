@@ -288,7 +288,7 @@ TEST_F(MorphValidity, ATangledMeshThatCannotBeUntangledGivesTheBestMeshAndAnErro
     }
     if (linear)
     {
-      // What the minimisation has made better is kept.
+      // What the minimization has made better is kept.
       EXPECT_LT(filter->GetInvertedCells() + filter->GetDegenerateCells(), bad / 4);
     }
   }

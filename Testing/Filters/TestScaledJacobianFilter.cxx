@@ -239,7 +239,7 @@ TEST(ScaledJacobianFilter, CriteriaOfTwoShearedCubes)
   filter->SetCriteria("NonOrthogonality=40, FaceSkewness, FacePyramid, FirstHeight, Skewness=.6");
   filter->Update();
   vtkFieldData* found = filter->GetOutput()->GetFieldData();
-  // On the boundary the centre of a face is off the normal by half the shear, 0.5; its extent is
+  // On the boundary the center of a face is off the normal by half the shear, 0.5; its extent is
   // 0.5, too.
   const double worst[] = { 45, 1, 1. / 6, std::sqrt(.5), .5 }, limit[] = { 40, 4, 0, 0, .6 };
   const double beyond[] = { 2, 0, 0, 0, 0 };
@@ -637,7 +637,7 @@ TEST(ScaledJacobianFilter, CertifiesOnRequest)
   auto grid = emptyGrid(VTK_FLOAT);
   Corners inverted = RightTet;
   std::swap(inverted[0], inverted[1]);
-  // Every corner and the centre positive, the inside not.
+  // Every corner and the center positive, the inside not.
   const Corners hidden = { { -.5, .4, .5 }, { 1.1, .4, .1 }, { 1.2, .6, .2 }, { -.4, 1, -.7 },
     { -.2, .5, 1.2 }, { .7, -.6, .6 }, { 1.5, .7, 1.7 }, { .3, 1.4, 1.2 } };
   add(grid, VTK_HEXAHEDRON, Cube);

@@ -41,7 +41,7 @@ bool isMiddle(const Row& x)
   return ((x.array() - N / 2.).abs() < 1.5).all();
 }
 
-/// Whether a cell with this centre is between them.
+/// Whether a cell with this center is between them.
 bool isMiddleCell(const Row& x)
 {
   return ((x.array() - N / 2.).abs() < 1).all();
@@ -64,8 +64,8 @@ vtkSmartPointer<vtkUnstructuredGrid> marked()
   {
     double bounds[6];
     grid->GetCellBounds(c, bounds);
-    const Row centre(bounds[0] + bounds[1], bounds[2] + bounds[3], bounds[4] + bounds[5]);
-    cells->InsertNextValue(isMiddleCell(centre / 2));
+    const Row center(bounds[0] + bounds[1], bounds[2] + bounds[3], bounds[4] + bounds[5]);
+    cells->InsertNextValue(isMiddleCell(center / 2));
   }
   grid->GetPointData()->AddArray(nodes);
   grid->GetCellData()->AddArray(cells);

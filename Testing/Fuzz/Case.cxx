@@ -206,12 +206,12 @@ void Case::addShapes()
   {
     const vtkSmartPointer<vtkDataObject> copy = deepCopy(first);
     vtkPoints* points = vtkPointSet::SafeDownCast(copy)->GetPoints();
-    double centre[3], x[3];
-    points->GetPoint(i % points->GetNumberOfPoints(), centre);
+    double center[3], x[3];
+    points->GetPoint(i % points->GetNumberOfPoints(), center);
     for (vtkIdType p = 0; p < points->GetNumberOfPoints(); ++p)
     {
       points->GetPoint(p, x);
-      points->SetPoint(p, centre[0] + 0.9 * (x[0] - centre[0]), x[1], x[2]);
+      points->SetPoint(p, center[0] + 0.9 * (x[0] - center[0]), x[1], x[2]);
     }
     this->inputs.push_back(copy);
   }

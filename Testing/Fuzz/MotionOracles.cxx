@@ -221,7 +221,7 @@ vtkSmartPointer<vtkDataObject> inFrame(vtkDataObject* data, const Frame& frame)
   return copy;
 }
 
-/// Whether a result is to be the same to rounding: else counts and qualities are. Of centres that
+/// Whether a result is to be the same to rounding: else counts and qualities are. Of centers that
 /// are equally far some are chosen by their places. The iterations that improve surfaces end at
 /// thresholds of their own.
 bool isExact(const Case& made, vtkAlgorithm* filter)

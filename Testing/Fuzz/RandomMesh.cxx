@@ -46,7 +46,7 @@ Mesh voxels(int nx, int ny, int nz)
   return mesh;
 }
 
-/// Each box in six pyramids about its centre.
+/// Each box in six pyramids about its center.
 Mesh pyramids(int nx, int ny, int nz)
 {
   const Mesh hexes = meshes::hexes(nx, ny, nz);

@@ -9,7 +9,7 @@
 namespace fuzz
 {
 /// How many volume cells are inverted or degenerate, counted from determinants at corners (and the
-/// centre of hexahedra) without the library's own code. Rounding and cells whose sense nobody can
+/// center of hexahedra) without the library's own code. Rounding and cells whose sense nobody can
 /// tell leave a range.
 struct Recount
 {

@@ -156,7 +156,7 @@ class BoundaryDisplacementTests(unittest.TestCase):
         self.assert_moves(lambda x: (x[:, 0] - 3) ** 2 + (x[:, 1] - 3) ** 2 <= 1.5 ** 2)
         self.assertEqual(number(self.displacement, "MovingPoints"), 2 * 9)
 
-    def test_a_rotation_about_the_centre_of_what_moves(self):
+    def test_a_rotation_about_the_center_of_what_moves(self):
         """By a script alone: a transform, or numbers; a point of the user's, or the origin."""
         for about, center, motion in (
                 ([3, 3, 6], {}, {"TransformAboutCenter": 1}),
@@ -300,7 +300,7 @@ class BoundaryDisplacementTests(unittest.TestCase):
         np.testing.assert_allclose(moved[:, 2] - rest[:, 2], faded, atol=1e-6)
         np.testing.assert_allclose(array(move, "BoundaryDisplacement"), moved - rest, atol=1e-6)
 
-    def test_coloured_by_role(self):
+    def test_colored_by_role(self):
         self.displacement.UpdatePipeline()
         display = simple.Show(self.displacement, simple.CreateRenderView())
         self.assertEqual(list(display.ColorArrayName), ["CELLS", "Role"])

@@ -87,7 +87,7 @@ class OlderStates(unittest.TestCase):
                         if morph != "Inversion-free":
                             self.assertAlmostEqual(here, value, delta=1e-9, msg=message)
                         elif number != "MeanScaledJacobian":
-                            # A minimisation that is improved stops elsewhere, and no lower.
+                            # A minimization that is improved stops elsewhere, and no lower.
                             self.assertGreater(here, value - 5e-4, message)
                     self.assertEqual(found[morph][-1], 0)
                 view = simple.GetActiveView()

@@ -248,7 +248,7 @@ class HowTos(unittest.TestCase):
                 made = image(path)
                 kept = image(ROOT / "Documentation/images" / Path(path).name)
                 self.assertEqual(made.shape, kept.shape)
-                # As the page shows it, but for fonts and the colours of this ParaView.
+                # As the page shows it, but for fonts and the colors of this ParaView.
                 self.assertLess(abs(made - kept).mean(), 20)
 
     def test_cxx_is_that_of_the_example(self):

@@ -134,7 +134,7 @@ class FirstTasks(unittest.TestCase):
         asked = np.abs(moved - (0.05, 0, 0)).max(axis=1) < 1e-6
         self.assertTrue(8 <= asked.sum() < len(asked) / 4, asked.sum())
 
-    def test_the_box_turns_about_its_centre(self):
+    def test_the_box_turns_about_its_center(self):
         mesh, names = self.names(CANISTER)
         turned = updated(MorphMesh(Input=mesh, Surfaces=[LID], Rotation=[5, 0, 0],
                                    Displacement="Translate, rotate, scale"))
@@ -153,7 +153,7 @@ class FirstTasks(unittest.TestCase):
         simple.ResetSession()
         simple.LoadState(str(state))
         morph = updated(simple.FindSource("MorphMesh1"))
-        self.assertGreater(morph.Transform.Translate[1], 0.1)  # what keeps the centre
+        self.assertGreater(morph.Transform.Translate[1], 0.1)  # what keeps the center
         self.assertAlmostEqual(morph.MinScaledJacobian, least, delta=1e-9)
         for bound, wanted in zip(morph.GetDataInformation().GetBounds(), bounds):
             self.assertAlmostEqual(bound, wanted, delta=1e-9)

@@ -158,7 +158,7 @@ class LiveDrags(unittest.TestCase):
         self.assertEqual((morph.MorphStatus, morph.InvertedCells), ("Repaired", 0))
 
     def test_the_boxes_of_a_region_and_its_motion_are_told_apart(self):
-        """Both are around the whole mesh at first: each has a colour, and the larger one moves."""
+        """Both are around the whole mesh at first: each has a color, and the larger one moves."""
         events = Events()
         for step in range(9):
             events.do(VIEW, "mouseMove", f"(0.{step},0.95,0,0,0)")

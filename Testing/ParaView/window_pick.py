@@ -62,8 +62,8 @@ class Pick(unittest.TestCase):
                       for k in range(grid.GetCell(i).GetNumberOfPoints())]
                      for i in range(grid.GetNumberOfCells())]
         x = vtk_to_numpy(grid.GetPoints().GetData())
-        cls.centres = np.array([x[nodes].mean(axis=0) for nodes in cls.nodes])
-        top = cls.centres[:, 2] > cls.centres[:, 2].max() - 1e-6
+        cls.centers = np.array([x[nodes].mean(axis=0) for nodes in cls.nodes])
+        top = cls.centers[:, 2] > cls.centers[:, 2].max() - 1e-6
         assert len(set(cls.ids[top])) == 1
         #: what a user sees who looks along -z, as ParaView's camera does at first
         cls.top = f"Surface {cls.ids[top][0]}"

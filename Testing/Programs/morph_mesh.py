@@ -127,16 +127,16 @@ class MorphMesh(unittest.TestCase):
                    "--scale", "1", BORE, self.folder / "out.vtk")
 
     def test_a_surface_turns_about_a_point(self):
-        """Its centre, as it is listed, against Rodrigues' formula; its area stays."""
+        """Its center, as it is listed, against Rodrigues' formula; its area stays."""
         def surface(path):
             line = run("--list-surfaces", path).stdout.splitlines()[2]
-            area, centre = line.split(None, 4)[3:]
-            return float(area), [float(x) for x in centre.split(",")]
+            area, center = line.split(None, 4)[3:]
+            return float(area), [float(x) for x in center.split(",")]
 
         def cross(a, b):
             return [a[i - 2] * b[i - 1] - a[i - 1] * b[i - 2] for i in range(3)]
 
-        area, centre = surface(BORE)
+        area, center = surface(BORE)
         about = (0.3, -0.2, 1)
         for number, axis in enumerate("xyz"):
             for degrees in (7, -12):
@@ -146,7 +146,7 @@ class MorphMesh(unittest.TestCase):
                 self.assertEqual(result.returncode, 0, result.stderr)
                 k = [float(i == number) for i in range(3)]
                 angle = math.radians(degrees)
-                v = [x - p for x, p in zip(centre, about)]
+                v = [x - p for x, p in zip(center, about)]
                 wanted = [p + math.cos(angle) * a + math.sin(angle) * b
                           + (1 - math.cos(angle)) * v[number] * c
                           for p, a, b, c in zip(about, v, cross(k, v), k)]
@@ -154,7 +154,7 @@ class MorphMesh(unittest.TestCase):
                 for found, expected in zip(turned, wanted):
                     self.assertAlmostEqual(found, expected, delta=1e-4)
                 self.assertAlmostEqual(turned_area, area, delta=1e-4 * area)
-                self.assertGreater(max(abs(a - b) for a, b in zip(turned, centre)), 0.01)
+                self.assertGreater(max(abs(a - b) for a, b in zip(turned, center)), 0.01)
 
     def test_steps_are_written_one_by_one(self):
         result = run("--move=Surface 1", "--translate=0,0,0.2", "--steps=2", BORE,
@@ -529,7 +529,7 @@ class MorphMesh(unittest.TestCase):
         self.fails(2, "--method needs a value", *files, "--method")
         self.fails(2, "takes no value", *files, "--quiet=1")
         self.fails(2, "not 'Magic'", *files, "--method", "Magic")
-        self.fails(2, "no option --colour", *files, "--colour", "red")
+        self.fails(2, "no option --color", *files, "--color", "red")
         self.fails(2, "--tolerance needs a number", *files, "--tolerance", "high")
         self.fails(2, "--kernel has no effect with FEMWARP", *files, "--kernel", "thin-plate")
         self.fails(2, "one of Error, Relax", *files, "--method=LBWARP",

@@ -18,16 +18,16 @@ Eigen::Matrix3d normalMap(
   const ConstPoints& rest, const ConstPoints& moved, const std::vector<Index>& nodes)
 {
   const double n = static_cast<double>(nodes.size());
-  Eigen::RowVector3d centre = Eigen::RowVector3d::Zero(), shift = centre;
+  Eigen::RowVector3d center = Eigen::RowVector3d::Zero(), shift = center;
   for (Index node : nodes)
   {
-    centre += rest.row(node) / n;
+    center += rest.row(node) / n;
     shift += (moved.row(node) - rest.row(node)) / n;
   }
   Eigen::Matrix3d Q = Eigen::Matrix3d::Zero(), P = Q;
   for (Index node : nodes)
   {
-    const Eigen::RowVector3d d = rest.row(node) - centre;
+    const Eigen::RowVector3d d = rest.row(node) - center;
     Q += d.transpose() * d;
     P += (moved.row(node) - rest.row(node) - shift).transpose() * d;
   }

@@ -132,7 +132,7 @@ HandleMotion::HandleMotion(const std::vector<Handle>& handles)
   const Eigen::RowVector3d low = places.colwise().minCoeff(), high = places.colwise().maxCoeff();
   const double extent = (high - low).norm();
   requireApart(places, SamePlace * extent);
-  this->centre_ = 0.5 * (low + high);
+  this->center_ = 0.5 * (low + high);
   this->size_ = std::max(extent, widest) > 0 ? std::max(extent, widest) : 1;
 
   const std::vector<Index> unlimited = ofRadius.count(0) ? ofRadius.at(0) : std::vector<Index>();
@@ -151,7 +151,7 @@ HandleMotion::HandleMotion(const std::vector<Handle>& handles)
       values.row(i) -= this->trend_.displacement(places.row(i));
     }
   }
-  places = (places.rowwise() - this->centre_) / this->size_;
+  places = (places.rowwise() - this->center_) / this->size_;
 
   const Index terms = this->hasPolynomial_ ? 4 : 0;
   Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(n + terms, n + terms);
@@ -209,11 +209,11 @@ HandleMotion::HandleMotion(const std::vector<Handle>& handles)
 
 Points HandleMotion::displacements(const Points& places, Monitor& monitor) const
 {
-  const Points scaled = (places.rowwise() - this->centre_) / this->size_;
+  const Points scaled = (places.rowwise() - this->center_) / this->size_;
   Points result = Points::Zero(places.rows(), 3), sums;
   for (const Group& group : this->groups_)
   {
-    kernelSums(group.kernel, scaled, group.centres, group.strengths, sums, monitor);
+    kernelSums(group.kernel, scaled, group.centers, group.strengths, sums, monitor);
     result += sums;
   }
   for (Index i = 0; this->hasPolynomial_ && i < places.rows(); ++i)

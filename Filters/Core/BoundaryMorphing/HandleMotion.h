@@ -50,12 +50,12 @@ private:
   struct Group ///< handles with one kernel
   {
     RadialKernel kernel;
-    Points centres, strengths; ///< in units of size_ around centre_
+    Points centers, strengths; ///< in units of size_ around center_
   };
 
   bool hasPolynomial_ = false;
   AffineFit trend_; ///< least squares over the handles without radius
-  Eigen::RowVector3d centre_;
+  Eigen::RowVector3d center_;
   double size_ = 1;
   std::vector<Group> groups_;
   /// What p adds to the trend: 1 and three coordinates, in the units above.

@@ -77,7 +77,7 @@ MotionSums KnownMotion::sumOf(const std::vector<Index>& ids)
   return MotionSums(this->motion_, ids);
 }
 
-/// Adds a nonempty set by the share of the directions in which the places leave its centre.
+/// Adds a nonempty set by the share of the directions in which the places leave its center.
 void KnownMotion::add(const MotionSums& sums, const Points& places, MotionAround& around) const
 {
   if (sums.empty())
@@ -85,7 +85,7 @@ void KnownMotion::add(const MotionSums& sums, const Points& places, MotionAround
     return;
   }
   const PrincipalDirections directions = sums.directions(places);
-  const Points arms = (places.rowwise() - sums.centre()) * directions.axes();
+  const Points arms = (places.rowwise() - sums.center()) * directions.axes();
   double share = 1;
   for (int j = 0; j < 3; ++j)
   {

@@ -14,10 +14,10 @@ Eigen::VectorXd weightsBetween(const BoundaryFaces& faces, Index node, const Poi
     return {};
   }
   Points arms = rest(corners, allColumns);
-  const Eigen::RowVector3d centre = arms.colwise().mean();
-  arms.rowwise() -= centre;
+  const Eigen::RowVector3d center = arms.colwise().mean();
+  arms.rowwise() -= center;
   const Eigen::Matrix3d spread = arms.transpose() * arms;
-  const Eigen::RowVector3d arm = rest.row(faces.nodes[node]) - centre;
+  const Eigen::RowVector3d arm = rest.row(faces.nodes[node]) - center;
   return Eigen::VectorXd::Constant(count, 1. / static_cast<double>(count)) +
          arms * PrincipalDirections(spread, static_cast<double>(count)).inverse() * arm.transpose();
 }

@@ -19,13 +19,13 @@ MotionSums::MotionSums(const BoundaryMotion& motion, const std::vector<Index>& i
   const Eigen::RowVector3d first = motion.rest.row(ids[0]);
   for (Index id : ids)
   {
-    this->centre_ += (motion.rest.row(id) - first) / n;
+    this->center_ += (motion.rest.row(id) - first) / n;
     this->mean_ += motion.displacement.row(id) / n;
   }
-  this->centre_ += first;
+  this->center_ += first;
   for (Index id : ids)
   {
-    const Eigen::RowVector3d arm = motion.rest.row(id) - this->centre_;
+    const Eigen::RowVector3d arm = motion.rest.row(id) - this->center_;
     this->spread_ += arm.transpose() * arm;
     this->stretch_ += arm.transpose() * (motion.displacement.row(id) - this->mean_);
   }
@@ -40,11 +40,11 @@ void MotionSums::add(const MotionSums& other)
   }
   // Chan, Golub, LeVeque (The American Statistician 37 (1983) 242-247): free of cancellation.
   const double n = this->count_, m = other.count_;
-  const Eigen::RowVector3d arm = other.centre_ - this->centre_, gain = other.mean_ - this->mean_;
+  const Eigen::RowVector3d arm = other.center_ - this->center_, gain = other.mean_ - this->mean_;
   const double weight = n * m / (n + m);
   this->spread_ += other.spread_ + weight * arm.transpose() * arm;
   this->stretch_ += other.stretch_ + weight * arm.transpose() * gain;
-  this->centre_ += m / (n + m) * arm;
+  this->center_ += m / (n + m) * arm;
   this->mean_ += m / (n + m) * gain;
   this->count_ += other.count_;
 }
@@ -55,7 +55,7 @@ PrincipalDirections MotionSums::directions(const Points& places) const
   Eigen::RowVector3d reach = Eigen::RowVector3d::Zero();
   for (Index i = 0; i < places.rows(); ++i)
   {
-    reach = reach.cwiseMax(result.leverages(places.row(i) - this->centre_));
+    reach = reach.cwiseMax(result.leverages(places.row(i) - this->center_));
   }
   result.limit(Eigen::RowVector3d::Ones(), reach);
   return result;
@@ -63,13 +63,13 @@ PrincipalDirections MotionSums::directions(const Points& places) const
 
 AffineFit MotionSums::affineFit(const PrincipalDirections& directions) const
 {
-  return { this->centre_, this->mean_, directions.inverse(), this->stretch_ };
+  return { this->center_, this->mean_, directions.inverse(), this->stretch_ };
 }
 
 MotionSums::RigidFit MotionSums::rigidFit(const PrincipalDirections& directions) const
 {
   RigidFit fit;
-  fit.centre_ = this->centre_;
+  fit.center_ = this->center_;
   fit.shift_ = this->mean_;
   if (this->stretch_.isZero(0))
   {
@@ -93,7 +93,7 @@ MotionSums::RigidFit MotionSums::rigidFit(const PrincipalDirections& directions)
 
 Eigen::RowVector3d MotionSums::RigidFit::displacement(const Eigen::RowVector3d& x) const
 {
-  return this->shift_ + (x - this->centre_) * this->turn_.transpose();
+  return this->shift_ + (x - this->center_) * this->turn_.transpose();
 }
 
 void MotionAround::add(const MotionSums& sums, const PrincipalDirections& directions, double share)

@@ -20,7 +20,7 @@ public:
   void add(const MotionSums& other);
 
   bool empty() const { return this->count_ == 0; }
-  const Eigen::RowVector3d& centre() const { return this->centre_; }
+  const Eigen::RowVector3d& center() const { return this->center_; }
 
   /// The nodes' principal directions, to move others. `places`: #places x 3.
   PrincipalDirections directions(const Points& places) const;
@@ -38,7 +38,7 @@ public:
 
   private:
     friend class MotionSums;
-    Eigen::RowVector3d centre_, shift_;
+    Eigen::RowVector3d center_, shift_;
     Eigen::Matrix3d turn_; ///< R - I
   };
   /// Where the nodes lie nearly on a line, its smallest angle counts by what `directions` leave.
@@ -46,7 +46,7 @@ public:
 
 private:
   double count_ = 0;
-  Eigen::RowVector3d centre_ = Eigen::RowVector3d::Zero(); ///< mean position
+  Eigen::RowVector3d center_ = Eigen::RowVector3d::Zero(); ///< mean position
   Eigen::RowVector3d mean_ = Eigen::RowVector3d::Zero();   ///< mean displacement
   Eigen::Matrix3d spread_ = Eigen::Matrix3d::Zero();       ///< of (x - c)^T (x - c)
   Eigen::Matrix3d stretch_ = Eigen::Matrix3d::Zero();      ///< of (x - c)^T (d - mean)

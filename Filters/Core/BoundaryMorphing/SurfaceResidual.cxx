@@ -62,7 +62,7 @@ void requireLoops(const SurfaceResidual::Loops& loops, Index points)
   }
 }
 
-Points centred(const Points& points)
+Points centered(const Points& points)
 {
   return points.rowwise() - points.colwise().mean();
 }
@@ -71,7 +71,7 @@ Points centred(const Points& points)
 /// rotation is that of the eigenvectors.
 Eigen::Matrix3d planeAxes(const Points& points)
 {
-  const Points arms = centred(points);
+  const Points arms = centered(points);
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(arms.transpose() * arms);
   Eigen::Matrix3d columns;
   columns.col(0) = axes.eigenvectors().col(0);
@@ -90,7 +90,7 @@ Eigen::Vector3d areaOf(const SurfaceResidual::Loops& loops, const Points& points
   return sum.transpose();
 }
 
-/// Returns the rotation times scale that fits the map from `rest` to `moved` (both centred), for
+/// Returns the rotation times scale that fits the map from `rest` to `moved` (both centered), for
 /// row vectors. Source: Kabsch, Acta Cryst. A 34 (1978) 827-828; the scale is the ratio of the
 /// extents.
 Eigen::Matrix3d similarity(const Points& rest, const Points& moved)
@@ -104,16 +104,16 @@ Eigen::Matrix3d similarity(const Points& rest, const Points& moved)
 }
 }
 
-/// u(x) = mean + (x - centre) gradient.
+/// u(x) = mean + (x - center) gradient.
 struct SurfaceResidual::Map
 {
   Report report;
-  Eigen::RowVector3d centre, mean;
+  Eigen::RowVector3d center, mean;
   Eigen::Matrix3d gradient;
 
   Eigen::RowVector3d displacement(const Eigen::RowVector3d& x) const
   {
-    return this->mean + (x - this->centre) * this->gradient;
+    return this->mean + (x - this->center) * this->gradient;
   }
 };
 
@@ -149,8 +149,8 @@ SurfaceResidual::Map SurfaceResidual::linearMap(const Points& displacement) cons
 {
   const AffineFit fit = this->fit_.fit(displacement);
   Map map;
-  map.centre = this->sites_.coordinates().colwise().mean();
-  map.mean = fit.displacement(map.centre);
+  map.center = this->sites_.coordinates().colwise().mean();
+  map.mean = fit.displacement(map.center);
   // Points on a line tell no map of a surface. Those nearly on one tell it as far as their second
   // direction counts.
   const Eigen::RowVector3d& shares = this->fit_.directions().shares();
@@ -185,7 +185,7 @@ SurfaceResidual::Map SurfaceResidual::map(
     const Eigen::Vector3d loopArea = areaOf(this->loops_, this->prescribed_);
     const Eigen::Vector3d movedLoopArea = areaOf(this->loops_, prescribed);
     // The loops of a closed strip cancel and determine nothing.
-    if (loopArea.norm() > Flat * (sites.rowwise() - map.centre).squaredNorm())
+    if (loopArea.norm() > Flat * (sites.rowwise() - map.center).squaredNorm())
     {
       area = loopArea;
       movedArea = movedLoopArea;
@@ -203,7 +203,7 @@ SurfaceResidual::Map SurfaceResidual::map(
   {
     map.report.determinant = std::min(map.report.determinant, 0.);
     map.report.fit = Fit::Similarity;
-    map.gradient = similarity(centred(sites), centred(moved)) - Eigen::Matrix3d::Identity();
+    map.gradient = similarity(centered(sites), centered(moved)) - Eigen::Matrix3d::Identity();
   }
   return map;
 }

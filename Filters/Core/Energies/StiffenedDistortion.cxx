@@ -78,7 +78,7 @@ double idealSquare(Shape shape)
 }
 
 /// The mean edges of a hexahedron are these times its corners, over 4.
-constexpr double CentreSigns[8][3] = { { -1, -1, -1 }, { 1, -1, -1 }, { 1, 1, -1 }, { -1, 1, -1 },
+constexpr double CenterSigns[8][3] = { { -1, -1, -1 }, { 1, -1, -1 }, { 1, 1, -1 }, { -1, 1, -1 },
   { -1, -1, 1 }, { 1, -1, 1 }, { 1, 1, 1 }, { -1, 1, 1 } };
 
 /// h and its derivatives by f.
@@ -110,14 +110,14 @@ MORPH_SIMD_INLINE void distortion(const StiffenedDistortion::Bounds& bounds, dou
   f = select(bound == 0., zero, ofValid);
 }
 
-/// One corner of each cell of a batch, or the centres.
+/// One corner of each cell of a batch, or the centers.
 struct Sample
 {
   SimdMatrix e, n; ///< edges, and the normals of pairs of them: the determinant's gradient
   SimdDouble4 q[3], bySquare[3], byDeterminant; ///< squares of lengths; reciprocals
   SimdDouble4 f;
 
-  /// `corner`: null for the centres.
+  /// `corner`: null for the centers.
   MORPH_SIMD_INLINE Sample(const SimdVector (&x)[8], const int* corner,
     const StiffenedDistortion::Bounds& bounds, double ideal, double floor)
   {
@@ -134,7 +134,7 @@ struct Sample
         {
           for (int i = 0; i < 3; ++i)
           {
-            this->e[k][i] += 0.25 * CentreSigns[a][k] * x[a][i];
+            this->e[k][i] += 0.25 * CenterSigns[a][k] * x[a][i];
           }
         }
       }
@@ -286,7 +286,7 @@ struct CosineModel
 };
 
 /// Adds the blocks of the mean edges to the pairs of a hexahedron's corners.
-MORPH_SIMD_INLINE void addByCentre(const SimdMatrix (&block)[3][3], SimdMatrix* sum)
+MORPH_SIMD_INLINE void addByCenter(const SimdMatrix (&block)[3][3], SimdMatrix* sum)
 {
   for (int a = 0; a < 8; ++a)
   {
@@ -295,7 +295,7 @@ MORPH_SIMD_INLINE void addByCentre(const SimdMatrix (&block)[3][3], SimdMatrix* 
     {
       for (int l = 0; l < 3; ++l)
       {
-        const SimdDouble4 sign = SimdDouble4{} + CentreSigns[a][k] / 16;
+        const SimdDouble4 sign = SimdDouble4{} + CenterSigns[a][k] / 16;
         addBlock(block[std::min(k, l)][std::max(k, l)], k > l, sign, byEdge[l]);
       }
     }
@@ -303,7 +303,7 @@ MORPH_SIMD_INLINE void addByCentre(const SimdMatrix (&block)[3][3], SimdMatrix* 
     {
       for (int l = 0; l < 3; ++l)
       {
-        addBlock(byEdge[l], false, SimdDouble4{} + CentreSigns[b][l], sum[blockOf(a, b, 8)]);
+        addBlock(byEdge[l], false, SimdDouble4{} + CenterSigns[b][l], sum[blockOf(a, b, 8)]);
       }
     }
   }
@@ -452,8 +452,8 @@ struct StiffenedDistortion::BatchGradient
       {
         for (int i = 0; i < 3; ++i)
         {
-          to[a][i] += 0.25 * (CentreSigns[a][0] * force[0][i] + CentreSigns[a][1] * force[1][i] +
-                               CentreSigns[a][2] * force[2][i]);
+          to[a][i] += 0.25 * (CenterSigns[a][0] * force[0][i] + CenterSigns[a][1] * force[1][i] +
+                               CenterSigns[a][2] * force[2][i]);
         }
       }
     }
@@ -545,7 +545,7 @@ struct StiffenedDistortion::BatchHessian
         x, nullptr, samples.bounds[samples.corners.count], samples.ideal, samples.floor);
       SimdMatrix block[3][3];
       CosineModel(s, samples.level).blocks(block);
-      addByCentre(block, sum);
+      addByCenter(block, sum);
     }
   }
 

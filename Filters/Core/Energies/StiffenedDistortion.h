@@ -10,7 +10,7 @@
 
 namespace morph
 {
-/// Quasi-isometric stiffening of the samples of the scaled Jacobian: corners, and centres of
+/// Quasi-isometric stiffening of the samples of the scaled Jacobian: corners, and centers of
 /// hexahedra. A sample s has the distortion f = 1 / s^2. With the cosines c of its three edges
 ///
 ///   f = u^2 / D(c),  D = 1 + 2 c1 c2 c3 - c1^2 - c2^2 - c3^2,  u^2 = 1, 3/4 (wedge), 1/2 (tet)

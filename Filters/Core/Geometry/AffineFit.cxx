@@ -113,7 +113,7 @@ AffineLeastSquares::AffineLeastSquares(const Points& rest, const ConstPoints& pl
   }
   this->arms_ = rest.rowwise() - first;
   const Eigen::RowVector3d middle = meanOfRows(this->arms_);
-  this->centre_ = first + middle;
+  this->center_ = first + middle;
   this->arms_.rowwise() -= middle;
   Eigen::Matrix3d Q = Eigen::Matrix3d::Zero();
   for (Index i = 0; i < rest.rows(); ++i)
@@ -126,7 +126,7 @@ AffineLeastSquares::AffineLeastSquares(const Points& rest, const ConstPoints& pl
     Eigen::RowVector3d leverages = Eigen::RowVector3d::Zero();
     for (Index i = 0; i < of.rows(); ++i)
     {
-      leverages = leverages.cwiseMax(this->directions_.leverages(of.row(i) - this->centre_));
+      leverages = leverages.cwiseMax(this->directions_.leverages(of.row(i) - this->center_));
     }
     return leverages;
   };
@@ -142,7 +142,7 @@ AffineFit AffineLeastSquares::fit(const Points& displacement) const
   {
     P.noalias() += this->arms_.row(i).transpose() * (displacement.row(i) - mean);
   }
-  return { this->centre_, mean, this->inverse_, P };
+  return { this->center_, mean, this->inverse_, P };
 }
 
 void AffineLeastSquares::fitTranspose(
@@ -152,7 +152,7 @@ void AffineLeastSquares::fitTranspose(
   Eigen::Matrix3d ofGradient = Eigen::Matrix3d::Zero();
   for (Index i = 0; i < x.rows(); ++i)
   {
-    ofGradient.noalias() += (x.row(i) - this->centre_).transpose() * gradient.row(i);
+    ofGradient.noalias() += (x.row(i) - this->center_).transpose() * gradient.row(i);
   }
   // The arms sum to zero, so the mean within P adds no term.
   const Eigen::Matrix3d ofP = this->inverse_ * ofGradient;

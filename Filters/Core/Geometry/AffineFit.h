@@ -6,7 +6,7 @@
 namespace morph
 {
 /// The principal directions of points, and how much of a gradient along each their displacements
-/// tell. Let x_k be the coordinates of a place about the points' centre along the directions k, and
+/// tell. Let x_k be the coordinates of a place about the points' center along the directions k, and
 /// s_k the root mean square of the points' own. A gradient along j moves the place by x_j / s_j
 /// times the largest displacement of the points at most. Where the points are nearly flat, that is
 /// a motion of their unevenness multiplied out. The place's leverage in j bounds it:
@@ -25,7 +25,7 @@ public:
 
   /// Unit vectors, by ascending extent, as columns.
   const Eigen::Matrix3d& axes() const { return this->axes_; }
-  /// The leverages of a place at `arm` from the centre.
+  /// The leverages of a place at `arm` from the center.
   Eigen::RowVector3d leverages(const Eigen::RowVector3d& arm) const;
   /// Sets the shares. `within`: the largest leverages of the points; 1, their root mean square,
   /// where they are not known. `reach`: those of the places. Without it the places are the points.
@@ -56,12 +56,12 @@ class AffineFit
 public:
   /// No motion.
   AffineFit() = default;
-  /// Builds the fit from sums over points x with displacements d. `centre`, c: their mean position;
+  /// Builds the fit from sums over points x with displacements d. `center`, c: their mean position;
   /// `mean`, m: their mean displacement; `inverse`: of their principal directions; `stretch`: sum
   /// of (x - c)^T (d - m).
-  AffineFit(const Eigen::RowVector3d& centre, const Eigen::RowVector3d& mean,
+  AffineFit(const Eigen::RowVector3d& center, const Eigen::RowVector3d& mean,
     const Eigen::Matrix3d& inverse, const Eigen::Matrix3d& stretch)
-    : centre_(centre)
+    : center_(center)
     , mean_(mean)
     , gradient_(inverse * stretch)
   {
@@ -70,14 +70,14 @@ public:
   template <typename Row>
   Eigen::RowVector3d displacement(const Row& x) const
   {
-    return this->mean_ + (x - this->centre_) * this->gradient_;
+    return this->mean_ + (x - this->center_) * this->gradient_;
   }
 
   /// Returns G, 3 x 3: a position, as a row vector, is multiplied by I + G.
   const Eigen::Matrix3d& gradient() const { return this->gradient_; }
 
 private:
-  Eigen::RowVector3d centre_ = Eigen::RowVector3d::Zero(), mean_ = Eigen::RowVector3d::Zero();
+  Eigen::RowVector3d center_ = Eigen::RowVector3d::Zero(), mean_ = Eigen::RowVector3d::Zero();
   Eigen::Matrix3d gradient_ = Eigen::Matrix3d::Zero();
 };
 
@@ -104,8 +104,8 @@ public:
   void fitTranspose(const Points& x, const Points& gradient, Points& displacement) const;
 
 private:
-  Points arms_; ///< undeformed points relative to centre_
-  Eigen::RowVector3d centre_ = Eigen::RowVector3d::Zero();
+  Points arms_; ///< undeformed points relative to center_
+  Eigen::RowVector3d center_ = Eigen::RowVector3d::Zero();
   PrincipalDirections directions_{ Eigen::Matrix3d::Zero(), 0 };
   Eigen::Matrix3d inverse_ = Eigen::Matrix3d::Zero(); ///< of directions_
 };

@@ -86,7 +86,7 @@ ExactVector minus(const Eigen::RowVector3d& a, const Eigen::RowVector3d& b)
   return result;
 }
 
-/// Maximises the slack s <= 1 in n . v - s >= n . p over all half-spaces.
+/// Maximizes the slack s <= 1 in n . v - s >= n . p over all half-spaces.
 bool findByLinearProgram(const std::vector<HalfSpace>& halfSpaces)
 {
   CGAL::Quadratic_program<Exact> program(CGAL::LARGER, false, Exact(0), false, Exact(0));

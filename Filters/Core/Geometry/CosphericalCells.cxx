@@ -255,14 +255,14 @@ std::vector<CosphericalCells::Face> CosphericalCells::facesOf(const Tetrahedra& 
 bool CosphericalCells::isStar(const Tetrahedra& members) const
 {
   const std::vector<int> corners = this->cornersOf(members);
-  const Row centre = meanOfRows(this->sites_, corners.begin(), corners.end());
+  const Row center = meanOfRows(this->sites_, corners.begin(), corners.end());
   const std::vector<Face> faces = this->facesOf(members);
   return std::all_of(faces.begin(), faces.end(),
     [&](const Face& face)
     {
-      const Row a = this->sites_.row(face.corners[0]) - centre;
-      const Row b = this->sites_.row(face.corners[1]) - centre;
-      const Row c = this->sites_.row(face.corners[2]) - centre;
+      const Row a = this->sites_.row(face.corners[0]) - center;
+      const Row b = this->sites_.row(face.corners[1]) - center;
+      const Row c = this->sites_.row(face.corners[2]) - center;
       return a.dot(b.cross(c)) < 0;
     });
 }

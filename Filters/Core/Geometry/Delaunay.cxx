@@ -31,7 +31,7 @@ namespace
 {
 constexpr Index Grain = 1024;
 constexpr double FlatVolume =
-  1e-4; // 6 V / (longest edge)^3 below which a centre takes exact arithmetic
+  1e-4; // 6 V / (longest edge)^3 below which a center takes exact arithmetic
 
 constexpr int LeastSteps = 1000; // of a walk, before all tetrahedra are tried
 
@@ -127,10 +127,10 @@ bool isBeyond(const Eigen::RowVector3d& a, const Eigen::RowVector3d& b, const Ei
   return determinant > 1e-15 * absolute;
 }
 
-/// Computes a circumcentre in exact arithmetic: for a flat tetrahedron it is a quotient of two
+/// Computes a circumcenter in exact arithmetic: for a flat tetrahedron it is a quotient of two
 /// differences that nearly cancel. Quotients of long floats need no common divisors, and become
 /// doubles whatever their size.
-Eigen::RowVector3d exactCircumcentre(const Points& sites, const std::array<int, 4>& corners)
+Eigen::RowVector3d exactCircumcenter(const Points& sites, const std::array<int, 4>& corners)
 {
   using Exact = CGAL::Simple_cartesian<CGAL::Quotient<CGAL::MP_Float>>;
   Exact::Point_3 p[4];
@@ -139,8 +139,8 @@ Eigen::RowVector3d exactCircumcentre(const Points& sites, const std::array<int, 
     const auto x = sites.row(corners[k]);
     p[k] = Exact::Point_3(x[0], x[1], x[2]);
   }
-  const Exact::Point_3 centre = CGAL::circumcenter(p[0], p[1], p[2], p[3]);
-  return { CGAL::to_double(centre.x()), CGAL::to_double(centre.y()), CGAL::to_double(centre.z()) };
+  const Exact::Point_3 center = CGAL::circumcenter(p[0], p[1], p[2], p[3]);
+  return { CGAL::to_double(center.x()), CGAL::to_double(center.y()), CGAL::to_double(center.z()) };
 }
 }
 
@@ -266,10 +266,10 @@ int Delaunay::startNear(const Eigen::RowVector3d& x) const
   return start;
 }
 
-Points Delaunay::circumcentres(Monitor& monitor) const
+Points Delaunay::circumcenters(Monitor& monitor) const
 {
-  Points centres(static_cast<Index>(this->tetrahedra_.size()), 3);
-  parallel(centres.rows(), Grain, monitor,
+  Points centers(static_cast<Index>(this->tetrahedra_.size()), 3);
+  parallel(centers.rows(), Grain, monitor,
     [&](Index t)
     {
       const auto& s = this->tetrahedra_[t].sites;
@@ -281,16 +281,16 @@ Points Delaunay::circumcentres(Monitor& monitor) const
       const double longest = std::max({ a.norm(), b.norm(), c.norm() });
       if (volume > FlatVolume * longest * longest * longest)
       {
-        centres.row(t) = origin + (a.squaredNorm() * b.cross(c) + b.squaredNorm() * c.cross(a) +
+        centers.row(t) = origin + (a.squaredNorm() * b.cross(c) + b.squaredNorm() * c.cross(a) +
                                     c.squaredNorm() * a.cross(b)) /
                                     (2 * volume);
       }
       else
       {
-        centres.row(t) = exactCircumcentre(this->sites_, s);
+        centers.row(t) = exactCircumcenter(this->sites_, s);
       }
     });
-  return centres;
+  return centers;
 }
 
 double Delaunay::sixVolumes(const Tetrahedron& tetrahedron, const Points& positions)

@@ -67,10 +67,10 @@ public:
   /// sample sites (jump and walk).
   int startNear(const Eigen::RowVector3d& x) const;
 
-  /// Returns the circumcentres, #tetrahedra x 3, relative to origin(). Flat tetrahedra use exact
-  /// arithmetic, so their centres are accurate too. Cost: 0.1 microseconds a tetrahedron, 20 a flat
+  /// Returns the circumcenters, #tetrahedra x 3, relative to origin(). Flat tetrahedra use exact
+  /// arithmetic, so their centers are accurate too. Cost: 0.1 microseconds a tetrahedron, 20 a flat
   /// one.
-  Points circumcentres(Monitor& monitor) const;
+  Points circumcenters(Monitor& monitor) const;
 
   /// Six times the signed volume of a tetrahedron with its corners at `positions` (#sites x 3).
   static double sixVolumes(const Tetrahedron& tetrahedron, const Points& positions);

@@ -19,7 +19,7 @@ struct RigidMotion
   }
 };
 
-/// Returns the rotation R that minimises the sum of |y - R x|^2 over pairs of vectors. `moment`:
+/// Returns the rotation R that minimizes the sum of |y - R x|^2 over pairs of vectors. `moment`:
 /// the sum of x y^T, x and y as columns. Where the vectors determine it only about an axis, the
 /// smallest such rotation. Source: Kabsch, Acta Cryst. A32 (1976) 922-923.
 Eigen::Matrix3d nearestRotation(const Eigen::Matrix3d& moment);

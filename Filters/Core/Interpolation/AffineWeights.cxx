@@ -21,28 +21,28 @@ bool fit(const Points& sites, const Eigen::RowVector3d& x, bool limits, AffineRo
   const double count = static_cast<double>(row.sites.size());
   // Relative to the first site: coordinates far from the origin lose no digits.
   const Eigen::RowVector3d first = sites.row(row.sites[0]);
-  Eigen::RowVector3d centre = Eigen::RowVector3d::Zero();
+  Eigen::RowVector3d center = Eigen::RowVector3d::Zero();
   for (const std::int32_t site : row.sites)
   {
-    centre += (sites.row(site) - first) / count;
+    center += (sites.row(site) - first) / count;
   }
-  centre += first;
+  center += first;
   Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
   for (const std::int32_t site : row.sites)
   {
-    const Eigen::RowVector3d arm = sites.row(site) - centre;
+    const Eigen::RowVector3d arm = sites.row(site) - center;
     spread += arm.transpose() * arm;
   }
   PrincipalDirections directions(spread, count);
   if (limits)
   {
-    directions.limit(Eigen::RowVector3d::Ones(), directions.leverages(x - centre));
+    directions.limit(Eigen::RowVector3d::Ones(), directions.leverages(x - center));
   }
-  const Eigen::Vector3d slope = directions.inverse() * (x - centre).transpose();
+  const Eigen::Vector3d slope = directions.inverse() * (x - center).transpose();
   row.weights.clear();
   for (const std::int32_t site : row.sites)
   {
-    row.weights.push_back(1 / count + (sites.row(site) - centre).dot(slope));
+    row.weights.push_back(1 / count + (sites.row(site) - center).dot(slope));
   }
   return directions.rank() == 3;
 }

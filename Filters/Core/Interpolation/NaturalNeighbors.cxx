@@ -30,17 +30,17 @@ NaturalNeighbors::NaturalNeighbors(const Delaunay& delaunay, Monitor& monitor)
   this->origin_ = (sites.colwise().minCoeff() + sites.colwise().maxCoeff()) / 2;
   this->sites_ = sites.rowwise() - this->origin_;
   this->extent_ = this->sites_.cwiseAbs().maxCoeff();
-  const Points centres = delaunay.circumcentres(monitor);
+  const Points centers = delaunay.circumcenters(monitor);
   this->cells_.resize(delaunay.tetrahedra().size());
   for (std::size_t t = 0; t < this->cells_.size(); ++t)
   {
     Cell& cell = this->cells_[t];
     cell.sites = delaunay.tetrahedra()[t].sites;
     cell.neighbors = delaunay.tetrahedra()[t].neighbors;
-    const Vector centre = centres.row(static_cast<Index>(t)) - this->origin_;
+    const Vector center = centers.row(static_cast<Index>(t)) - this->origin_;
     const Vector corner = this->sites_.row(cell.sites[0]);
-    std::copy_n(centre.data(), 3, cell.centre);
-    cell.constant = corner.dot(2 * centre - corner);
+    std::copy_n(center.data(), 3, cell.center);
+    cell.constant = corner.dot(2 * center - corner);
   }
 }
 
@@ -76,12 +76,12 @@ NaturalNeighbors::Workspace::HalfEdge& NaturalNeighbors::Workspace::halfEdge(int
 /// has no effect.
 double NaturalNeighbors::power(const Cell& cell, const Vector& x, double squaredNorm) const
 {
-  const double product = cell.centre[0] * x[0] + cell.centre[1] * x[1] + cell.centre[2] * x[2];
+  const double product = cell.center[0] * x[0] + cell.center[1] * x[1] + cell.center[2] * x[2];
   const double power = squaredNorm - 2 * product + cell.constant;
-  const double centre =
-    std::abs(cell.centre[0]) + std::abs(cell.centre[1]) + std::abs(cell.centre[2]);
+  const double center =
+    std::abs(cell.center[0]) + std::abs(cell.center[1]) + std::abs(cell.center[2]);
   const double size =
-    squaredNorm + 2 * std::abs(product) + this->extent_ * (2 * centre + this->extent_);
+    squaredNorm + 2 * std::abs(product) + this->extent_ * (2 * center + this->extent_);
   return std::abs(power) <= PowerTolerance * size ? 0 : power;
 }
 
@@ -135,7 +135,7 @@ bool NaturalNeighbors::visitFaces(const Vector& x, Workspace& work) const
       }
       number[k] = work.siteNumber_[site];
     }
-    const Vector centre = Eigen::Map<const Vector>(cell.centre) - x;
+    const Vector center = Eigen::Map<const Vector>(cell.center) - x;
     for (int k = 0; k < 4; ++k)
     {
       const int next = cell.neighbors[k];
@@ -156,22 +156,22 @@ bool NaturalNeighbors::visitFaces(const Vector& x, Workspace& work) const
         {
           return false;
         }
-        end = centre - (work.power_[t] / (2 * height)) * normal;
+        end = center - (work.power_[t] / (2 * height)) * normal;
       }
       else
       {
-        end = Eigen::Map<const Vector>(this->cells_[next].centre) - x;
+        end = Eigen::Map<const Vector>(this->cells_[next].center) - x;
         if (!inner)
         {
           const double here = work.power_[t], there = work.power_[next];
-          end = centre + (here < 0 ? here / (here - there) : 0) * (end - centre);
+          end = center + (here < 0 ? here / (here - there) : 0) * (end - center);
         }
       }
       if (!inner)
       {
         work.border_.push_back({ { a, b, c }, end });
       }
-      const Vector n = centre.cross(end);
+      const Vector n = center.cross(end);
       work.share_[a] += (B - C).dot(n);
       work.share_[b] += (C - A).dot(n);
       work.share_[c] += (A - B).dot(n);
@@ -210,7 +210,7 @@ void NaturalNeighbors::joinBorder(Workspace& work)
   }
 }
 
-/// Normalises the shares, drops zeros, checks and corrects the rest, and sorts by site.
+/// Normalizes the shares, drops zeros, checks and corrects the rest, and sorts by site.
 bool NaturalNeighbors::finish(Workspace& work)
 {
   double total = 0;

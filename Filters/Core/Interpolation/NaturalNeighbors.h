@@ -72,12 +72,12 @@ public:
   bool compute(const Eigen::RowVector3d& x, int inside, Workspace& workspace) const;
 
 private:
-  /// A tetrahedron in one cache line. The power distance of x to its sphere is |x|^2 - 2 centre.x +
+  /// A tetrahedron in one cache line. The power distance of x to its sphere is |x|^2 - 2 center.x +
   /// constant.
   struct alignas(64) Cell
   {
     std::array<int, 4> sites, neighbors;
-    double centre[3], constant;
+    double center[3], constant;
   };
 
   double power(const Cell& cell, const Eigen::RowVector3d& x, double squaredNorm) const;

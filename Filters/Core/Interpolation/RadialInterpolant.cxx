@@ -17,31 +17,31 @@ constexpr Index ColumnGrain = 16;
 constexpr int Terms = 4; // 1, x, y, z
 
 void fillLower(
-  const RadialKernel& kernel, const Points& centres, Eigen::MatrixXd& matrix, Monitor& monitor)
+  const RadialKernel& kernel, const Points& centers, Eigen::MatrixXd& matrix, Monitor& monitor)
 {
-  const Index n = centres.rows();
+  const Index n = centers.rows();
   matrix.resize(n, n);
   parallel(n, ColumnGrain, monitor,
     [&](Index j)
     {
       for (Index i = j; i < n; ++i)
       {
-        matrix(i, j) = kernel((centres.row(i) - centres.row(j)).squaredNorm());
+        matrix(i, j) = kernel((centers.row(i) - centers.row(j)).squaredNorm());
       }
     });
 }
 }
 
-bool RadialInterpolant::prepare(const RadialKernel& kernel, const Points& centres, Monitor& monitor)
+bool RadialInterpolant::prepare(const RadialKernel& kernel, const Points& centers, Monitor& monitor)
 {
   this->kernel_ = kernel;
-  this->centres_ = centres;
-  const Index n = centres.rows();
+  this->centers_ = centers;
+  const Index n = centers.rows();
   Reflector polynomial(n, Terms);
   polynomial.col(0).setOnes();
-  polynomial.rightCols<3>() = centres;
+  polynomial.rightCols<3>() = centers;
   this->reflectors_.setZero(n, Terms);
-  fillLower(kernel, centres, this->matrix_, monitor);
+  fillLower(kernel, centers, this->matrix_, monitor);
   for (int k = 0; k < Terms; ++k)
   {
     monitor.check();
@@ -88,7 +88,7 @@ Points RadialInterpolant::reflectBack(Eigen::MatrixXd values) const
 
 RadialInterpolant::Coefficients RadialInterpolant::solve(const Points& values) const
 {
-  const Index rest = this->centres_.rows() - Terms;
+  const Index rest = this->centers_.rows() - Terms;
   Eigen::MatrixXd x = this->reflect(values);
   solveCholesky(this->matrix_.bottomRightCorner(rest, rest), x.bottomRows(rest));
   Eigen::Matrix<double, Terms, 3> top =
@@ -101,7 +101,7 @@ RadialInterpolant::Coefficients RadialInterpolant::solve(const Points& values) c
 
 Points RadialInterpolant::solveTranspose(const Coefficients& gradient) const
 {
-  const Index rest = this->centres_.rows() - Terms;
+  const Index rest = this->centers_.rows() - Terms;
   Eigen::Matrix<double, Terms, 3> top = gradient.ofPolynomial;
   this->triangle_.transpose().triangularView<Eigen::Lower>().solveInPlace(top);
   Eigen::MatrixXd x = this->reflect(gradient.ofKernels);
@@ -114,7 +114,7 @@ Points RadialInterpolant::solveTranspose(const Coefficients& gradient) const
 void RadialInterpolant::evaluate(
   const Coefficients& coefficients, const Points& targets, Points& values, Monitor& monitor) const
 {
-  kernelSums(this->kernel_, targets, this->centres_, coefficients.ofKernels, values, monitor);
+  kernelSums(this->kernel_, targets, this->centers_, coefficients.ofKernels, values, monitor);
   const auto& p = coefficients.ofPolynomial;
   parallel(targets.rows(), monitor,
     [&](Index i)
@@ -128,7 +128,7 @@ RadialInterpolant::Coefficients RadialInterpolant::evaluateTranspose(
   const Points& targets, const Points& gradient, Monitor& monitor) const
 {
   Coefficients result;
-  kernelSums(this->kernel_, this->centres_, targets, gradient, result.ofKernels, monitor);
+  kernelSums(this->kernel_, this->centers_, targets, gradient, result.ofKernels, monitor);
   result.ofPolynomial.row(0) = gradient.colwise().sum();
   result.ofPolynomial.bottomRows<3>() = targets.transpose() * gradient;
   return result;

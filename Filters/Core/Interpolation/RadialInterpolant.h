@@ -11,9 +11,9 @@
 
 namespace morph
 {
-/// Interpolates by one radial basis function a centre and a linear polynomial:
+/// Interpolates by one radial basis function a center and a linear polynomial:
 ///
-///     s(x) = sum over centres c_j of a_j kernel(|x - c_j|) + p(x),
+///     s(x) = sum over centers c_j of a_j kernel(|x - c_j|) + p(x),
 ///     with sum a_j q(c_j) = 0 for every linear polynomial q
 ///
 /// It is the identity on linear polynomials. Householder reflections project the polynomials out.
@@ -26,24 +26,24 @@ namespace morph
 class RadialInterpolant
 {
 public:
-  /// What the values at the centres determine.
+  /// What the values at the centers determine.
   struct Coefficients
   {
-    Points ofKernels;                         ///< #centres x 3
+    Points ofKernels;                         ///< #centers x 3
     Eigen::Matrix<double, 4, 3> ofPolynomial; ///< 1, x, y, z
   };
 
-  /// `centres`: #centres x 3, of about unit extent around the origin, at least four, not all in a
-  /// plane. Returns false if rounding makes the system indefinite, as where centres nearly
+  /// `centers`: #centers x 3, of about unit extent around the origin, at least four, not all in a
+  /// plane. Returns false if rounding makes the system indefinite, as where centers nearly
   /// coincide. Cost: n^3 / 3 multiplications and additions; 8 n^2 bytes.
-  bool prepare(const RadialKernel& kernel, const Points& centres, Monitor& monitor);
+  bool prepare(const RadialKernel& kernel, const Points& centers, Monitor& monitor);
 
-  const Points& centres() const { return this->centres_; }
+  const Points& centers() const { return this->centers_; }
   const RadialKernel& kernel() const { return this->kernel_; }
 
-  /// `values`: #centres x 3. Cost: two passes over the factor.
+  /// `values`: #centers x 3. Cost: two passes over the factor.
   Coefficients solve(const Points& values) const;
-  /// The adjoint of solve(): returns #centres x 3.
+  /// The adjoint of solve(): returns #centers x 3.
   Points solveTranspose(const Coefficients& gradient) const;
 
   /// Sets `values` to s at `targets`, #targets x 3.
@@ -59,8 +59,8 @@ private:
   Points reflectBack(Eigen::MatrixXd values) const;
 
   RadialKernel kernel_;
-  Points centres_;
-  Reflector reflectors_; ///< of the QR factorisation of (1, x, y, z) at the centres
+  Points centers_;
+  Reflector reflectors_; ///< of the QR factorisation of (1, x, y, z) at the centers
   std::array<double, 4> scales_{};
   Eigen::Matrix4d triangle_; ///< R
   /// The reflected kernel matrix, lower triangle. Its last rows and columns hold the factor.

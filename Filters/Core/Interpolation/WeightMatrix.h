@@ -13,7 +13,7 @@ namespace morph
 class WeightMatrix
 {
 public:
-  /// Allocates row i at offsets[i] to offsets[i + 1] - 1 without initialising it. `offsets`: #rows
+  /// Allocates row i at offsets[i] to offsets[i + 1] - 1 without initializing it. `offsets`: #rows
   /// + 1, ascending from 0. Throws Error if there are more than 2^31 - 1 columns or memory does not
   /// suffice.
   void open(Index columns, std::vector<Index> offsets);
@@ -50,7 +50,7 @@ public:
 private:
   Index columns_ = 0;
   std::vector<Index> offsets_{ 0 };
-  // Resizing does not initialise them: each thread is the first to touch its part.
+  // Resizing does not initialize them: each thread is the first to touch its part.
   Eigen::Array<std::int32_t, Eigen::Dynamic, 1> column_;
   Eigen::ArrayXd weight_;
 };

@@ -23,10 +23,10 @@ using Matrix = Eigen::Matrix3d;
 struct Motion
 {
   double corners = 0, moved = 0; ///< prescribed ones, and those of them that move
-  Row centre = Row::Zero(), mean = Row::Zero();
+  Row center = Row::Zero(), mean = Row::Zero();
   Matrix gradient = Matrix::Zero();
 
-  Row at(const Row& x) const { return this->mean + (x - this->centre) * this->gradient; }
+  Row at(const Row& x) const { return this->mean + (x - this->center) * this->gradient; }
 };
 
 /// Prescribed corners, of which each counts on one process, and their sums over the processes.
@@ -52,7 +52,7 @@ public:
         this->corners_.push_back({ i, node, body });
       }
     }
-    this->centre();
+    this->center();
     this->fit();
   }
 
@@ -115,7 +115,7 @@ private:
   }
 
   /// Finds the mean positions and displacements.
-  void centre()
+  void center()
   {
     using Sum = Eigen::Matrix<double, 1, 8>; // of positions, displacements, and counts
     // Twice: sums of coordinates far from the origin lose the digits that tell the points apart.
@@ -125,7 +125,7 @@ private:
         [&](const Corner& corner, Eigen::Map<Sum>& sum)
         {
           const Row u = this->displacement_.row(corner.row);
-          sum.head<3>() += this->rest_.points.row(corner.node) - this->motions_[corner.body].centre;
+          sum.head<3>() += this->rest_.points.row(corner.node) - this->motions_[corner.body].center;
           sum.segment<3>(3) += u;
           sum[6] += 1;
           sum[7] += (u.array() == 0).all() ? 0 : 1;
@@ -135,7 +135,7 @@ private:
         Motion& motion = this->motions_[b];
         motion.corners = sums[b][6];
         motion.moved = sums[b][7];
-        motion.centre += sums[b].head<3>() / std::max(1., motion.corners);
+        motion.center += sums[b].head<3>() / std::max(1., motion.corners);
         motion.mean = sums[b].segment<3>(3) / std::max(1., motion.corners);
       }
     }
@@ -143,7 +143,7 @@ private:
 
   Row arm(const Corner& corner) const
   {
-    return this->rest_.points.row(corner.node) - this->motions_[corner.body].centre;
+    return this->rest_.points.row(corner.node) - this->motions_[corner.body].center;
   }
 
   void fit()
@@ -171,7 +171,7 @@ private:
     {
       Motion& motion = this->motions_[b];
       motion.gradient =
-        AffineFit(motion.centre, motion.mean, directions[b].inverse(), stretch[b]).gradient();
+        AffineFit(motion.center, motion.mean, directions[b].inverse(), stretch[b]).gradient();
       // What stays needs no completion.
       areTold = areTold && (motion.moved == 0 || directions[b].shares().minCoeff() == 1);
     }
@@ -208,7 +208,7 @@ private:
     {
       Eigen::Map<Row> most(largest.data() + 6 * body + first);
       most = most.cwiseMax(
-        directions[body].leverages(this->rest_.points.row(node) - this->motions_[body].centre));
+        directions[body].leverages(this->rest_.points.row(node) - this->motions_[body].center));
     };
     for (const Corner& corner : this->corners_)
     {

@@ -229,12 +229,12 @@ double affineResidual(const Points& points, const std::vector<Index>& rows,
       for (Index i = p * Grain; i < std::min(count, (p + 1) * Grain); ++i)
       {
         // The motions 1 and x: constants, and coordinates about the row's own node.
-        const Eigen::RowVector3d centre = points.row(rows[i]);
+        const Eigen::RowVector3d center = points.row(rows[i]);
         Eigen::Array4d sum = Eigen::Array4d::Zero(), size = sum;
         const auto add = [&](double value, Index node)
         {
           Eigen::Array4d term;
-          term << value, value * (points.row(node) - centre).transpose().array();
+          term << value, value * (points.row(node) - center).transpose().array();
           sum += term;
           size += term.abs();
         };

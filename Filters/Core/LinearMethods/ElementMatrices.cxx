@@ -14,16 +14,16 @@ namespace morph
 namespace
 {
 
-/// Sets K of a star, eliminates its centre, and sets the centre's weights. Returns false where the
-/// centre has no stiffness.
-bool starMatrix(const Mesh& mesh, const Adjacency& around, CellMatrix& cell, CentreStars& stars,
+/// Sets K of a star, eliminates its center, and sets the center's weights. Returns false where the
+/// center has no stiffness.
+bool starMatrix(const Mesh& mesh, const Adjacency& around, CellMatrix& cell, CenterStars& stars,
   Index star, double* K)
 {
   const Index* nodes = stars.nodes().begin(star);
   const auto n = static_cast<int>(stars.nodes().end(star) - nodes);
-  double sum[CentreStars::MostNodes + 1][CentreStars::MostNodes + 1] = {}; // the centre is last
-  const Index centre = stars.centre(star);
-  for (const Index* c = around.begin(centre); c != around.end(centre); ++c)
+  double sum[CenterStars::MostNodes + 1][CenterStars::MostNodes + 1] = {}; // the center is last
+  const Index center = stars.center(star);
+  for (const Index* c = around.begin(center); c != around.end(center); ++c)
   {
     double part[triangleSize(8)];
     cell.compute(*c, part);
@@ -33,7 +33,7 @@ bool starMatrix(const Mesh& mesh, const Adjacency& around, CellMatrix& cell, Cen
     {
       const Index node = mesh.cell(*c)[shape.cornerNode[a]];
       place[a] =
-        node == centre ? n : static_cast<int>(std::lower_bound(nodes, nodes + n, node) - nodes);
+        node == center ? n : static_cast<int>(std::lower_bound(nodes, nodes + n, node) - nodes);
     }
     for (int a = 0, k = 0; a < shape.numberOfCorners; ++a)
     {
@@ -93,7 +93,7 @@ bool CellMatrix::isAnyBad() const
 }
 
 Matrices starMatrices(const Mesh& mesh, const Adjacency& around, CellMatrix& cell,
-  CentreStars& stars, std::vector<Index>& singularCentres, Monitor& monitor)
+  CenterStars& stars, std::vector<Index>& singularCenters, Monitor& monitor)
 {
   Matrices result;
   Index entries = 0;
@@ -110,7 +110,7 @@ Matrices starMatrices(const Mesh& mesh, const Adjacency& around, CellMatrix& cel
   {
     if (!isUsable[s])
     {
-      singularCentres.push_back(stars.centre(s));
+      singularCenters.push_back(stars.center(s));
     }
   }
   return result;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "LinearMethods/CentreStars.h"
+#include "LinearMethods/CenterStars.h"
 #include "Mesh/Mesh.h"
 #include "Support/Adjacency.h"
 #include "Support/Monitor.h"
@@ -19,7 +19,7 @@ namespace morph
 struct Matrices
 {
   std::vector<Index> start; ///< of each element
-  Eigen::ArrayXd K; ///< not initialised by resize: each thread is the first to touch its part
+  Eigen::ArrayXd K; ///< not initialized by resize: each thread is the first to touch its part
 
   double* of(Index element) { return this->K.data() + this->start[element]; }
   const double* of(Index element) const { return this->K.data() + this->start[element]; }
@@ -45,12 +45,12 @@ private:
   std::vector<std::uint8_t> isBad_;
 };
 
-/// Returns the matrices of all stars without their centres. Sets the weights of the centres, and
-/// adds those without stiffness to `singularCentres`. `around`: nodeToCells(mesh).
+/// Returns the matrices of all stars without their centers. Sets the weights of the centers, and
+/// adds those without stiffness to `singularCenters`. `around`: nodeToCells(mesh).
 Matrices starMatrices(const Mesh& mesh, const Adjacency& around, CellMatrix& cell,
-  CentreStars& stars, std::vector<Index>& singularCentres, Monitor& monitor);
+  CenterStars& stars, std::vector<Index>& singularCenters, Monitor& monitor);
 
-/// Returns the matrices of all cells, without those in stars. `starOf`: CentreStars::ofCell(). They
+/// Returns the matrices of all cells, without those in stars. `starOf`: CenterStars::ofCell(). They
 /// take 0.3 kB a cell of a hexahedral mesh.
 Matrices cellMatrices(
   const Mesh& mesh, const std::vector<int>& starOf, CellMatrix& cell, Monitor& monitor);

@@ -40,12 +40,12 @@ void FemWarp::doPrepare(const Mesh& rest, Monitor& monitor)
     stiffnessFactors(rest, partition.prescribed, this->stiffness(), monitor);
   this->isUniform_ = factors.empty();
   Adjacency around = nodeToCells(rest, monitor);
-  // Where the stiffness varies, the fit that is taken off would have to be taken off centres, too.
-  this->stars_ = this->isUniform_ ? CentreStars(rest, partition.free, this->firstCentre(), around)
-                                  : CentreStars();
+  // Where the stiffness varies, the fit that is taken off would have to be taken off centers, too.
+  this->stars_ = this->isUniform_ ? CenterStars(rest, partition.free, this->firstCenter(), around)
+                                  : CenterStars();
   if (this->stars_.size() == static_cast<Index>(partition.free.size()))
   {
-    this->stars_ = CentreStars(); // a matrix without rows is none
+    this->stars_ = CenterStars(); // a matrix without rows is none
   }
   this->rows_ = unknownOrdering(rest, this->stars_.others(partition.free));
   if (this->rows_ == partition.free)
@@ -64,9 +64,9 @@ void FemWarp::doPrepare(const Mesh& rest, Monitor& monitor)
       monitor.warn(warning);
     }
   }
-  if (!system.singularCentres.empty())
+  if (!system.singularCenters.empty())
   {
-    throwSingular(system.singularCentres);
+    throwSingular(system.singularCenters);
   }
   monitor.check();
   monitor.progress(0.6);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "LinearMethods/CentreStars.h"
+#include "LinearMethods/CenterStars.h"
 #include "LinearMethods/DirichletSystem.h"
 #include "Morpher/CellStiffness.h"
 #include "Solvers/SpdSolver.h"
@@ -41,7 +41,7 @@ public:
   double tolerance() const { return this->tolerance_; }
 
   /// Returns the node id of each matrix row: NodePartition::free, or these ids in a better order
-  /// for memory. Of a mesh with polyhedra some centres are eliminated and are no rows, if the
+  /// for memory. Of a mesh with polyhedra some centers are eliminated and are no rows, if the
   /// stiffness is uniform.
   const std::vector<Index>& rows() const
   {
@@ -67,7 +67,7 @@ private:
 
   double tolerance_ = 1e-10;
   std::vector<Index> rows_; ///< empty where they are the free nodes
-  CentreStars stars_;
+  CenterStars stars_;
   SpdSolver solver_;
   CsrMatrix coupling_;
   AffineGuess guess_;

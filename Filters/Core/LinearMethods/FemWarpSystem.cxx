@@ -39,7 +39,7 @@ bool isCollapsed(const Mesh& mesh, Index cell)
 /// A table of triangleIndex(n, a, b), for the assembly's inner loop.
 struct TriangleTable
 {
-  static constexpr int Most = CentreStars::MostNodes;
+  static constexpr int Most = CenterStars::MostNodes;
   std::uint8_t at[Most + 1][Most][Most] = {};
   TriangleTable()
   {
@@ -60,7 +60,7 @@ struct TriangleTable
 /// sums do not depend on threads. Stars come last in all rows, so that the matrix is symmetric to
 /// the last bit, except where edges of cells are collapsed.
 SplitMatrix gatherRows(const Mesh& mesh, Adjacency& around, const std::vector<Index>& free,
-  const std::vector<Index>& prescribed, const std::vector<double>& factors, CentreStars& stars,
+  const std::vector<Index>& prescribed, const std::vector<double>& factors, CenterStars& stars,
   FemWarpSystem& system, Monitor& monitor)
 {
   // Columns of [A_I A_B]: the free nodes by row, then the prescribed nodes.
@@ -74,7 +74,7 @@ SplitMatrix gatherRows(const Mesh& mesh, Adjacency& around, const std::vector<In
 
   CellMatrix cellMatrix(mesh, factors, system.cellSign);
   const Matrices ofStars =
-    starMatrices(mesh, around, cellMatrix, stars, system.singularCentres, monitor);
+    starMatrices(mesh, around, cellMatrix, stars, system.singularCenters, monitor);
   const std::vector<int>& starOf = stars.ofCell();
   Matrices ofCells = cellMatrices(mesh, starOf, cellMatrix, monitor);
   system.hasBadCells = cellMatrix.isAnyBad();
@@ -82,7 +82,7 @@ SplitMatrix gatherRows(const Mesh& mesh, Adjacency& around, const std::vector<In
   monitor.progress(0.3);
 
   const TriangleTable triangle;
-  int same[CentreStars::MostNodes];
+  int same[CenterStars::MostNodes];
   std::iota(std::begin(same), std::end(same), 0);
   // Adds the row of a corner of a cell or star with this matrix.
   const auto addCorner = [&](SparseRow& row, const Index* nodes, const int* cornerNode, int n,
@@ -136,12 +136,12 @@ SplitMatrix gatherRows(const Mesh& mesh, Adjacency& around, const std::vector<In
 FemWarpSystem femWarpSystem(const Mesh& mesh, const std::vector<Index>& rows,
   const std::vector<Index>& prescribed, const std::vector<double>& factors, Monitor& monitor)
 {
-  CentreStars none;
+  CenterStars none;
   return femWarpSystem(mesh, nodeToCells(mesh, monitor), rows, prescribed, factors, none, monitor);
 }
 
 FemWarpSystem femWarpSystem(const Mesh& mesh, Adjacency around, const std::vector<Index>& rows,
-  const std::vector<Index>& prescribed, const std::vector<double>& factors, CentreStars& stars,
+  const std::vector<Index>& prescribed, const std::vector<double>& factors, CenterStars& stars,
   Monitor& monitor)
 {
   FemWarpSystem system;

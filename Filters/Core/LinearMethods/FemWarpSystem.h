@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "LinearMethods/CentreStars.h"
+#include "LinearMethods/CenterStars.h"
 #include "Mesh/Mesh.h"
 #include "Solvers/CsrMatrix.h"
 #include "Support/Monitor.h"
@@ -20,7 +20,7 @@ struct FemWarpSystem
 
   std::vector<std::int8_t> cellSign;  ///< #cells, from elementStiffness()
   bool hasBadCells = false;           ///< some cell may be inverted or flat; see badCells()
-  std::vector<Index> singularCentres; ///< node ids of eliminated centres without stiffness
+  std::vector<Index> singularCenters; ///< node ids of eliminated centers without stiffness
 };
 
 /// Computes the equations. `rows`: the nodes of the matrix rows, in their order. `prescribed`: all
@@ -29,10 +29,10 @@ struct FemWarpSystem
 /// to 0.4 microseconds a cell.
 FemWarpSystem femWarpSystem(const Mesh& mesh, const std::vector<Index>& rows,
   const std::vector<Index>& prescribed, const std::vector<double>& factors, Monitor& monitor);
-/// The same without the centres of `stars`, which are no rows. Sets the weights of the stars.
+/// The same without the centers of `stars`, which are no rows. Sets the weights of the stars.
 /// `around`: nodeToCells(mesh), to be freed once it has been used.
 FemWarpSystem femWarpSystem(const Mesh& mesh, Adjacency around, const std::vector<Index>& rows,
-  const std::vector<Index>& prescribed, const std::vector<double>& factors, CentreStars& stars,
+  const std::vector<Index>& prescribed, const std::vector<double>& factors, CenterStars& stars,
   Monitor& monitor);
 
 /// Ids of cells that are no good reference, ascending.

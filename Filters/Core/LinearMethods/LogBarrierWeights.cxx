@@ -135,7 +135,7 @@ int LogBarrierWeights::whitenCarefully(const double (*offsets)[3], int k, double
 
 /// Applies Newton's method from dual.mu, up to a total of `mostIterations`, while mu stays below
 /// `limit`.
-void LogBarrierWeights::minimise(Dual& dual, int k, int dimension, double limit, int mostIterations)
+void LogBarrierWeights::minimize(Dual& dual, int k, int dimension, double limit, int mostIterations)
 {
   const std::size_t pairs = static_cast<std::size_t>(k + 1) / 2;
   dual.status = Status::Stalled;
@@ -274,7 +274,7 @@ LogBarrierWeights::Result LogBarrierWeights::compute(
   if (this->whiten(offsets, k, scale))
   {
     Dual dual;
-    this->minimise(dual, k, 3, UsualMu, UsualIterations);
+    this->minimize(dual, k, 3, UsualMu, UsualIterations);
     iterations = dual.iterations;
     if (dual.status == Status::Converged)
     {
@@ -313,7 +313,7 @@ LogBarrierWeights::Result LogBarrierWeights::computeCarefully(
     Dual dual;
     for (double limit = TurnEvery; limit <= LargestMu; limit *= TurnEvery)
     {
-      this->minimise(dual, count, dimension, limit, MostIterations);
+      this->minimize(dual, count, dimension, limit, MostIterations);
       if (dual.status != Status::BeyondLimit)
       {
         break;

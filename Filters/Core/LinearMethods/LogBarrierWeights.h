@@ -7,12 +7,12 @@
 
 namespace morph
 {
-/// Log-barrier weights of one node i: the convex weights that keep it in place and maximise sum log
+/// Log-barrier weights of one node i: the convex weights that keep it in place and maximize sum log
 /// w_j. The constraints are sum w_j = 1 and sum w_j d_j = 0, with d_j = x_j - x_i. Sources: Staten
 /// et al., IMR 2011, equation (13); Shontz and Vavasis, IMR 2003.
 ///
 /// The dual problem has three unknowns. The stationary point has 1 / w_j = k (1 + mu . d_j) with k
-/// neighbors, where mu minimises the self-concordant function g(mu) = -sum log(1 + mu . d_j).
+/// neighbors, where mu minimizes the self-concordant function g(mu) = -sum log(1 + mu . d_j).
 /// Damped Newton steps from mu = 0 converge without a line search (Nesterov and Nemirovskii, 1994)
 /// if the node lies strictly inside its neighbors' hull. The d_j are whitened first, so stretched
 /// and flat neighborhoods are as easy as round ones.
@@ -60,7 +60,7 @@ private:
   void resize(int k);
   bool whiten(const double (*offsets)[3], int k, double scale);
   int whitenCarefully(const double (*offsets)[3], int k, double scale);
-  void minimise(Dual& dual, int k, int dimension, double limit, int mostIterations);
+  void minimize(Dual& dual, int k, int dimension, double limit, int mostIterations);
   void turn(Dual& dual, int k, int dimension);
   void fillWeights(int k, double* weights) const;
   Result computeCarefully(const double (*offsets)[3], int k, double scale, double* weights);

@@ -83,7 +83,7 @@ bool NodeWeights::logBarrier()
   return result.place != LogBarrierWeights::Place::Outside;
 }
 
-/// Minimises |w - 1 / k|^2 with sum w_j = 1 and sum w_j d_j = 0: w_j = (1 - (d_j - m) . C^-1 m) /
+/// Minimizes |w - 1 / k|^2 with sum w_j = 1 and sum w_j d_j = 0: w_j = (1 - (d_j - m) . C^-1 m) /
 /// k. m is the mean and C the covariance of the d_j.
 bool NodeWeights::leastNormAffine()
 {
@@ -95,13 +95,13 @@ bool NodeWeights::leastNormAffine()
   const Eigen::Map<const Points> d(this->offsets_[0].data(), k, 3);
   const double size = d.cwiseAbs().maxCoeff();
   const Eigen::RowVector3d mean = d.colwise().mean() / size;
-  const Points centred = (d / size).rowwise() - mean;
-  const ThinSvd3 principal(centred);
+  const Points centered = (d / size).rowwise() - mean;
+  const ThinSvd3 principal(centered);
   Eigen::VectorXd w = Eigen::VectorXd::Constant(k, 1. / static_cast<double>(k));
   for (int c = 0; c < principal.dimension; ++c)
   {
     const Eigen::Vector3d scaled = principal.axes.col(c) / principal.extent[c];
-    w -= (centred * scaled) * mean.dot(scaled);
+    w -= (centered * scaled) * mean.dot(scaled);
   }
   const Eigen::RowVector3d residual = w.transpose() * d / size;
   if (!w.allFinite() || !(residual.norm() <= LargestResidual) ||

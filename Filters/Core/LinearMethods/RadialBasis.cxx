@@ -14,7 +14,7 @@ namespace morph
 {
 namespace
 {
-constexpr double NearestCentres = 1e-5; // of the extent
+constexpr double NearestCenters = 1e-5; // of the extent
 }
 
 void RadialBasis::setSupportRadius(double radius)
@@ -28,14 +28,14 @@ void RadialBasis::setSupportRadius(double radius)
   this->supportRadius_ = radius;
 }
 
-void RadialBasis::setNumberOfCentres(Index count)
+void RadialBasis::setNumberOfCenters(Index count)
 {
-  if (count != 0 && (count < FewestCentres || count > MostCentres))
+  if (count != 0 && (count < FewestCenters || count > MostCenters))
   {
-    throw Error("The number of centres must be 0 or " + std::to_string(FewestCentres) + " to " +
-                std::to_string(MostCentres) + "; it is " + std::to_string(count) + ".");
+    throw Error("The number of centers must be 0 or " + std::to_string(FewestCenters) + " to " +
+                std::to_string(MostCenters) + "; it is " + std::to_string(count) + ".");
   }
-  this->numberOfCentres_ = count;
+  this->numberOfCenters_ = count;
 }
 
 void RadialBasis::requireSpace() const
@@ -71,31 +71,31 @@ void RadialBasis::doPrepare(const Mesh& rest, Monitor& monitor)
 
   const FarthestPoints far = farthestPoints(places, monitor);
   const Index n = places.rows();
-  const Index most = this->numberOfCentres_ > 0 ? this->numberOfCentres_
-                     : n <= MostCentres         ? n
-                                                : CentresOfMany;
-  Index centres = std::min(n, FewestCentres);
-  while (centres < std::min(n, most) && far.distances[centres] > NearestCentres)
+  const Index most = this->numberOfCenters_ > 0 ? this->numberOfCenters_
+                     : n <= MostCenters         ? n
+                                                : CentersOfMany;
+  Index centers = std::min(n, FewestCenters);
+  while (centers < std::min(n, most) && far.distances[centers] > NearestCenters)
   {
-    ++centres;
+    ++centers;
   }
   const Points ordered = places(far.order, allColumns);
   this->order_ = far.order;
-  this->otherPlaces_ = ordered.bottomRows(n - centres);
+  this->otherPlaces_ = ordered.bottomRows(n - centers);
   monitor.progress(0.1);
 
   ProgressRange factorizing(monitor, 0.1, 0.8);
   if (!this->interpolant_.prepare(
-        { this->kind_, this->supportRadius_ }, ordered.topRows(centres), factorizing))
+        { this->kind_, this->supportRadius_ }, ordered.topRows(centers), factorizing))
   {
     std::ostringstream text;
-    text << "The system of " << centres << " radial basis functions is singular to rounding; "
-         << "its nearest centres are " << far.distances[centres - 1] * this->extent_
-         << " apart. Choose fewer centres, or a smaller support radius.";
+    text << "The system of " << centers << " radial basis functions is singular to rounding; "
+         << "its nearest centers are " << far.distances[centers - 1] * this->extent_
+         << " apart. Choose fewer centers, or a smaller support radius.";
     throw Error(Error::Kind::Singular, text.str());
   }
   ProgressRange correcting(monitor, 0.8, 1);
-  this->correction_.prepare(ordered, far.distances, centres, this->freePlaces_, correcting);
+  this->correction_.prepare(ordered, far.distances, centers, this->freePlaces_, correcting);
   this->largestResidual_ = 0;
 }
 
@@ -104,7 +104,7 @@ EvaluateReport RadialBasis::report(double residual) const
   EvaluateReport report;
   // Counts are whole numbers; rounded up, so that 0 means none.
   const double millionths = std::min(std::ceil(1e6 * residual / this->extent_), 1e18);
-  report.statistics = { { "Centers", this->centres() },
+  report.statistics = { { "Centers", this->centers() },
     { "CorrectedSites", this->correctedSites() },
     { "LargestResidualPPM", millionths > 0 ? static_cast<Index>(millionths) : 0 } };
   return report;
@@ -114,7 +114,7 @@ EvaluateReport RadialBasis::displace(const Points& prescribed, Points& free, Mon
 {
   const Points values = this->sites_.average(prescribed, monitor)(this->order_, allColumns);
   monitor.check();
-  const auto coefficients = this->interpolant_.solve(values.topRows(this->centres()));
+  const auto coefficients = this->interpolant_.solve(values.topRows(this->centers()));
   Points residuals = Points::Zero(values.rows(), 3), atOthers;
   this->interpolant_.evaluate(coefficients, this->otherPlaces_, atOthers, monitor);
   residuals.bottomRows(this->correctedSites()) =
@@ -137,17 +137,17 @@ EvaluateReport RadialBasis::displaceTranspose(
     this->interpolant_.evaluateTranspose(this->otherPlaces_, ofResiduals, monitor);
   gradient.ofKernels -= ofOthers.ofKernels;
   gradient.ofPolynomial -= ofOthers.ofPolynomial;
-  ordered.topRows(this->centres()) = this->interpolant_.solveTranspose(gradient);
+  ordered.topRows(this->centers()) = this->interpolant_.solveTranspose(gradient);
   Points result(this->sites_.size(), 3);
   result(this->order_, allColumns) = ordered;
   this->sites_.scatterTranspose(result, prescribed);
   return this->report(0);
 }
 
-std::vector<Index> RadialBasis::centreNodes() const
+std::vector<Index> RadialBasis::centerNodes() const
 {
   std::vector<Index> nodes;
-  for (Index i = 0; i < this->centres(); ++i)
+  for (Index i = 0; i < this->centers(); ++i)
   {
     const Index first = *this->sites_.prescribed().begin(this->order_[i]);
     nodes.push_back(this->partition().prescribed[first]);

@@ -15,7 +15,7 @@ namespace morph
 namespace
 {
 constexpr double LeastSine = 0.1; // of a corner of a quadrilateral that stays whole
-constexpr Index Whole = -1;       // a face without a node at its centre
+constexpr Index Whole = -1;       // a face without a node at its center
 
 Eigen::RowVector3d doubleArea(const Mesh& mesh, const Index* nodes, Index size)
 {
@@ -46,7 +46,7 @@ bool isPlain(const Mesh& mesh, const Index* nodes, Index size)
   return true;
 }
 
-/// For each face of the table the number of its centre, or Whole.
+/// For each face of the table the number of its center, or Whole.
 std::vector<Index> numberCenters(const Mesh& mesh, const FaceTable& table, Index& count)
 {
   const Index faces = table.start.back();
@@ -75,13 +75,13 @@ std::vector<Index> numberCenters(const Mesh& mesh, const FaceTable& table, Index
   return centers;
 }
 
-/// The weights of nodes in centres, centre by centre.
+/// The weights of nodes in centers, center by center.
 struct Means
 {
   std::vector<Index> offsets = { 0 };
   std::vector<std::pair<Index, double>> weights; ///< node and weight, the nodes of each ascending
 
-  /// The weights since the last close() become those of the next centre, by ascending nodes.
+  /// The weights since the last close() become those of the next center, by ascending nodes.
   void close()
   {
     std::sort(this->weights.begin() + this->offsets.back(), this->weights.end(),
@@ -106,7 +106,7 @@ struct Means
   }
 };
 
-/// Adds the weights of a cell's nodes in its centre, one entry a node. `areas`: memory.
+/// Adds the weights of a cell's nodes in its center, one entry a node. `areas`: memory.
 void addCellCenter(
   const Mesh& mesh, const FaceTable& table, Index cell, std::vector<double>& areas, Means& means)
 {

@@ -13,14 +13,14 @@ namespace morph
 {
 /// A mesh whose polyhedra are cut into tetrahedra and pyramids, for methods that know these alone.
 ///
-/// Each polyhedron gets a node at its centre, and each face a piece up to there: a tetrahedron on a
+/// Each polyhedron gets a node at its center, and each face a piece up to there: a tetrahedron on a
 /// triangle, a pyramid on a quadrilateral. A face of more nodes, or a quadrilateral with a corner
-/// that is flat or turned inward, gets a node at its centre and a tetrahedron on each edge. Both
+/// that is flat or turned inward, gets a node at its center and a tetrahedron on each edge. Both
 /// cells at a face cut it alike. A quadrilateral of a hexahedron, wedge or pyramid stays whole, so
 /// that the mesh is conforming. So does a polyhedron that is a tetrahedron or hexahedron with
 /// whole faces and clearly positive corners.
 ///
-/// Node ids stay; the centres of faces follow, then those of cells. Cell ids stay, too: that of a
+/// Node ids stay; the centers of faces follow, then those of cells. Cell ids stay, too: that of a
 /// polyhedron is now its first piece, and its other pieces come after all cells.
 class PolyhedronPieces
 {
@@ -29,23 +29,23 @@ public:
   /// too, for tests. Cost: see faceTable(), and a pass.
   PolyhedronPieces(const Mesh& mesh, Monitor& monitor, bool cutsAll = false);
 
-  /// The pieces and the other cells, with the centres at their first places.
+  /// The pieces and the other cells, with the centers at their first places.
   const Mesh& mesh() const { return this->pieces_; }
-  /// Returns `points`, #nodes x 3, and after them the centres: the mean of a face's nodes, and the
+  /// Returns `points`, #nodes x 3, and after them the centers: the mean of a face's nodes, and the
   /// mean of a cell's faces, weighted by their undeformed areas. Affine motions map them, too.
   Points extend(const ConstPoints& points) const;
-  /// Adds the gradient of the centres to that of the nodes that they are means of: the adjoint of
-  /// extend(). `all`: with the centres; returns #nodes x 3.
+  /// Adds the gradient of the centers to that of the nodes that they are means of: the adjoint of
+  /// extend(). `all`: with the centers; returns #nodes x 3.
   Points extendTranspose(const ConstPoints& all) const;
-  /// The groups of all nodes. Centres of faces whose nodes are all prescribed are prescribed, too,
-  /// and come last; the other centres are free. `partition`: of the mesh without centres.
+  /// The groups of all nodes. Centers of faces whose nodes are all prescribed are prescribed, too,
+  /// and come last; the other centers are free. `partition`: of the mesh without centers.
   NodePartition extend(const NodePartition& partition) const;
 
   /// Returns `values`, one a cell, for each piece: that of the cell it is cut from.
   std::vector<double> extend(const std::vector<double>& values) const;
 
-  /// For the parts of a distributed mesh: the cell that a piece is cut from, the number of centres
-  /// of faces, which come before those of cells, and the weights of the nodes in all centres.
+  /// For the parts of a distributed mesh: the cell that a piece is cut from, the number of centers
+  /// of faces, which come before those of cells, and the weights of the nodes in all centers.
   ///@{
   Index cellOf(Index piece) const;
   Index faceCenters() const { return this->faceCenters_; }
@@ -55,8 +55,8 @@ public:
 private:
   Mesh pieces_;
   std::vector<Index> cellOfOther_; ///< the cell of each piece beyond the mesh's cells
-  Index nodes_ = 0;                ///< without centres
+  Index nodes_ = 0;                ///< without centers
   Index faceCenters_ = 0;
-  Eigen::SparseMatrix<double, Eigen::RowMajor, Index> means_; ///< #centres x #nodes
+  Eigen::SparseMatrix<double, Eigen::RowMajor, Index> means_; ///< #centers x #nodes
 };
 }

@@ -18,7 +18,7 @@ struct CellStiffness
     Uniform,       ///< the method as published
     InverseVolume, ///< 1 / volume: small cells are stiff
     /// 1 / distance from `walls`: cells near them are stiff. The distance of a cell is that of its
-    /// centre from the nearest wall node, at least 1e-3 of the mesh's mean distance.
+    /// center from the nearest wall node, at least 1e-3 of the mesh's mean distance.
     WallDistance
   };
   Kind kind = Kind::Uniform;
@@ -39,14 +39,14 @@ public:
   void setStiffness(CellStiffness stiffness);
   const CellStiffness& stiffness() const { return this->stiffness_; }
 
-  /// Nodes from this id on are centres of polyhedra and of their faces. A method may eliminate them
+  /// Nodes from this id on are centers of polyhedra and of their faces. A method may eliminate them
   /// before it solves, where the stiffness is uniform. Call it before prepare(). Default: none is
-  /// such a centre.
-  void setFirstCentre(Index node) { this->firstCentre_ = node; }
-  Index firstCentre() const { return this->firstCentre_; }
+  /// such a center.
+  void setFirstCenter(Index node) { this->firstCenter_ = node; }
+  Index firstCenter() const { return this->firstCenter_; }
 
 private:
-  Index firstCentre_ = std::numeric_limits<Index>::max();
+  Index firstCenter_ = std::numeric_limits<Index>::max();
   CellStiffness stiffness_;
 };
 }

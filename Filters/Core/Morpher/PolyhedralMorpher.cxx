@@ -35,7 +35,7 @@ public:
     auto* stiff = dynamic_cast<StiffMorpher*>(this->method_.get());
     if (stiff)
     {
-      stiff->setFirstCentre(this->nodes_);
+      stiff->setFirstCenter(this->nodes_);
     }
     if (stiff &&
         static_cast<Index>(stiff->stiffness().values.size()) == rest.numberOfCells()) // not yet

@@ -8,8 +8,8 @@
 namespace morph
 {
 /// Returns a morpher for meshes with polyhedra that uses `method`, not prepared, on their pieces
-/// (PolyhedronPieces.h). It is a LinearMorpher where `method` is one. Centres of prescribed faces
-/// move as the mean of their nodes; the other centres are unknowns, dropped from the result. Ids of
+/// (PolyhedronPieces.h). It is a LinearMorpher where `method` is one. Centers of prescribed faces
+/// move as the mean of their nodes; the other centers are unknowns, dropped from the result. Ids of
 /// cells in the method's messages are those of pieces: beyond the mesh's cells for all but the
 /// first piece of a polyhedron. `cutsAll`: see PolyhedronPieces. Cost: that of the method on the
 /// pieces.

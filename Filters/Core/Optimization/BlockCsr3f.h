@@ -54,7 +54,7 @@ struct BlockPattern
 class BlockCsr3f
 {
 public:
-  /// Sets the pattern; `id` lets its owner recognise it later.
+  /// Sets the pattern; `id` lets its owner recognize it later.
   void open(const PatternId& id, BlockPattern pattern);
   bool isOpenFor(const PatternId& id) const { return this->id_ == id.number(); }
 

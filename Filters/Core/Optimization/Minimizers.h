@@ -5,7 +5,7 @@
 
 namespace morph
 {
-/// The summed effort of minimisations.
+/// The summed effort of minimizations.
 struct MinimizerEffort
 {
   Index steps = 0;
@@ -31,14 +31,14 @@ struct MinimizerLimits
   const NodePreconditioner* preconditioner = nullptr;
 };
 
-/// Minimises by Newton's method with conjugate gradients and a backtracking line search (Armijo).
+/// Minimizes by Newton's method with conjugate gradients and a backtracking line search (Armijo).
 /// `points`: #nodes x 3, start and result. Only the objective's free nodes move, and the energy
 /// never increases. `matrix`: memory for the second derivatives, kept between calls. Returns the
 /// final value. Throws Error of kind Cancelled, leaving `points` at the last step.
 Objective::Value newton(const SecondOrderObjective& objective, Points& points,
   const MinimizerLimits& limits, BlockCsr3f& matrix, MinimizerEffort& effort, Monitor& monitor);
 
-/// Minimises by the limited-memory BFGS method with the last ten steps. It needs no matrix, but 0.5
+/// Minimizes by the limited-memory BFGS method with the last ten steps. It needs no matrix, but 0.5
 /// kB a free node; otherwise as newton(). Source: Liu, Nocedal, Math. Program. 45 (1989) 503-528.
 Objective::Value limitedMemoryBfgs(const Objective& objective, Points& points,
   const MinimizerLimits& limits, MinimizerEffort& effort, Monitor& monitor);

@@ -11,7 +11,7 @@
 
 namespace morph
 {
-/// An objective function of the free nodes' positions, to be minimised. Its values do not depend on
+/// An objective function of the free nodes' positions, to be minimized. Its values do not depend on
 /// threads, bit for bit. On several processes value and gradient are those of the whole mesh.
 class Objective
 {
@@ -25,7 +25,7 @@ public:
   {
     double energy = 0;   ///< infinite where the function is undefined
     bool allowed = true; ///< false: no step may end here
-    bool enough = false; ///< a minimiser may end here
+    bool enough = false; ///< a minimizer may end here
   };
   /// `points`: #nodes x 3.
   virtual Value value(const Points& points, Monitor& monitor) const = 0;

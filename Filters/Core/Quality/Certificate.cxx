@@ -220,12 +220,12 @@ JacobianProof prove(const CellShape& shape, const Cell& cell)
   return proof;
 }
 
-double normalisation(Shape shape)
+double normalization(Shape shape)
 {
   return shape == Shape::Hex ? 1 : shape == Shape::Wedge ? 2 / std::sqrt(3.) : std::sqrt(2.);
 }
 
-double normalisedDeterminant(const Cell& cell, const double (&at)[3])
+double normalizedDeterminant(const Cell& cell, const double (&at)[3])
 {
   // Gives the coordinates their ratios back.
   const double common = exactScale(cell.nodes, cell.map.numberOfNodes());
@@ -244,7 +244,7 @@ double minimumAtNodes(const Cell& cell)
   double minimum = 1;
   for (int i = 0; i < cell.map.numberOfNodes(); ++i)
   {
-    minimum = std::min(minimum, normalisedDeterminant(cell, cell.map.node(i)));
+    minimum = std::min(minimum, normalizedDeterminant(cell, cell.map.node(i)));
   }
   return minimum;
 }
@@ -270,12 +270,12 @@ double quadraticScaledJacobian(std::uint8_t type, const Vector* x, double ofCorn
   {
     return ofCorners;
   }
-  const double atNodes = normalisation(shape.shape) * minimumAtNodes(cell);
+  const double atNodes = normalization(shape.shape) * minimumAtNodes(cell);
   if (proof.certificate == Certificate::Certified)
   {
     return std::min(atNodes, 1.);
   }
-  const double found = normalisation(shape.shape) * normalisedDeterminant(cell, proof.at);
+  const double found = normalization(shape.shape) * normalizedDeterminant(cell, proof.at);
   return std::min({ 0., ofCorners, atNodes, found });
 }
 

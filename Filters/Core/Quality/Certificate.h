@@ -93,11 +93,11 @@ JacobianProof proveJacobian(std::uint8_t type, const Eigen::Vector3d* x);
 
 /// Returns the scaled Jacobian of a quadratic cell whose corner cell has the value `ofCorners`:
 /// - Inverted inside: the minimum, never positive, of `ofCorners` and the determinants with
-///   normalised columns at the nodes and at the proof's point.
+///   normalized columns at the nodes and at the proof's point.
 /// - Positive everywhere: `ofCorners` if positive, otherwise the minimum of the determinants at the
 ///   nodes.
 /// - Undecided: `ofCorners`.
-/// The normalised determinants have the factor of the shape's corners (ScaledJacobian.h).
+/// The normalized determinants have the factor of the shape's corners (ScaledJacobian.h).
 double quadraticScaledJacobian(std::uint8_t type, const Eigen::Vector3d* x, double ofCorners);
 
 /// Whether all nodes between corners are exactly at the corners' mean, so that the map is the

@@ -65,7 +65,7 @@ void setCenterAndArea(Face& face)
 }
 }
 
-/// The faces and centres of cells.
+/// The faces and centers of cells.
 class CellGeometry
 {
 public:
@@ -284,7 +284,7 @@ double jacobianRatio(const CellGeometry& geometry, Index cell)
   forEachMeasuredPlace(shape.shape, x.data(),
     [&](const Vector& a, const Vector& b, const Vector& c)
     {
-      if (place++ < x.size()) // not a hexahedron's centre
+      if (place++ < x.size()) // not a hexahedron's center
       {
         const double determinant = geometry.sign(cell) * a.dot(b.cross(c));
         least = std::min(least, determinant);

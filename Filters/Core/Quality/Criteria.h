@@ -35,17 +35,17 @@ struct Criterion
 ///                   no neighbors
 ///   JacobianRatio   smallest / largest determinant of the corners
 ///   Taper           Verdict's, of quads and hexahedra
-///   NonOrthogonality  degrees between a face's normal and the line between the centres of its
+///   NonOrthogonality  degrees between a face's normal and the line between the centers of its
 ///                   cells, the maximum over inner faces
-///   FaceSkewness    distance of a face's centre from that line, relative to the larger of 0.2 of
+///   FaceSkewness    distance of a face's center from that line, relative to the larger of 0.2 of
 ///                   its length and the face's extent along that distance; on the boundary the line
-///                   is the normal through the cell's centre, and 0.4 of it counts
-///   FacePyramid     volume of the pyramid of a face and the cell's centre, the minimum
+///                   is the normal through the cell's center, and 0.4 of it counts
+///   FacePyramid     volume of the pyramid of a face and the cell's center, the minimum
 ///   FirstHeight     mean distance of a cell's other corners from a boundary face of the walls, the
 ///                   minimum
 ///
 /// The first five have the conventions of Verdict (Sandia report SAND2007-1751), applied to the
-/// faces of any cell; the next three are OpenFOAM's, with its centres (PolyhedronQuality.h). A cell
+/// faces of any cell; the next three are OpenFOAM's, with its centers (PolyhedronQuality.h). A cell
 /// of dimension 2 is its own face, and has none of the last four.
 const std::vector<Criterion>& criteria();
 

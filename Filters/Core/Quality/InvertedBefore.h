@@ -12,7 +12,7 @@ namespace morph
 /// The cells that are inverted, degenerate or flat before a motion, so that the motion is judged by
 /// what it does. A motion that keeps the orientation, an affine one for instance, keeps the signs
 /// of all determinants, but not their values. So a cell counts as no worse as long as no place that
-/// was positive is 0 or negative: a corner, a hexahedron's centre, or a place of a polyhedron.
+/// was positive is 0 or negative: a corner, a hexahedron's center, or a place of a polyhedron.
 /// Between the corners of such a quadratic cell nothing is judged.
 class InvertedBefore
 {

@@ -21,7 +21,7 @@ inline constexpr int PyramidCornerNodes[4][4] = { { 0, 1, 3, 4 }, { 1, 2, 0, 4 }
   { 3, 0, 2, 4 } };
 
 /// Calls take(a, b, c) with three edges at each place where measureQuality() takes a determinant:
-/// the corners in their order, then a hexahedron's centre, with sums of four edges. `x`: the
+/// the corners in their order, then a hexahedron's center, with sums of four edges. `x`: the
 /// corners in the order of the shape; positions, or matrices of three rows that are linear in them.
 template <typename X, typename Take>
 void forEachMeasuredPlace(Shape shape, const X* x, const Take& take)

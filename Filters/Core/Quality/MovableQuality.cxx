@@ -84,7 +84,7 @@ MovableQuality::Result MovableQuality::measure(const Points& points, Monitor& mo
         morph::scaledJacobian(*cellShape(this->mesh_, cell.id), x, cell.movable);
     }
   }
-  this->summarise(result);
+  this->summarize(result);
   return result;
 }
 
@@ -116,10 +116,10 @@ void MovableQuality::measureAgain(
           isHeld ? morph::scaledJacobian(shape, x, held->movable) : morph::scaledJacobian(shape, x);
       }
     });
-  this->summarise(result);
+  this->summarize(result);
 }
 
-void MovableQuality::summarise(Result& result) const
+void MovableQuality::summarize(Result& result) const
 {
   result.inverted = 0;
   result.minimum = std::numeric_limits<double>::infinity();

@@ -75,7 +75,7 @@ private:
   };
   void cornersOf(Index cell, const Points& points, double (*x)[3]) const;
   /// Sets what depends on all cells.
-  void summarise(Result& result) const;
+  void summarize(Result& result) const;
 
   const Mesh& mesh_;
   const std::vector<std::int8_t>& orientation_;

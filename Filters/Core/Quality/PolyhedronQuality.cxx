@@ -99,7 +99,7 @@ bool PolyhedronPlaces::take(const Mesh& mesh, Index cell, const ConstPoints& poi
   }
   for (double& share : this->shares_)
   {
-    // The centre of a pyramid is at three quarters of the way from its apex.
+    // The center of a pyramid is at three quarters of the way from its apex.
     share = std::abs(volume) > 1e-12 * extent ? 0.75 * share / volume + 0.25 * mean : mean;
   }
   return hasLengths && !this->shares_.empty();

@@ -12,18 +12,18 @@
 namespace morph
 {
 /// The pieces by which a polyhedron is measured and certified: for each edge of a face the
-/// tetrahedron with the face's centre and the cell's.
+/// tetrahedron with the face's center and the cell's.
 ///
-/// The centres are those that OpenFOAM computes. The area vector of a face is the sum of its
-/// triangles, between the edges and the mean of the nodes. Its centre is the mean of the triangles'
-/// centres, weighted by the size of their areas. The cell's centre is that of the pyramids between
-/// the faces and the mean of the face centres. Source: OpenFOAM,
+/// The centers are those that OpenFOAM computes. The area vector of a face is the sum of its
+/// triangles, between the edges and the mean of the nodes. Its center is the mean of the triangles'
+/// centers, weighted by the size of their areas. The cell's center is that of the pyramids between
+/// the faces and the mean of the face centers. Source: OpenFOAM,
 /// primitiveMeshFaceCentresAndAreas.C and primitiveMeshCellCentresAndVols.C. With these weights the
-/// centres are linear in the nodes.
+/// centers are linear in the nodes.
 ///
 /// A face's pyramid is the sum of its tetrahedra. So where all of these are positive, OpenFOAM's
 /// tests of volumes and face pyramids pass. The pieces that methods see (PolyhedronPieces.h) are
-/// sums of these: with the same centres, a positive pyramid on a quadrilateral has positive
+/// sums of these: with the same centers, a positive pyramid on a quadrilateral has positive
 /// tetrahedra, since each is the mean of those at two of its corners.
 class PolyhedronPlaces
 {
@@ -34,7 +34,7 @@ public:
   bool take(const Mesh& mesh, Index cell, const ConstPoints& points, double sign);
 
   /// Calls act(a, b, c) for each tetrahedron with the edge, the line from its middle to the face's
-  /// centre, and the line from the cell's centre to the face's. `x`: of the cell's nodes, in their
+  /// center, and the line from the cell's center to the face's. `x`: of the cell's nodes, in their
   /// order; positions, or matrices of three rows that are linear in them.
   template <typename X, typename Act>
   void forEach(const X* x, const Act& act) const
@@ -81,8 +81,8 @@ private:
 
   std::vector<std::size_t> start_; ///< of each face in nodes_, and their end
   std::vector<int> nodes_;         ///< of the faces, numbers in the cell
-  std::vector<double> weights_;    ///< #nodes_, in the face's centre
-  std::vector<double> shares_;     ///< #faces, in the cell's centre
+  std::vector<double> weights_;    ///< #nodes_, in the face's center
+  std::vector<double> shares_;     ///< #faces, in the cell's center
   std::vector<Eigen::Vector3d> x_; ///< of the cell's nodes, from the first one
   std::vector<Index> sorted_;      ///< the cell's nodes
   std::vector<int> place_;         ///< of these in the cell

@@ -10,16 +10,16 @@
 
 namespace morph
 {
-/// The scaled Jacobian of one cell: the determinant of its Jacobian matrix with normalised edges.
+/// The scaled Jacobian of one cell: the determinant of its Jacobian matrix with normalized edges.
 /// It is 1 for the ideal cell and <= 0 for an inverted one. Source: Knupp, IJNME 48 (2000)
 /// 1165-1185, with the conventions of Verdict (Sandia report SAND2007-1751):
 ///
 ///   tet      sqrt(2) J / max over the four corners of the product of its three edge lengths
-///   hex      minimum of the eight corners and the centre
+///   hex      minimum of the eight corners and the center
 ///   wedge    minimum of the six corners, times 2/sqrt(3)
 ///   pyramid  minimum of the four base-corner tets, times sqrt(2), at most 1
 ///   tri      2/sqrt(3) times twice the area / largest product of two edge lengths (never negative)
-///   quad     minimum corner, signed by the normal at the centre
+///   quad     minimum corner, signed by the normal at the center
 ///
 /// measureQuality() also has polyhedra (PolyhedronQuality.h).
 ///
@@ -30,7 +30,7 @@ namespace morph
 double scaledJacobian(const CellShape& shape, const double (*corners)[3], unsigned samples = ~0u);
 
 /// The samples of a volume cell of which its scaled Jacobian is the minimum, as a set of bits: its
-/// corners, in the order of the formula, then a hexahedron's centre; one for a tetrahedron. Returns
+/// corners, in the order of the formula, then a hexahedron's center; one for a tetrahedron. Returns
 /// those that depend on a corner node k with bit k in `nodes`.
 unsigned samplesOf(Shape shape, unsigned nodes);
 

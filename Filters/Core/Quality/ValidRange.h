@@ -39,8 +39,8 @@ struct ValidRange
 };
 
 /// Returns the interval of s around 0 in which every volume cell is valid as measureQuality() has
-/// it: all the determinants at corners, and at the centre of a hexahedron, are positive. Those of a
-/// polyhedron are taken with the centres of PolyhedronPlaces, which keep their weights at s = 0.
+/// it: all the determinants at corners, and at the center of a hexahedron, are positive. Those of a
+/// polyhedron are taken with the centers of PolyhedronPlaces, which keep their weights at s = 0.
 /// The measure's own weights change on the way, so that its ends differ a little.
 ///
 /// Each determinant is followed from 0 by steps in which it cannot reach 0. A step is the first

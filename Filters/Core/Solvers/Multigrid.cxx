@@ -43,20 +43,20 @@ Eigen::MatrixXd inverseOf(const Eigen::MatrixXd& A, Multigrid::Symmetry symmetry
 }
 
 /// The mean places of the rows of each group.
-Points centresOf(const Points& places, const std::vector<int>& group, int groups)
+Points centersOf(const Points& places, const std::vector<int>& group, int groups)
 {
-  Points centres = Points::Zero(groups, 3);
+  Points centers = Points::Zero(groups, 3);
   std::vector<int> members(groups, 0);
   for (std::size_t i = 0; i < group.size(); ++i)
   {
-    centres.row(group[i]) += places.row(static_cast<Index>(i));
+    centers.row(group[i]) += places.row(static_cast<Index>(i));
     ++members[group[i]];
   }
   for (int g = 0; g < groups; ++g)
   {
-    centres.row(g) /= members[g];
+    centers.row(g) /= members[g];
   }
-  return centres;
+  return centers;
 }
 }
 
@@ -236,7 +236,7 @@ void Multigrid::prepare(
     }
     this->levels_.back().A.swap(single);
     exact.swap(coarse);
-    places = centresOf(places, group, groups);
+    places = centersOf(places, group, groups);
   }
 
   Level& last = this->levels_.back();

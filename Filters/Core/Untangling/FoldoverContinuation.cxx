@@ -44,7 +44,7 @@ public:
     this->careful_ = this->careful_ || this->idle_ >= 3;
     if (!this->careful_)
     {
-      // Steps that are too large leave the minimiser in a worse mesh.
+      // Steps that are too large leave the minimizer in a worse mesh.
       return std::max(fast(least), LeastRatio * epsilon);
     }
     // The rule with a proof of convergence.

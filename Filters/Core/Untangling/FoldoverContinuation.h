@@ -6,7 +6,7 @@
 
 namespace morph
 {
-/// Minimises a mesh's foldover-free energy by continuation in its regularisation. Source: Garanzha
+/// Minimizes a mesh's foldover-free energy by continuation in its regularisation. Source: Garanzha
 /// et al., ACM Trans. Graph. 40(4) (2021), arXiv 2102.03069. `points`: #nodes x 3, start and
 /// result.
 class FoldoverContinuation

@@ -168,7 +168,7 @@ std::vector<double> worstBehind(vtkDataArray* quality, const MergedBlocks::Block
   return worst;
 }
 
-/// Gives the cells of a set the scaled Jacobian of what is behind each, so that they have a colour
+/// Gives the cells of a set the scaled Jacobian of what is behind each, so that they have a color
 /// too.
 void writeQualityBehind(const std::vector<double>& values, vtkDataSetAttributes* leaf)
 {

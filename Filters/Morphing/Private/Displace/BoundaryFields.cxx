@@ -53,7 +53,7 @@ void BoundaryFields::Write(const BoundaryModel& model, const Choice::Result& cho
     this->Compute(model, choice, now.Rest, spread, monitor);
     this->Kept = now;
   }
-  const auto affine = Motion::Affine(model, choice, motion, this->Centre);
+  const auto affine = Motion::Affine(model, choice, motion, this->Center);
   if (affine && this->Give(*affine, model, result.Moved))
   {
     AffineArrays::Write(this->Fields, *affine, output);
@@ -89,13 +89,13 @@ bool BoundaryFields::Give(
 void BoundaryFields::Compute(const BoundaryModel& model, const Choice::Result& choice,
   const Surroundings::Options& options, Surroundings& spread, morph::Monitor& monitor)
 {
-  // The answers to p = x - centre, and to a shift along x by the model's size, which keeps the
+  // The answers to p = x - center, and to a shift along x by the model's size, which keeps the
   // digits of w.
-  this->Centre = Motion::Centre(model, choice);
+  this->Center = Motion::Center(model, choice);
   const morph::Points from = model.Points()(choice.Moving, morph::allColumns);
   const Eigen::RowVector3d shift(model.Size() > 0 ? model.Size() : 1, 0, 0);
   const morph::Points place =
-    spread.Spread(model, choice, (2 * from).rowwise() - this->Centre, options, monitor).Moved -
+    spread.Spread(model, choice, (2 * from).rowwise() - this->Center, options, monitor).Moved -
     model.Points();
   const morph::Points weight =
     spread.Spread(model, choice, from.rowwise() + shift, options, monitor).Moved - model.Points();

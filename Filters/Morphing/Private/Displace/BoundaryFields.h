@@ -49,6 +49,6 @@ private:
 
   vtkSmartPointer<vtkDoubleArray> Fields; ///< for the motions of what follows, or null
   Key Kept;
-  Eigen::RowVector3d Centre; ///< of what moves
+  Eigen::RowVector3d Center; ///< of what moves
 };
 }

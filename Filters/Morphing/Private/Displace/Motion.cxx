@@ -28,20 +28,20 @@ using morph::Error;
 using morph::Index;
 using morph::Points;
 
-/// centre + transform(x - centre). What the transform leaves alone stays bit for bit. A null
+/// center + transform(x - center). What the transform leaves alone stays bit for bit. A null
 /// transform is the identity.
 Points transformed(
-  const Points& from, vtkAbstractTransform* transform, const Eigen::RowVector3d& centre)
+  const Points& from, vtkAbstractTransform* transform, const Eigen::RowVector3d& center)
 {
   Points to = from;
   for (Index i = 0; transform && i < to.rows(); ++i)
   {
-    const Eigen::RowVector3d offset = from.row(i) - centre;
+    const Eigen::RowVector3d offset = from.row(i) - center;
     Eigen::RowVector3d there;
     transform->TransformPoint(offset.data(), there.data());
     if (there != offset)
     {
-      to.row(i) = there + centre;
+      to.row(i) = there + center;
     }
   }
   return to;
@@ -94,7 +94,7 @@ Points arrayRows(vtkPointSet* input, const std::string& name, const std::vector<
 }
 
 /// The middle of the box around these points.
-Eigen::RowVector3d centreOf(const Points& points)
+Eigen::RowVector3d centerOf(const Points& points)
 {
   return 0.5 * (points.colwise().minCoeff() + points.colwise().maxCoeff());
 }
@@ -108,7 +108,7 @@ Eigen::RowVector3d turningPoint(const Points& from, const Motion::Options& optio
     return Eigen::RowVector3d::Zero();
   }
   return options.AutoCenter
-           ? centreOf(from)
+           ? centerOf(from)
            : Eigen::RowVector3d(options.Center[0], options.Center[1], options.Center[2]);
 }
 
@@ -183,7 +183,7 @@ Points positions(const BoundaryModel& model, const std::vector<Index>& nodes)
 
 /// The displacement of the whole motion; nothing where it is not affine.
 std::optional<morph::AffineMotion> affineMotion(
-  const Points& from, const Motion::Options& options, const Eigen::RowVector3d& centre)
+  const Points& from, const Motion::Options& options, const Eigen::RowVector3d& center)
 {
   morph::AffineMotion motion = morph::AffineMotion::Zero();
   vtkSmartPointer<vtkLinearTransform> linear;
@@ -214,7 +214,7 @@ std::optional<morph::AffineMotion> affineMotion(
     }
     motion(i, 0) = linear->GetMatrix()->GetElement(i, 3);
   }
-  motion.col(0) += motion.rightCols<3>() * (centre - turningPoint(from, options)).transpose();
+  motion.col(0) += motion.rightCols<3>() * (center - turningPoint(from, options)).transpose();
   return motion;
 }
 
@@ -329,14 +329,14 @@ std::vector<Index> TakeMissing(
 }
 
 std::optional<morph::AffineMotion> Affine(const BoundaryModel& model, const Choice::Result& choice,
-  const Options& options, const Eigen::RowVector3d& centre)
+  const Options& options, const Eigen::RowVector3d& center)
 {
   if (choice.Moving.empty())
   {
     return {};
   }
   std::optional<morph::AffineMotion> motion =
-    affineMotion(positions(model, choice.Moving), options, centre);
+    affineMotion(positions(model, choice.Moving), options, center);
   if (motion)
   {
     *motion *= options.ScaleFactor;
@@ -344,13 +344,13 @@ std::optional<morph::AffineMotion> Affine(const BoundaryModel& model, const Choi
   return motion;
 }
 
-Eigen::RowVector3d Centre(const BoundaryModel& model, const Choice::Result& choice)
+Eigen::RowVector3d Center(const BoundaryModel& model, const Choice::Result& choice)
 {
   if (choice.Moving.empty())
   {
     return Eigen::RowVector3d::Zero();
   }
-  return centreOf(positions(model, choice.Moving));
+  return centerOf(positions(model, choice.Moving));
 }
 
 std::vector<Index> Collapsed(

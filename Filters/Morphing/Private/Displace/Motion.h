@@ -36,12 +36,12 @@ morph::Points Targets(vtkPointSet* input, const BoundaryModel& model, const Choi
 std::vector<morph::Index> TakeMissing(
   vtkPointSet* input, const Options& options, Choice::Result& choice, morph::Monitor& monitor);
 
-/// The displacement of what moves as w c + A (x - centre), with w = 1, or nothing where it is not
-/// affine. `centre`: of choice.Moving.
+/// The displacement of what moves as w c + A (x - center), with w = 1, or nothing where it is not
+/// affine. `center`: of choice.Moving.
 std::optional<morph::AffineMotion> Affine(const BoundaryModel& model, const Choice::Result& choice,
-  const Options& options, const Eigen::RowVector3d& centre);
+  const Options& options, const Eigen::RowVector3d& center);
 /// The middle of the box around the nodes that move; the origin where none does.
-Eigen::RowVector3d Centre(const BoundaryModel& model, const Choice::Result& choice);
+Eigen::RowVector3d Center(const BoundaryModel& model, const Choice::Result& choice);
 
 /// The cells of model.Surface() that lose their area at `moved` (#nodes x 3), all of their corners
 /// moving. A morph cannot keep the volume cells behind them.

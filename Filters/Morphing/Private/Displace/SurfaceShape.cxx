@@ -86,7 +86,7 @@ double SurfaceShape::FitPlane(const Points& nodes)
 bool SurfaceShape::FitCylinder(const Points& nodes, const Points& areas, double tolerance)
 {
   // Normals are all across the axis; the normals of facets only nearly, so that Gauss-Newton's
-  // method follows. Unknowns: the centre and the axis, each in the two directions across the axis,
+  // method follows. Unknowns: the center and the axis, each in the two directions across the axis,
   // and the radius.
   this->Direction = smallestEigenvector(areas.transpose() * areas);
   this->Center = nodes.colwise().mean();

@@ -57,7 +57,7 @@ std::string Found(
   {
     double jacobian;
     std::int64_t id;
-    double centre[3];
+    double center[3];
   };
   constexpr std::size_t Most = 10;
   const auto before = [](const Line& a, const Line& b)
@@ -67,13 +67,13 @@ std::string Found(
   {
     const morph::Index corners =
       morph::cornerCount(mesh.mesh(), cell, *morph::cellShape(mesh.mesh().types[cell]));
-    Eigen::RowVector3d centre = Eigen::RowVector3d::Zero();
+    Eigen::RowVector3d center = Eigen::RowVector3d::Zero();
     for (morph::Index k = 0; k < corners; ++k)
     {
-      centre += points.row(mesh.mesh().cell(cell)[k]) / static_cast<double>(corners);
+      center += points.row(mesh.mesh().cell(cell)[k]) / static_cast<double>(corners);
     }
     lines.push_back({ measured.Mine.scaledJacobian[cell], mesh.cellId(cell),
-      { centre[0], centre[1], centre[2] } });
+      { center[0], center[1], center[2] } });
   }
   const auto keepWorst = [&]
   {
@@ -86,11 +86,11 @@ std::string Found(
   std::ostringstream text;
   text << measured.AddedOfAll << " cells are inverted or degenerate"
        << (measured.AddedOfAll == measured.Bad() ? "" : " by the motion")
-       << ". The worst, with their centres:";
+       << ". The worst, with their centers:";
   for (const Line& line : lines)
   {
-    text << "\n  cell " << line.id << " at (" << line.centre[0] << ", " << line.centre[1] << ", "
-         << line.centre[2] << "), scaled Jacobian " << line.jacobian;
+    text << "\n  cell " << line.id << " at (" << line.center[0] << ", " << line.center[1] << ", "
+         << line.center[2] << "), scaled Jacobian " << line.jacobian;
   }
   text << (measured.AddedOfAll > static_cast<morph::Index>(lines.size()) ? "\n  ...\n" : "\n");
   return text.str();

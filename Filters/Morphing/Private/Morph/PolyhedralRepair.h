@@ -19,7 +19,7 @@ namespace morph::filters::PolyhedralRepair
 /// Sets what `method` needs on pieces, if it is the inversion-free one.
 void Adapt(morph::Morpher& method);
 
-/// Repairs `moved`, #nodes x 3, in rounds: each puts the centres back to the means of their nodes
+/// Repairs `moved`, #nodes x 3, in rounds: each puts the centers back to the means of their nodes
 /// and repairs the pieces. Keeps the mesh with the fewest bad polyhedra and other cells. Returns
 /// whether none are left. `reference`: see morph::Morpher::setReference(). `bad`: their number.
 bool Run(const morph::Mesh& mesh, const morph::Points& reference,

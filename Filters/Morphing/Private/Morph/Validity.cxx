@@ -126,14 +126,14 @@ std::string Validity::Describe(const std::vector<morph::Index>& inverted,
   std::ostringstream text;
   for (morph::Index cell : worst)
   {
-    Eigen::RowVector3d centre = Eigen::RowVector3d::Zero();
+    Eigen::RowVector3d center = Eigen::RowVector3d::Zero();
     const morph::Index corners =
       morph::cornerCount(this->Mesh, cell, *morph::cellShape(this->Mesh.types[cell]));
     for (morph::Index k = 0; k < corners; ++k)
     {
-      centre += points.row(this->Mesh.cell(cell)[k]) / static_cast<double>(corners);
+      center += points.row(this->Mesh.cell(cell)[k]) / static_cast<double>(corners);
     }
-    text << "\n  cell " << cell << " at (" << centre[0] << ", " << centre[1] << ", " << centre[2]
+    text << "\n  cell " << cell << " at (" << center[0] << ", " << center[1] << ", " << center[2]
          << "), scaled Jacobian " << quality.scaledJacobian[cell];
   }
   text << (inverted.size() > worst.size() ? "\n  ...\n" : "\n");
@@ -146,7 +146,7 @@ std::string Validity::Found(const morph::Quality& quality, const morph::Points& 
   const bool countsAll = inverted.size() == morph::invertedCells(quality).size();
   return std::to_string(inverted.size()) + " cells are inverted or degenerate" +
          (countsAll ? "" : " by the motion") +
-         ". The worst, with their centres:" + this->Describe(inverted, quality, points);
+         ". The worst, with their centers:" + this->Describe(inverted, quality, points);
 }
 
 Validity::Outcome Validity::OfSubSteps(

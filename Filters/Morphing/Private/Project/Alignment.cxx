@@ -34,7 +34,7 @@ constexpr int FewIterations = 30;
 /// Iterations end where one moves the landmarks by less, root mean square, of the place's size.
 constexpr double Still = 1e-9;
 
-/// Centre of area and principal axes of a surface.
+/// Center of area and principal axes of a surface.
 struct Moments
 {
   Vector Center = Vector::Zero();
@@ -44,7 +44,7 @@ struct Moments
 Moments momentsOf(vtkPolyData* surface)
 {
   Moments moments;
-  std::vector<std::pair<Vector, double>> triangles; ///< centre and area
+  std::vector<std::pair<Vector, double>> triangles; ///< center and area
   const auto point = [&](vtkIdType id)
   {
     Vector x;

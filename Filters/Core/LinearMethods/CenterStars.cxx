@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "LinearMethods/CentreStars.h"
+#include "LinearMethods/CenterStars.h"
 
 #include "Mesh/CellShape.h"
 #include "Mesh/GatherMap.h"
@@ -13,7 +13,7 @@ namespace morph
 {
 namespace
 {
-// So many more pairs may be coupled: the vectors of the iteration lose the centre, so that a step
+// So many more pairs may be coupled: the vectors of the iteration lose the center, so that a step
 // costs no more.
 constexpr int MostAdded = 8;
 constexpr Index Grain = 4096;
@@ -22,23 +22,23 @@ constexpr Index Grain = 4096;
 class Collected
 {
 public:
-  /// Collects the nodes of the cells around `centre`. Returns false where they are too many.
-  bool collect(const Mesh& mesh, Index centre, const Adjacency& around)
+  /// Collects the nodes of the cells around `center`. Returns false where they are too many.
+  bool collect(const Mesh& mesh, Index center, const Adjacency& around)
   {
     this->nodes_.clear();
-    for (const Index* cell = around.begin(centre); cell != around.end(centre); ++cell)
+    for (const Index* cell = around.begin(center); cell != around.end(center); ++cell)
     {
       const CellShape& shape = *cellShape(mesh.types[*cell]);
       for (int k = 0; k < shape.numberOfCorners; ++k)
       {
         const Index node = mesh.cell(*cell)[shape.cornerNode[k]];
-        if (node != centre &&
+        if (node != center &&
             std::find(this->nodes_.begin(), this->nodes_.end(), node) == this->nodes_.end())
         {
           this->nodes_.push_back(node);
         }
       }
-      if (this->nodes_.size() > CentreStars::MostNodes)
+      if (this->nodes_.size() > CenterStars::MostNodes)
       {
         return false;
       }
@@ -47,18 +47,18 @@ public:
     return true;
   }
 
-  /// Whether few pairs are coupled through the centre alone.
-  bool staysSparse(const Mesh& mesh, Index centre, const Adjacency& around) const
+  /// Whether few pairs are coupled through the center alone.
+  bool staysSparse(const Mesh& mesh, Index center, const Adjacency& around) const
   {
-    std::uint32_t coupled[CentreStars::MostNodes] = {};
-    for (const Index* cell = around.begin(centre); cell != around.end(centre); ++cell)
+    std::uint32_t coupled[CenterStars::MostNodes] = {};
+    for (const Index* cell = around.begin(center); cell != around.end(center); ++cell)
     {
       const CellShape& shape = *cellShape(mesh.types[*cell]);
       std::uint32_t own = 0;
       for (int k = 0; k < shape.numberOfCorners; ++k)
       {
         const Index node = mesh.cell(*cell)[shape.cornerNode[k]];
-        own |= node == centre ? 0 : std::uint32_t(1) << this->place(node);
+        own |= node == center ? 0 : std::uint32_t(1) << this->place(node);
       }
       for (std::size_t a = 0; a < this->nodes_.size(); ++a)
       {
@@ -88,10 +88,10 @@ private:
 };
 }
 
-CentreStars::CentreStars(
-  const Mesh& mesh, const std::vector<Index>& free, Index firstCentre, const Adjacency& around)
+CenterStars::CenterStars(
+  const Mesh& mesh, const std::vector<Index>& free, Index firstCenter, const Adjacency& around)
 {
-  const auto first = std::lower_bound(free.begin(), free.end(), firstCentre);
+  const auto first = std::lower_bound(free.begin(), free.end(), firstCenter);
   if (first == free.end())
   {
     return;
@@ -99,22 +99,22 @@ CentreStars::CentreStars(
   this->ofCell_.assign(mesh.numberOfCells(), -1);
   this->nodes_.offsets.push_back(0);
   Collected star;
-  for (auto centre = first; centre != free.end(); ++centre)
+  for (auto center = first; center != free.end(); ++center)
   {
     const auto isTaken = [&](Index cell) { return this->ofCell_[cell] >= 0; };
-    if (std::any_of(around.begin(*centre), around.end(*centre), isTaken) ||
-        !star.collect(mesh, *centre, around) || !star.staysSparse(mesh, *centre, around))
+    if (std::any_of(around.begin(*center), around.end(*center), isTaken) ||
+        !star.collect(mesh, *center, around) || !star.staysSparse(mesh, *center, around))
     {
       continue;
     }
-    std::for_each(around.begin(*centre), around.end(*centre),
-      [&](Index cell) { this->ofCell_[cell] = static_cast<int>(this->centres_.size()); });
-    this->centres_.push_back(*centre);
+    std::for_each(around.begin(*center), around.end(*center),
+      [&](Index cell) { this->ofCell_[cell] = static_cast<int>(this->centers_.size()); });
+    this->centers_.push_back(*center);
     this->nodes_.values.insert(this->nodes_.values.end(), star.nodes().begin(), star.nodes().end());
     this->nodes_.offsets.push_back(static_cast<Index>(this->nodes_.values.size()));
   }
   this->weights_.assign(this->nodes_.values.size(), 0);
-  if (this->centres_.empty())
+  if (this->centers_.empty())
   {
     this->ofCell_.clear();
     return;
@@ -132,21 +132,21 @@ CentreStars::CentreStars(
     this->ofNode_.values.begin(), [&](Index place) { return starOf[place]; });
 }
 
-std::vector<Index> CentreStars::others(const std::vector<Index>& free) const
+std::vector<Index> CenterStars::others(const std::vector<Index>& free) const
 {
   std::vector<Index> result;
-  result.reserve(free.size() - this->centres_.size());
-  std::set_difference(free.begin(), free.end(), this->centres_.begin(), this->centres_.end(),
+  result.reserve(free.size() - this->centers_.size());
+  std::set_difference(free.begin(), free.end(), this->centers_.begin(), this->centers_.end(),
     std::back_inserter(result));
   return result;
 }
 
-void CentreStars::assembled(Index nodes, const NodePartition& partition)
+void CenterStars::assembled(Index nodes, const NodePartition& partition)
 {
   // Unlike = {}, this frees a vector.
   std::vector<int>().swap(this->ofCell_);
   this->ofNode_ = Adjacency();
-  if (this->centres_.empty())
+  if (this->centers_.empty())
   {
     return;
   }
@@ -159,21 +159,21 @@ void CentreStars::assembled(Index nodes, const NodePartition& partition)
       [&](Index node) { return free[node] >= 0 ? free[node] : -1 - prescribed[node]; });
     return places;
   };
-  this->rowOfCentre_ = placesOf(this->centres_);
+  this->rowOfCenter_ = placesOf(this->centers_);
   this->places_ = placesOf(this->nodes_.values);
   std::vector<Index>().swap(this->nodes_.values);
-  std::vector<Index>().swap(this->centres_);
+  std::vector<Index>().swap(this->centers_);
 }
 
 namespace
 {
 template <typename Columns>
-void setCentres(const std::vector<int>& centres, const std::vector<Index>& offsets,
+void setCenters(const std::vector<int>& centers, const std::vector<Index>& offsets,
   const std::vector<int>& places, const std::vector<double>& weights, const Columns& prescribed,
   Columns& free, Monitor& monitor)
 {
   const Columns& known = free;
-  parallel(static_cast<Index>(centres.size()), Grain, monitor,
+  parallel(static_cast<Index>(centers.size()), Grain, monitor,
     [&](Index s)
     {
       auto mean = Eigen::Matrix<double, 1, Columns::ColsAtCompileTime>::Zero().eval();
@@ -182,28 +182,28 @@ void setCentres(const std::vector<int>& centres, const std::vector<Index>& offse
         const int at = places[k];
         mean += weights[k] * (at >= 0 ? known.row(at) : prescribed.row(-1 - at));
       }
-      free.row(centres[s]) = mean;
+      free.row(centers[s]) = mean;
     });
 }
 }
 
-void CentreStars::recover(const Points& prescribed, Points& free, Monitor& monitor) const
+void CenterStars::recover(const Points& prescribed, Points& free, Monitor& monitor) const
 {
-  setCentres(this->rowOfCentre_, this->nodes_.offsets, this->places_, this->weights_, prescribed,
+  setCenters(this->rowOfCenter_, this->nodes_.offsets, this->places_, this->weights_, prescribed,
     free, monitor);
 }
 
-void CentreStars::recover(const FourFields& prescribed, FourFields& free, Monitor& monitor) const
+void CenterStars::recover(const FourFields& prescribed, FourFields& free, Monitor& monitor) const
 {
-  setCentres(this->rowOfCentre_, this->nodes_.offsets, this->places_, this->weights_, prescribed,
+  setCenters(this->rowOfCenter_, this->nodes_.offsets, this->places_, this->weights_, prescribed,
     free, monitor);
 }
 
-void CentreStars::recoverTranspose(Points& free, Points& prescribed) const
+void CenterStars::recoverTranspose(Points& free, Points& prescribed) const
 {
-  for (std::size_t s = 0; s < this->rowOfCentre_.size(); ++s)
+  for (std::size_t s = 0; s < this->rowOfCenter_.size(); ++s)
   {
-    const Eigen::RowVector3d gradient = free.row(this->rowOfCentre_[s]);
+    const Eigen::RowVector3d gradient = free.row(this->rowOfCenter_[s]);
     for (Index k = this->nodes_.offsets[s]; k < this->nodes_.offsets[s + 1]; ++k)
     {
       const int at = this->places_[k];

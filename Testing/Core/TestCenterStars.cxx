@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// FEMWARP with and without its centres eliminated.
-#include "LinearMethods/CentreStars.h"
+// FEMWARP with and without its centers eliminated.
+#include "LinearMethods/CenterStars.h"
 #include "LinearMethods/FemWarp.h"
 #include "Mesh/PolyhedronPieces.h"
 #include "Mesh/Topology.h"
@@ -26,7 +26,7 @@ struct Cut
   explicit Cut(const Mesh& whole)
     : pieces(whole, monitor, true)
     , partition(pieces.extend(motions::outerPartition(whole)))
-    , firstCentre(whole.numberOfNodes())
+    , firstCenter(whole.numberOfNodes())
   {
   }
 
@@ -36,7 +36,7 @@ struct Cut
     method->setTolerance(1e-13);
     if (eliminates)
     {
-      method->setFirstCentre(this->firstCentre);
+      method->setFirstCenter(this->firstCenter);
     }
     method->setStiffness(std::move(stiffness));
     method->prepare(this->pieces.mesh(), this->partition, this->monitor);
@@ -46,7 +46,7 @@ struct Cut
   ThreadedMonitor monitor{ 2 };
   PolyhedronPieces pieces;
   NodePartition partition;
-  Index firstCentre;
+  Index firstCenter;
 };
 
 std::vector<std::pair<std::string, Mesh>> wholeMeshes()
@@ -62,7 +62,7 @@ double largest(const Eigen::Ref<const Eigen::MatrixXd>& values)
 }
 }
 
-TEST(CentreStars, ShareNoCellAndAreSmall)
+TEST(CenterStars, ShareNoCellAndAreSmall)
 {
   for (const auto& [name, whole] : wholeMeshes())
   {
@@ -70,21 +70,21 @@ TEST(CentreStars, ShareNoCellAndAreSmall)
     Cut cut(whole);
     const Mesh& mesh = cut.pieces.mesh();
     const Adjacency around = nodeToCells(mesh);
-    const CentreStars stars(mesh, cut.partition.free, cut.firstCentre, around);
+    const CenterStars stars(mesh, cut.partition.free, cut.firstCenter, around);
     ASSERT_GT(stars.size(), 0);
-    EXPECT_TRUE(std::is_sorted(stars.centres().begin(), stars.centres().end()));
+    EXPECT_TRUE(std::is_sorted(stars.centers().begin(), stars.centers().end()));
     std::set<Index> taken;
     for (Index s = 0; s < stars.size(); ++s)
     {
-      EXPECT_GE(stars.centre(s), cut.firstCentre);
+      EXPECT_GE(stars.center(s), cut.firstCenter);
       std::set<Index> nodes;
-      for (const Index* c = around.begin(stars.centre(s)); c != around.end(stars.centre(s)); ++c)
+      for (const Index* c = around.begin(stars.center(s)); c != around.end(stars.center(s)); ++c)
       {
         EXPECT_TRUE(taken.insert(*c).second) << "cell " << *c;
         EXPECT_EQ(stars.ofCell()[*c], s);
         nodes.insert(mesh.cell(*c), mesh.cell(*c) + mesh.cellSize(*c));
       }
-      EXPECT_EQ(nodes.erase(stars.centre(s)), 1u);
+      EXPECT_EQ(nodes.erase(stars.center(s)), 1u);
       EXPECT_TRUE(
         std::equal(nodes.begin(), nodes.end(), stars.nodes().begin(s), stars.nodes().end(s)));
       EXPECT_LE(nodes.size(), 16u);
@@ -95,7 +95,7 @@ TEST(CentreStars, ShareNoCellAndAreSmall)
   }
 }
 
-TEST(CentreStars, AreTheSolutionWithCentres)
+TEST(CenterStars, AreTheSolutionWithCenters)
 {
   std::mt19937 random(11);
   std::uniform_real_distribution<double> number(0.5, 2);
@@ -121,7 +121,7 @@ TEST(CentreStars, AreTheSolutionWithCentres)
   }
 }
 
-TEST(CentreStars, StayWhereTheStiffnessVaries)
+TEST(CenterStars, StayWhereTheStiffnessVaries)
 {
   Cut cut(honeycomb(3));
   CellStiffness graded;
@@ -129,7 +129,7 @@ TEST(CentreStars, StayWhereTheStiffnessVaries)
   EXPECT_EQ(cut.prepared(true, graded)->rows().size(), cut.partition.free.size());
 }
 
-TEST(CentreStars, OneCellWhoseNodesAreAllPrescribed)
+TEST(CenterStars, OneCellWhoseNodesAreAllPrescribed)
 {
   Cut cut(asPolyhedra(hexes(1, 1, 1)));
   ASSERT_EQ(cut.partition.free.size(), 1u);
@@ -148,18 +148,18 @@ TEST(CentreStars, OneCellWhoseNodesAreAllPrescribed)
   EXPECT_LT(largest(given.colwise().sum() - Eigen::RowVector3d::Ones()), 1e-13);
 }
 
-TEST(CentreStars, ACentreWithoutVolumeIsNamed)
+TEST(CenterStars, ACenterWithoutVolumeIsNamed)
 {
   Cut cut(honeycomb(3));
   Mesh mesh = cut.pieces.mesh();
-  const CentreStars stars(mesh, cut.partition.free, cut.firstCentre, nodeToCells(mesh));
+  const CenterStars stars(mesh, cut.partition.free, cut.firstCenter, nodeToCells(mesh));
   const Index star = stars.size() / 2;
   for (const Index* n = stars.nodes().begin(star); n != stars.nodes().end(star); ++n)
   {
-    mesh.points.row(*n) = mesh.points.row(stars.centre(star));
+    mesh.points.row(*n) = mesh.points.row(stars.center(star));
   }
   FemWarp method;
-  method.setFirstCentre(cut.firstCentre);
+  method.setFirstCenter(cut.firstCenter);
   try
   {
     method.prepare(mesh, cut.partition, cut.monitor);
@@ -168,7 +168,7 @@ TEST(CentreStars, ACentreWithoutVolumeIsNamed)
   catch (const Error& error)
   {
     EXPECT_EQ(error.kind(), Error::Kind::Singular);
-    EXPECT_NE(std::string(error.what()).find(std::to_string(stars.centre(star))), std::string::npos)
+    EXPECT_NE(std::string(error.what()).find(std::to_string(stars.center(star))), std::string::npos)
       << error.what();
   }
 }
