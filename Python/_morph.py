@@ -25,9 +25,9 @@ _VALID = ("Valid", "Repaired", "SubStepped", "Unmeasured")
 
 
 class MorphError(RuntimeError):
-    """A morph failed, or its result has inverted cells.
+    """A morph failed, or its result has inverted cells or a boundary that crosses itself.
 
-    status: the filter's MorphStatus, such as "Failed", "Inverted" or "Partial".
+    status: the filter's MorphStatus, such as "Failed", "Inverted", "CrossesItself" or "Partial".
     ids: numpy array of the ids of the inverted and collapsed cells; empty where there is no result.
     grid: the result, of the type that morph() returns; after a failure the undeformed mesh.
     """
@@ -136,13 +136,13 @@ def morph(grid, displaced, method="FEMWARP", *, ids=None, allow_inverted=False, 
         Smoothing or InversionFree.
     ids: n point ids of the grid, 0-based, for an array of displaced points. Other boundary nodes
         stay, unless FixUnnamedBoundary=False.
-    allow_inverted: return a mesh with cells that the morph has inverted or collapsed, or that came
-        only part of the way, in place of raising MorphError.
+    allow_inverted: return a mesh with cells that the morph has inverted or collapsed, whose
+        boundary crosses itself, or that came only part of the way, in place of raising MorphError.
     options: properties of the method's filter, by their VTK names: Validity="Repair",
         Tolerance=1e-8, NumberOfThreads=1. Text chooses a value by its name.
 
     Returns the morphed mesh, an object of the grid's class, with the cell array ScaledJacobian.
-    Raises MorphError where the morph fails, or inverts cells; TypeError and ValueError for
+    Raises MorphError where the morph fails, inverts cells or crosses itself; TypeError and ValueError for
     arguments of the wrong kind. What the filter warns of is a MorphWarning.
     """
     if not isinstance(grid, (vtkUnstructuredGrid, vtkDataObjectTree)):

@@ -134,7 +134,8 @@ public:
 
   /**
    * The size of each surface of the list: its name, how many faces it has, and their area, three
-   * strings each. Of a curve: edges and length.
+   * strings each. Of a curve: edges and length. Of a baffle inside of the mesh the number is
+   * followed by " inner".
    */
   vtkStringArray* GetSurfaceSizes();
 

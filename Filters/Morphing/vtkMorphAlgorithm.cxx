@@ -70,6 +70,11 @@ public:
     return this->Filter->Options->Quality == QUALITY_ALL ||
            this->Filter->Options->Validity >= VALIDITY_SUB_STEP;
   }
+  filters::MorphOutput::Measures Measures() const
+  {
+    return { this->MeasuresAll(), this->Filter->Options->Certify,
+      this->Filter->Options->Validity != VALIDITY_NONE };
+  }
   filters::Session::Options Options(vtkUnstructuredGrid* grid, vtkDataObject* boundary) const;
   /// Returns an error that comes with a result, or nothing.
   std::string Morph(vtkUnstructuredGrid* grid, vtkDataObject* boundary, vtkUnstructuredGrid* output,
@@ -309,9 +314,8 @@ std::string vtkMorphAlgorithm::vtkInternals::Morph(vtkUnstructuredGrid* grid,
   {
     single->Moved.resize(0, 3); // 24 bytes a node, which the measures need
   }
-  filters::MorphOutput::WriteMeasures(this->Session, *result,
-    { options.MeasureAll, this->Filter->Options->Certify }, this->Results, output, badCells,
-    surface, writing);
+  filters::MorphOutput::WriteMeasures(this->Session, *result, this->Measures(), displaced,
+    this->Results, output, badCells, surface, writing);
   return result->Valid.Error;
 }
 
@@ -340,8 +344,7 @@ std::string vtkMorphAlgorithm::vtkInternals::MorphOnRanks(vtkUnstructuredGrid* g
         this->Steps.FromBoundary() ? this->Ports.Fetch(1, this->Steps.Time(step)) : boundary);
     });
   return this->OnRanks().Run({ grid, boundary, fraction, this->IsSeries() ? &motion : nullptr,
-                               this->Filter->Options->OutputPointsPrecision,
-                               { options.MeasureAll, this->Filter->Options->Certify },
+                               this->Filter->Options->OutputPointsPrecision, this->Measures(),
                                this->Filter->Options->FeatureLines, output, badCells, surface },
     options, monitor);
 }

@@ -321,6 +321,7 @@ morphResultMacro(InvertedCells, vtkIdType, Integer);
 morphResultMacro(DegenerateCells, vtkIdType, Integer);
 morphResultMacro(InvertedBefore, vtkIdType, Integer);
 morphResultMacro(NewInvertedCells, vtkIdType, Integer);
+morphResultMacro(CrossingFaces, vtkIdType, Integer);
 morphResultMacro(WorstCellId, vtkIdType, Integer);
 morphResultMacro(SurfaceInvertedCells, vtkIdType, Integer);
 morphResultMacro(BoundaryInvertedCells, vtkIdType, Integer);

@@ -88,9 +88,10 @@ const char* const ExitStatus = "\n"
                                "written and an old file stays;\n"
                                "2 the command line is wrong;\n"
                                "3 the result is written, but the motion has inverted or "
-                               "collapsed cells and --require-valid was\n"
-                               "given, or --validity SubStep, Repair or RepairAll came only part "
-                               "of the way: the output does not\nfit the boundary.\n";
+                               "collapsed cells or made the boundary\n"
+                               "cross itself, and --require-valid was given, or --validity "
+                               "SubStep, Repair or\nRepairAll came only part "
+                               "of the way: the output does not fit the boundary.\n";
 
 int wholeNumber(const char* option, const std::string& text, int least)
 {
@@ -270,7 +271,8 @@ std::vector<Option> optionsOf(Arguments& result)
       "AspectRatio,\nSkewness, Warpage, JacobianRatio, Taper, NonOrthogonality, FaceSkewness, "
       "FacePyramid, FirstHeight;\nFirstHeight:BLADE is that of a surface that the file names",
       "Files and tasks", text(result.criteria) },
-    { "--require-valid", "", "exit status 3 if the motion inverts or collapses a cell",
+    { "--require-valid", "",
+      "exit status 3 if the motion inverts or collapses a cell, or the boundary crosses itself",
       "Files and tasks", flag(result.requireValid) },
     { "--threads", "<number>", "threads to compute with; by default 0, all cores",
       "Files and tasks", whole("--threads", result.threads, 0) },

@@ -223,6 +223,7 @@ Displacements displacementsOfField(vtkUnstructuredGrid* grid, const std::string&
 struct SurfaceSums
 {
   vtkIdType Faces = 0;
+  bool IsInner = true; ///< all of them
   double Area = 0;
   double Center[3] = { 0, 0, 0 }; ///< times Area
 };
@@ -401,6 +402,7 @@ void printSurfaces(vtkUnstructuredGrid* grid, const std::string& path, int threa
   messages.update("Cannot list the surfaces of " + path);
   vtkPolyData* boundary = filter->GetOutput();
   vtkDataArray* surfaces = boundary->GetCellData()->GetArray("GeometryId");
+  vtkDataArray* inner = boundary->GetCellData()->GetArray("Inner");
   auto* names =
     vtkStringArray::SafeDownCast(boundary->GetFieldData()->GetAbstractArray("SurfaceNames"));
   std::vector<std::pair<std::string, SurfaceSums>> named;
@@ -413,12 +415,17 @@ void printSurfaces(vtkUnstructuredGrid* grid, const std::string& path, int threa
   for (vtkIdType face = 0; face < boundary->GetNumberOfCells(); ++face)
   {
     boundary->GetCellPoints(face, corners);
-    addPolygon(boundary, corners, sums[static_cast<vtkIdType>(surfaces->GetComponent(face, 0))]);
+    const auto add = [&](SurfaceSums& sum)
+    {
+      addPolygon(boundary, corners, sum);
+      sum.IsInner = sum.IsInner && inner && inner->GetComponent(face, 0) != 0;
+    };
+    add(sums[static_cast<vtkIdType>(surfaces->GetComponent(face, 0))]);
     for (auto& [name, sum] : named)
     {
       if (boundary->GetCellData()->GetArray(name.c_str())->GetComponent(face, 0) != 0)
       {
-        addPolygon(boundary, corners, sum);
+        add(sum);
       }
     }
   }
@@ -434,7 +441,8 @@ void printSurfaces(vtkUnstructuredGrid* grid, const std::string& path, int threa
     const double area = sum.Area > 0 ? sum.Area : 1;
     std::cout << std::left << std::setw(14) << name << std::right << std::setw(10) << sum.Faces
               << std::setw(14) << sum.Area << "  " << sum.Center[0] / area << ", "
-              << sum.Center[1] / area << ", " << sum.Center[2] / area << "\n";
+              << sum.Center[1] / area << ", " << sum.Center[2] / area
+              << (sum.IsInner && sum.Faces > 0 ? "  inner" : "") << "\n";
   }
 }
 }

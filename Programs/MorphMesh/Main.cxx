@@ -187,7 +187,8 @@ int morphPart(Morphing& morphing, vtkUnstructuredGrid* grid, const Arguments& ar
       std::cout << "largest rounding of a coordinate: " << std::scientific << rounding << "\n";
     }
   }
-  const bool valid = morphing.method->GetNewInvertedCells() == 0;
+  const bool valid =
+    morphing.method->GetNewInvertedCells() == 0 && morphing.method->GetCrossingFaces() <= 0;
   return !partial.empty() || (arguments.requireValid && !valid) ? 3 : 0;
 }
 

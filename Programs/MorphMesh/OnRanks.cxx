@@ -184,7 +184,7 @@ int morphPart(const Ranks& ranks, vtkMorphAlgorithm* filter, vtkUnstructuredGrid
   {
     printReport(before, filter, nullptr);
   }
-  const bool valid = filter->GetNewInvertedCells() == 0;
+  const bool valid = filter->GetNewInvertedCells() == 0 && filter->GetCrossingFaces() <= 0;
   return errors > 0 || (arguments.requireValid && !valid) ? 3 : 0;
 }
 }

@@ -91,6 +91,10 @@ void printReport(vtkScaledJacobian* before, vtkMorphAlgorithm* morph, vtkScaledJ
   row("inverted cells", before->GetInvertedCells(), morph->GetInvertedCells());
   row("collapsed cells", before->GetDegenerateCells(), morph->GetDegenerateCells());
   row("inverted by the motion", std::string(), std::to_string(morph->GetNewInvertedCells()));
+  if (morph->GetCrossingFaces() > 0)
+  {
+    row("crossing faces", std::string(), std::to_string(morph->GetCrossingFaces()));
+  }
   row("worst cell", before->GetWorstCellId(), morph->GetWorstCellId());
   if (after)
   {

@@ -129,3 +129,43 @@ TEST(DistributedFilters, SmoothingIsAsGoodAsOnOneRank)
     EXPECT_NEAR(filter->GetMeanScaledJacobian(), serial->GetMeanScaledJacobian(), 1e-4);
   }
 }
+
+TEST(DistributedFilters, CrossingsAreThoseOfOneRank)
+{
+  // A U, one prong of which moves into the other.
+  const Ranks ranks = pieces::world();
+  const morph::Mesh block = meshes::hexes(12, 2, 8);
+  morph::Mesh whole;
+  whole.points = block.points;
+  whole.offsets = { 0 };
+  for (morph::Index c = 0; c < block.numberOfCells(); ++c)
+  {
+    const grids::Row low = block.points.row(block.cell(c)[0]);
+    if (low[0] < 5 || low[0] > 6 || low[2] < 2)
+    {
+      meshes::add(whole, block.types[c], { block.cell(c), block.cell(c) + block.cellSize(c) });
+    }
+  }
+  const auto run = [](vtkFEMWarpMorph* filter, vtkUnstructuredGrid* grid, double way)
+  {
+    const grids::Map intoTheGap = [way](const grids::Row& x)
+    { return x[0] == 5 && x[2] > 2 ? grids::Row(x + grids::Row(way, 0, 0)) : x; };
+    filter->SetInputData(grid);
+    filter->SetBoundaryData(grids::boundary(grid, intoTheGap));
+    grids::Listener listener(filter);
+    filter->Update();
+    EXPECT_TRUE(listener.Errors.empty());
+    return listener.Warnings;
+  };
+  vtkNew<vtkFEMWarpMorph> serial, filter;
+  const auto piece = rank_grids::piece(ranks, whole);
+  run(filter, piece, 1);
+  EXPECT_EQ(filter->GetCrossingFaces(), 0);
+  std::vector<std::string> wanted;
+  rank_grids::alone([&] { wanted = run(serial, grids::make(whole), 3); });
+  const std::vector<std::string> said = run(filter, piece, 3);
+  EXPECT_GT(serial->GetCrossingFaces(), 0);
+  EXPECT_EQ(filter->GetCrossingFaces(), serial->GetCrossingFaces());
+  EXPECT_STREQ(filter->GetMorphStatus(), "CrossesItself");
+  EXPECT_EQ(said.size(), ranks.rank() == 0 ? wanted.size() : 0);
+}

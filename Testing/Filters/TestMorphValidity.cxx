@@ -6,13 +6,18 @@
 
 #include "vtkFEMWarpMorph.h"
 #include "vtkInversionFreeMorph.h"
+#include "vtkMorphMesh.h"
 #include "vtkSimplexLinearMorph.h"
 
+#include <vtkBox.h>
 #include <vtkCellData.h>
 #include <vtkCommand.h>
 #include <vtkDataArray.h>
 #include <vtkFieldData.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
 #include <vtkStringArray.h>
+#include <vtkUnsignedCharArray.h>
 
 #include <gtest/gtest.h>
 
@@ -493,4 +498,113 @@ TEST_F(MorphValidity, CertifiesOnRequest)
   auto valid = morphed<vtkInversionFreeMorph>(this->Grid, waves);
   valid->Update();
   EXPECT_EQ(valid->GetCertifiedCells(), 216);
+}
+
+namespace
+{
+/// A U of 12 x 2 x 8 cells: the gap between its prongs is 2 wide. They are named Left and Right.
+vtkSmartPointer<vtkUnstructuredGrid> twoProngs()
+{
+  const morph::Mesh block = meshes::hexes(12, 2, 8);
+  morph::Mesh u;
+  u.points = block.points;
+  u.offsets = { 0 };
+  for (morph::Index c = 0; c < block.numberOfCells(); ++c)
+  {
+    const grids::Row low = block.points.row(block.cell(c)[0]);
+    if (low[0] < 5 || low[0] > 6 || low[2] < 2)
+    {
+      meshes::add(u, block.types[c], { block.cell(c), block.cell(c) + block.cellSize(c) });
+    }
+  }
+  auto grid = grids::make(u);
+  vtkNew<vtkStringArray> names;
+  names->SetName("SurfaceNames");
+  for (const auto& [name, side] : { std::pair("Left", 5.), std::pair("Right", 7.) })
+  {
+    vtkNew<vtkUnsignedCharArray> marks;
+    marks->SetName(name);
+    for (morph::Index i = 0; i < u.numberOfNodes(); ++i)
+    {
+      marks->InsertNextValue(u.points(i, 0) == side && u.points(i, 2) > 2);
+    }
+    grid->GetPointData()->AddArray(marks);
+    names->InsertNextValue(name);
+  }
+  grid->GetFieldData()->AddArray(names);
+  return grid;
+}
+
+/// The inner side of the left prong moves towards the right one.
+grids::Map intoTheGap(double way)
+{
+  return [way](const grids::Row& x)
+  { return x[0] == 5 && x[2] > 2 ? grids::Row(x + grids::Row(way, 0, 0)) : x; };
+}
+}
+
+TEST(Crossings, AreCountedAndNamedAndAStatus)
+{
+  auto filter = morphed<vtkFEMWarpMorph>(twoProngs(), intoTheGap(3));
+  grids::Listener listener(filter);
+  filter->Update();
+  EXPECT_EQ(filter->GetInvertedCells(), 0);
+  EXPECT_GT(filter->GetCrossingFaces(), 1);
+  EXPECT_EQ(filter->GetOutput()->GetFieldData()->GetArray("CrossingFaces")->GetComponent(0, 0),
+    filter->GetCrossingFaces());
+  EXPECT_STREQ(filter->GetMorphStatus(), "CrossesItself");
+  EXPECT_EQ(status(filter), "CrossesItself");
+  EXPECT_TRUE(std::isnan(filter->GetLargestValidStep()));
+  ASSERT_EQ(listener.Warnings.size(), 1u);
+  EXPECT_NE(listener.Warnings[0].find("Right"), std::string::npos) << listener.Warnings[0];
+  EXPECT_NE(listener.Warnings[0].find("Left"), std::string::npos) << listener.Warnings[0];
+}
+
+TEST(Crossings, AreNoneWhereTheGapStaysOrCloses)
+{
+  for (const double way : { 1., 1.9, 2. })
+  {
+    auto filter = morphed<vtkFEMWarpMorph>(twoProngs(), intoTheGap(way));
+    grids::Listener listener(filter);
+    filter->Update();
+    EXPECT_EQ(filter->GetCrossingFaces(), 0) << way;
+    EXPECT_STREQ(filter->GetMorphStatus(), "Valid") << way;
+    EXPECT_TRUE(listener.Warnings.empty()) << listener.Warnings[0];
+  }
+}
+
+TEST(Crossings, AreNotLookedForWhileABoundaryIsDragged)
+{
+  auto filter = morphed<vtkFEMWarpMorph>(twoProngs(), intoTheGap(3));
+  grids::Listener listener(filter);
+  filter->SetValidityToNone();
+  filter->Update();
+  EXPECT_EQ(filter->GetCrossingFaces(), -1);
+  EXPECT_STREQ(filter->GetMorphStatus(), "Valid");
+  filter->SetValidityToReport();
+  filter->SetQualityToSurface();
+  filter->Update();
+  EXPECT_EQ(filter->GetCrossingFaces(), -1);
+  EXPECT_TRUE(listener.Warnings.empty());
+}
+
+TEST(Crossings, HaveTheNamesOfTheSurfaceListWithoutSets)
+{
+  auto grid = twoProngs();
+  grid->GetFieldData()->RemoveArray("SurfaceNames");
+  vtkNew<vtkMorphMesh> filter;
+  filter->SetInputData(grid);
+  filter->SetMovingToRegion();
+  vtkNew<vtkBox> prong;
+  prong->SetBounds(-1, 5.5, -1, 3, 2.5, 9);
+  filter->SetRegion(prong);
+  filter->SetDisplacementToVector();
+  filter->SetVector(3, 0, 0);
+  grids::Listener listener(filter);
+  filter->Update();
+  EXPECT_STREQ(filter->GetMorphStatus(), "CrossesItself");
+  EXPECT_GT(filter->GetCrossingFaces(), 1);
+  ASSERT_FALSE(listener.Warnings.empty());
+  const std::string& last = listener.Warnings.back();
+  EXPECT_NE(last.find("\n  Surface "), std::string::npos) << last;
 }

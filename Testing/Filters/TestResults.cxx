@@ -72,6 +72,7 @@ Getters gettersOf(vtkMorphAlgorithm* f)
     { "DegenerateCells", [f] { return f->GetDegenerateCells(); } },
     { "InvertedBefore", [f] { return f->GetInvertedBefore(); } },
     { "NewInvertedCells", [f] { return f->GetNewInvertedCells(); } },
+    { "CrossingFaces", [f] { return f->GetCrossingFaces(); } },
     { "WorstCellId", [f] { return f->GetWorstCellId(); } },
     { "SurfaceInvertedCells", [f] { return f->GetSurfaceInvertedCells(); } },
     { "BoundaryInvertedCells", [f] { return f->GetBoundaryInvertedCells(); } },

@@ -180,3 +180,131 @@ TEST(SurfaceNames, APartOfASurfaceCannotSlide)
     std::string::npos)
     << listener.Errors[0];
 }
+
+namespace
+{
+bool onPlate(const grids::Row& x)
+{
+  return x[0] == 2 && x[1] <= 2;
+}
+
+/// A cube of 4 x 4 x 4 cells with a baffle: two patches of 8 faces each, on the same points. A third
+/// set has a face inside on one side alone.
+vtkSmartPointer<vtkUnstructuredGrid> withBaffle()
+{
+  morph::Mesh mesh = meshes::hexes(4, 4, 4);
+  const morph::Index volumes = mesh.numberOfCells();
+  const auto node = [](morph::Index x, morph::Index y, morph::Index z)
+  { return x + 5 * (y + 5 * z); };
+  std::vector<std::string> patch(static_cast<std::size_t>(volumes));
+  const auto add = [&](const char* name, morph::Index x, morph::Index y, morph::Index z)
+  {
+    meshes::add(
+      mesh, 9, { node(x, y, z), node(x, y + 1, z), node(x, y + 1, z + 1), node(x, y, z + 1) });
+    patch.emplace_back(name);
+  };
+  for (const char* name : { "plateLeft", "plateRight" })
+  {
+    for (morph::Index k = 0; k < 8; ++k)
+    {
+      add(name, 2, k % 2, k / 2);
+    }
+  }
+  add("zone", 1, 3, 1);
+  auto grid = grids::make(mesh);
+  vtkNew<vtkStringArray> names;
+  names->SetName("SurfaceNames");
+  for (const char* name : { "plateLeft", "plateRight", "zone" })
+  {
+    vtkNew<vtkUnsignedCharArray> marks;
+    marks->SetName(name);
+    for (const std::string& of : patch)
+    {
+      marks->InsertNextValue(of == name);
+    }
+    grid->GetCellData()->AddArray(marks);
+    names->InsertNextValue(name);
+  }
+  grid->GetFieldData()->AddArray(names);
+  return grid;
+}
+}
+
+TEST(SurfaceNames, BafflesAreListedAsInner)
+{
+  vtkNew<vtkMorphMesh> filter;
+  filter->SetInputData(withBaffle());
+  filter->UpdateInformation();
+  vtkStringArray* sizes = filter->GetSurfaceSizes();
+  ASSERT_GT(sizes->GetNumberOfValues(), 6);
+  EXPECT_EQ(sizes->GetValue(0), "plateLeft");
+  EXPECT_EQ(sizes->GetValue(1), "8 inner");
+  EXPECT_EQ(sizes->GetValue(2), "8");
+  EXPECT_EQ(sizes->GetValue(3), "plateRight");
+  EXPECT_EQ(sizes->GetValue(4), "8 inner");
+  EXPECT_EQ(sizes->LookupValue("zone"), -1);
+}
+
+TEST(SurfaceNames, ABaffleMovesByItsName)
+{
+  auto grid = withBaffle();
+  vtkNew<vtkMorphMesh> filter;
+  filter->SetInputData(grid);
+  filter->AddSurface("plateLeft");
+  filter->SetDisplacementToVector();
+  filter->SetVector(0.3, 0, 0);
+  grids::Listener listener(filter);
+  filter->Update();
+  ASSERT_TRUE(listener.Errors.empty()) << listener.Errors[0];
+  const morph::Points x = grids::points(grid), y = grids::points(filter->GetOutput());
+  bool anyFollows = false;
+  for (morph::Index i = 0; i < x.rows(); ++i)
+  {
+    if (onPlate(x.row(i)))
+    {
+      EXPECT_EQ(y(i, 0), 2.3) << i;
+    }
+    anyFollows = anyFollows || (!onPlate(x.row(i)) && y(i, 0) != x(i, 0));
+  }
+  EXPECT_TRUE(anyFollows);
+  EXPECT_EQ(filter->GetInvertedCells(), 0);
+}
+
+TEST(SurfaceNames, ABaffleStaysWhileAnotherSurfaceMoves)
+{
+  auto grid = withBaffle();
+  vtkStringArray::SafeDownCast(grid->GetFieldData()->GetAbstractArray("SurfaceNames"))
+    ->InsertNextValue("outlet");
+  vtkNew<vtkUnsignedCharArray> outlet;
+  outlet->SetName("outlet");
+  const morph::Points x = grids::points(grid);
+  for (morph::Index i = 0; i < x.rows(); ++i)
+  {
+    outlet->InsertNextValue(x(i, 0) == 4);
+  }
+  grid->GetPointData()->AddArray(outlet);
+  vtkNew<vtkMorphMesh> filter;
+  filter->SetInputData(grid);
+  filter->AddSurface("outlet");
+  filter->SetDisplacementToVector();
+  filter->SetVector(1, 0, 0);
+  filter->Update();
+  const morph::Points y = grids::points(filter->GetOutput());
+  for (morph::Index i = 0; i < x.rows(); ++i)
+  {
+    EXPECT_TRUE(!onPlate(x.row(i)) || y.row(i) == x.row(i)) << i;
+    EXPECT_TRUE(x(i, 0) != 4 || y(i, 0) == 5) << i;
+  }
+}
+
+TEST(SurfaceNames, ASetInsideThatCannotMoveSaysSo)
+{
+  vtkNew<vtkMorphMesh> filter;
+  filter->SetInputData(withBaffle());
+  filter->AddSurface("zone");
+  grids::Listener listener(filter);
+  filter->Update();
+  ASSERT_EQ(listener.Errors.size(), 1u);
+  EXPECT_NE(listener.Errors[0].find("'zone', which lies inside of the mesh"), std::string::npos)
+    << listener.Errors[0];
+}

@@ -23,6 +23,8 @@
 
 #include <Eigen/LU>
 
+#include <Eigen/SVD>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -198,7 +200,7 @@ bool isWhole(vtkMorphAlgorithm* filter)
 {
   const std::string status = filter->GetMorphStatus();
   return status == "Valid" || status == "Inverted" || status == "SubStepped" ||
-         status == "Repaired";
+         status == "Repaired" || status == "CrossesItself";
 }
 
 /// Prescribed nodes are where the boundary puts them.
@@ -277,6 +279,15 @@ Finding checkAffine(const Case& made, vtkMorphAlgorithm* filter, vtkUnstructured
       return { "affine map", "node " + std::to_string(n) + " is at " + text(points.row(n)) +
                                ", not at " + text(wanted) };
     }
+  }
+  // What did not cross before does not after a map that folds nothing.
+  const Eigen::Matrix3d map =
+    Eigen::Matrix3d::Identity() + scale * (made.boundary.matrix - Eigen::Matrix3d::Identity());
+  const Eigen::Vector3d stretches = Eigen::JacobiSVD<Eigen::Matrix3d>(map).singularValues();
+  if (!isRounded && map.determinant() > 0 && stretches[2] > 0.05 * stretches[0] &&
+      filter->GetCrossingFaces() > 0)
+  {
+    return { "crossings", std::to_string(filter->GetCrossingFaces()) + " faces of an affine map" };
   }
   return {};
 }
@@ -396,7 +407,12 @@ Finding checkMesh(const Case& made, F* filter, const Run& run)
   {
     return { "status", "getters and field data differ" };
   }
-  const bool claimsValid = status == "Valid" || status == "SubStepped" || status == "Repaired";
+  if ((status == "CrossesItself") > (fieldValue(output, "CrossingFaces") > 1))
+  {
+    return { "status", status + " without faces that cross" };
+  }
+  const bool claimsValid = status == "Valid" || status == "SubStepped" || status == "Repaired" ||
+                           status == "CrossesItself";
   // Positions are valid as computed; rounding to float may undo that, and ghosts are not measured.
   const bool isRight =
     !claimsValid || isFloat(output) || made.grid.hasGhosts ||

@@ -2,7 +2,7 @@
 #include "Private/Data/Quality.h"
 
 #include "Mesh/CellShape.h"
-#include "Private/Data/GridMesh.h"
+#include "Private/Data/WrittenPoints.h"
 #include "Quality/ScaledJacobian.h"
 #include "Support/Error.h"
 
@@ -126,19 +126,6 @@ void addColumn(vtkUnstructuredGrid* output, const char* name,
     column->InsertNextValue(value(row));
   }
   output->GetFieldData()->AddArray(column);
-}
-
-/// Calls body with the grid's points, copied only where they are not double.
-template <typename Body>
-auto withPoints(vtkUnstructuredGrid* grid, Body&& body)
-{
-  vtkPoints* points = grid->GetPoints();
-  if (auto* doubles = points ? vtkDoubleArray::FastDownCast(points->GetData()) : nullptr)
-  {
-    return body(
-      Eigen::Map<const morph::Points>(doubles->GetPointer(0), doubles->GetNumberOfTuples(), 3));
-  }
-  return body(GridMesh::FromPoints(points));
 }
 }
 

@@ -2,6 +2,8 @@
 #include "Private/Displace/BoundaryModel.h"
 
 #include "Boundary/FaceAreas.h"
+#include "Mesh/BaffleFaces.h"
+#include "Mesh/FacesOfCells.h"
 #include "Private/Data/DataCheck.h"
 #include "Private/Data/GridMesh.h"
 #include "Private/Data/Surface.h"
@@ -18,6 +20,7 @@
 #include <vtkPointSet.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
+#include <vtkUnsignedCharArray.h>
 #include <vtkUnstructuredGrid.h>
 
 #include <Eigen/Geometry>
@@ -179,10 +182,16 @@ void BoundaryModel::Update(vtkPointSet* input, const Geometry::Options& options,
   }
   const Index firstPolygon = next.Surface->GetNumberOfVerts() + next.Surface->GetNumberOfLines();
   next.NamedSets = FindNamedSets(input, next.Mesh, next.Faces, firstPolygon);
+  const auto outer = std::stable_partition(next.NamedSets.begin(), next.NamedSets.end(),
+    [](const NamedSet& set) { return !set.Nodes.empty(); });
+  next.SetsInside.assign(outer, next.NamedSets.end());
+  next.NamedSets.erase(outer, next.NamedSets.end());
   AddNamedSets(next.NamedSets, next.FaceOfPolygon, firstPolygon, next.Surface);
   next.GeometryKey = key;
   next.Size = sizeOf(next.Mesh.points, next.Faces.nodes);
   this->Kept = std::move(next);
+  std::stable_partition(this->Kept.NamedSets.begin(), this->Kept.NamedSets.end(),
+    [this](const NamedSet& set) { return !this->AreInner(set.Faces); });
 }
 
 void BoundaryModel::FindFaces(vtkUnstructuredGrid* grid, State& next, morph::Monitor& monitor)
@@ -192,6 +201,7 @@ void BoundaryModel::FindFaces(vtkUnstructuredGrid* grid, State& next, morph::Mon
   const morph::ConnectedComponents bodies = morph::connectedComponents(next.Mesh);
   next.BodyOfNode = bodies.ofNode;
   next.Faces = morph::boundaryFaces(next.Mesh, monitor);
+  AddBaffles(grid, next, monitor);
   const std::vector<std::int8_t> ofCell = morph::cellSigns(next.Mesh, bodies);
   next.Orientation.clear();
   for (Index cell : next.Faces.cells)
@@ -199,6 +209,30 @@ void BoundaryModel::FindFaces(vtkUnstructuredGrid* grid, State& next, morph::Mon
     next.Orientation.push_back(ofCell[cell]);
   }
   monitor.check();
+}
+
+void BoundaryModel::AddBaffles(vtkUnstructuredGrid* grid, State& next, morph::Monitor& monitor)
+{
+  next.Baffles = morph::baffleFaces(next.Mesh, CellsOfNamedSets(grid), monitor);
+  if (next.Baffles.empty())
+  {
+    return;
+  }
+  std::vector<std::pair<Index, int>> places;
+  for (std::size_t f = 0; f < next.Faces.cells.size(); ++f)
+  {
+    places.emplace_back(next.Faces.cells[f], next.Faces.sides[f]);
+  }
+  places.insert(places.end(), next.Baffles.begin(), next.Baffles.end());
+  next.Faces = morph::facesAt(next.Mesh, places);
+}
+
+bool BoundaryModel::AreInner(const std::vector<Index>& faces) const
+{
+  const auto first = static_cast<Index>(this->Kept.Faces.offsets.size() - 1) -
+                     static_cast<Index>(this->Kept.Baffles.size());
+  return !faces.empty() &&
+         std::all_of(faces.begin(), faces.end(), [first](Index face) { return face >= first; });
 }
 
 void BoundaryModel::TakeFaces(const WholeSurface& whole, State& next)
@@ -216,9 +250,11 @@ void BoundaryModel::TakeFaces(const WholeSurface& whole, State& next)
 void BoundaryModel::TakeGrid(vtkUnstructuredGrid* grid, const Geometry::Options& options,
   const std::string& geometryKey, const WholeSurface* whole, State& next, morph::Monitor& monitor)
 {
-  const bool sameMesh = next.Mesh.numberOfCells() > 0 && GridMesh::SameCells(grid, next.Mesh) &&
-                        GridMesh::SamePoints(grid, next.Mesh) &&
-                        (!whole || sameFaces(next.Faces, whole->Faces()));
+  const bool sameMesh =
+    next.Mesh.numberOfCells() > 0 && GridMesh::SameCells(grid, next.Mesh) &&
+    GridMesh::SamePoints(grid, next.Mesh) &&
+    (whole ? sameFaces(next.Faces, whole->Faces())
+           : next.Baffles == morph::baffleFaces(next.Mesh, CellsOfNamedSets(grid), monitor));
   if (!sameMesh && whole)
   {
     TakeFaces(*whole, next);
@@ -237,6 +273,17 @@ void BoundaryModel::TakeGrid(vtkUnstructuredGrid* grid, const Geometry::Options&
   next.FaceOfPolygon = Surface::Write(
     grid, next.Mesh, next.Faces, next.Surface, whole ? &whole->Orientation() : nullptr);
   next.NodeOfPoint = next.Faces.nodes;
+  if (!next.Baffles.empty())
+  {
+    const auto first = static_cast<Index>(next.Faces.cells.size() - next.Baffles.size());
+    vtkNew<vtkUnsignedCharArray> isInner;
+    isInner->SetName("Inner");
+    for (const Index face : next.FaceOfPolygon)
+    {
+      isInner->InsertNextValue(face >= first);
+    }
+    next.Surface->GetCellData()->AddArray(isInner);
+  }
   Geometry::AddPointArrays(next.Geometry, next.NodeOfPoint, next.Surface->GetPointData());
   Geometry::AddSurfaceIds(next.Geometry, next.FaceOfPolygon, next.Surface);
 }

@@ -3,10 +3,13 @@
 
 #include "Mesh/Topology.h"
 #include "Private/Data/Geometry.h"
-#include "Private/Displace/NamedSets.h"
+#include "Private/Data/NamedSets.h"
 
 #include <vtkSmartPointer.h>
 #include <vtkType.h>
+
+#include <utility>
+#include <vector>
 
 class vtkPointSet;
 class vtkPolyData;
@@ -37,11 +40,16 @@ public:
   {
     return this->Kept.Mesh.numberOfCells() > 0 ? this->Kept.Mesh.points : this->Kept.Rest;
   }
+  /// The outer faces, then those of baffles; see baffleFaces().
   const morph::BoundaryFaces& Faces() const { return this->Kept.Faces; }
+  /// Whether all of these faces are those of baffles.
+  bool AreInner(const std::vector<morph::Index>& faces) const;
   /// The geometry; that of a surface is found at its RestPosition.
   const morph::Classification& Geometry() const { return this->Kept.Geometry; }
   /// What the mesh's file names on the boundary; see FindNamedSets().
   const std::vector<NamedSet>& NamedSets() const { return this->Kept.NamedSets; }
+  /// What it names without any node on the boundary.
+  const std::vector<NamedSet>& SetsInside() const { return this->Kept.SetsInside; }
   const std::vector<morph::Index>& BodyOfNode() const { return this->Kept.BodyOfNode; }
   /// The areas of morph::faceAreas(), but outwards where cells are wound inside out.
   morph::Points OutwardAreas(const morph::Points& points) const;
@@ -69,12 +77,13 @@ private:
   {
     morph::Mesh Mesh; ///< of a surface: no cells
     morph::BoundaryFaces Faces;
-    std::vector<std::int8_t> Orientation; ///< #faces
-    morph::Points Rest;                   ///< of a surface: where its geometry was found
+    std::vector<std::pair<morph::Index, int>> Baffles; ///< the last ones of Faces
+    std::vector<std::int8_t> Orientation;              ///< #faces
+    morph::Points Rest; ///< of a surface: where its geometry was found
     std::vector<morph::Index> BodyOfNode;
     std::string GeometryKey;
     morph::Classification Geometry;
-    std::vector<NamedSet> NamedSets;
+    std::vector<NamedSet> NamedSets, SetsInside;
     vtkSmartPointer<vtkPolyData> Surface;
     std::vector<morph::Index> NodeOfPoint, FaceOfPolygon;
     const vtkPointSet* Input = nullptr; ///< compared, never used
@@ -88,6 +97,8 @@ private:
     const std::string& geometryKey, const WholeSurface* whole, State& next,
     morph::Monitor& monitor);
   static void FindFaces(vtkUnstructuredGrid* grid, State& next, morph::Monitor& monitor);
+  /// Adds the faces of baffles.
+  static void AddBaffles(vtkUnstructuredGrid* grid, State& next, morph::Monitor& monitor);
   static void TakeFaces(const WholeSurface& whole, State& next);
   void TakeSurface(vtkPolyData* surface, const Geometry::Options& options,
     const std::string& geometryKey, State& next, morph::Monitor& monitor);

@@ -80,7 +80,8 @@ void vtkBoundaryDisplacement::vtkInternals::Classify(
   {
     this->SurfaceList->AddArray(size.Name.c_str(), false);
     this->SurfaceSizes->InsertNextValue(size.Name);
-    this->SurfaceSizes->InsertNextValue(std::to_string(size.Count));
+    this->SurfaceSizes->InsertNextValue(
+      std::to_string(size.Count) + (size.IsInner ? " inner" : ""));
     this->SurfaceSizes->InsertNextValue(vtkVariant(size.Measure).ToString());
     const auto &low = size.Box.min(), &high = size.Box.max();
     this->SurfaceBounds->InsertNextTuple6(low[0], high[0], low[1], high[1], low[2], high[2]);

@@ -56,6 +56,16 @@ namespace
 void requireNone(
   const std::set<std::string>& missing, const BoundaryModel& model, const char* property)
 {
+  for (const NamedSet& set : model.SetsInside())
+  {
+    if (missing.count(set.Name) > 0)
+    {
+      throw morph::Error(std::string(property) + " names '" + set.Name +
+                         "', which lies inside of the mesh. Surfaces on the boundary and baffles "
+                         "can move; a zone holds or moves the nodes of '" +
+                         set.Name + "'.");
+    }
+  }
   if (!missing.empty())
   {
     throw morph::Error(std::string(property) + " names '" + *missing.begin() +
@@ -119,6 +129,7 @@ std::vector<Size> Sizes(const BoundaryModel& model)
   };
   const auto addFaces = [&](const std::vector<Index>& faces, Size& size)
   {
+    size.IsInner = (size.Count == 0 || size.IsInner) && model.AreInner(faces);
     size.Count += static_cast<Index>(faces.size());
     for (const Index face : faces)
     {

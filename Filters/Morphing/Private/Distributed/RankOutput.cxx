@@ -7,6 +7,7 @@
 #include "Private/Data/Output.h"
 #include "Private/Data/Quality.h"
 #include "Private/Data/Results.h"
+#include "Private/Distributed/RankCrossings.h"
 #include "Private/Morph/MorphOutput.h"
 
 #include <vtkPolyData.h>
@@ -36,6 +37,15 @@ void writeMeasured(const RankMesh& mesh, const OnRanks::Morphing::Task& task,
     const morph::CertificateReport report = Certify(mesh, task.Output, mesh.Unmeasured(), monitor);
     Quality::Write(report, task.Output);
     results.Set(report);
+  }
+  if (task.Measures.Cross)
+  {
+    const Crossings::Found found = RankCrossings::Find(mesh, task.Output, monitor);
+    if (found.Faces > 0 && ranks.rank() == 0)
+    {
+      monitor.warn(found.Warning);
+    }
+    MorphOutput::SetCrossings(found, results);
   }
 }
 }

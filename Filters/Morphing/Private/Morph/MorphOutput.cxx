@@ -23,9 +23,9 @@ namespace morph::filters::MorphOutput
 namespace
 {
 /// Measures all cells, and writes what follows from it.
-void measureAll(const Session& session, const StepResult& step, bool certify, Results& results,
-  vtkUnstructuredGrid* output, vtkUnstructuredGrid* badCells, vtkPolyData* surface,
-  morph::Monitor& monitor)
+void measureAll(const Session& session, const StepResult& step, Measures measures,
+  vtkPointSet* boundary, Results& results, vtkUnstructuredGrid* output,
+  vtkUnstructuredGrid* badCells, vtkPolyData* surface, morph::Monitor& monitor)
 {
   const KeptMesh& kept = session.GetKept();
   const bool known =
@@ -40,12 +40,22 @@ void measureAll(const Session& session, const StepResult& step, bool certify, Re
   results.Set(quality);
   results.SetNumber("WorstMeanScaledJacobian", morph::worstMean(quality));
   results.SetNumber("BoundaryMinimum", step.BoundaryMinimum);
-  if (certify)
+  if (measures.Certify)
   {
     const morph::CertificateReport report =
       Quality::Certify(kept.Mesh(), output, kept.Orientation(), {}, monitor);
     Quality::Write(report, output);
     results.Set(report);
+  }
+  if (measures.Cross)
+  {
+    const Crossings::Found found = Crossings::Find(
+      kept.Mesh(), kept.OuterFaces(), kept.Orientation(), output, boundary, monitor);
+    if (found.Faces > 0)
+    {
+      monitor.warn(found.Warning);
+    }
+    SetCrossings(found, results);
   }
   BadCells::Extract(quality, output, badCells);
   results.SetInteger(
@@ -73,12 +83,12 @@ void WriteMesh(const Session& session, const morph::Points& moved, int precision
 }
 
 void WriteMeasures(const Session& session, const StepResult& step, Measures measures,
-  Results& results, vtkUnstructuredGrid* output, vtkUnstructuredGrid* badCells,
-  vtkPolyData* surface, morph::Monitor& monitor)
+  vtkPointSet* boundary, Results& results, vtkUnstructuredGrid* output,
+  vtkUnstructuredGrid* badCells, vtkPolyData* surface, morph::Monitor& monitor)
 {
   if (measures.All)
   {
-    measureAll(session, step, measures.Certify, results, output, badCells, surface, monitor);
+    measureAll(session, step, measures, boundary, results, output, badCells, surface, monitor);
   }
   else
   {
@@ -100,6 +110,17 @@ void SetStatus(const StepResult& step, morph::Index bad, Results& results, morph
   results.SetText("MorphStatus", isRounded ? "Inverted" : step.Valid.Status);
   results.SetNumber("LargestValidStep",
     isRounded ? std::numeric_limits<double>::quiet_NaN() : step.Valid.LargestValidStep);
+}
+
+void SetCrossings(const Crossings::Found& found, Results& results)
+{
+  results.SetInteger("CrossingFaces", found.Faces);
+  const std::string status = results.Text("MorphStatus");
+  if (found.Faces > 0 && status != "Inverted" && status != "Partial")
+  {
+    results.SetText("MorphStatus", "CrossesItself");
+    results.SetNumber("LargestValidStep", std::numeric_limits<double>::quiet_NaN());
+  }
 }
 
 void WriteCounts(const StepResult& step, Results& results, vtkDataObject* output)

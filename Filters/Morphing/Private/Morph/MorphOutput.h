@@ -2,8 +2,10 @@
 #pragma once
 
 #include "Mesh/Mesh.h"
+#include "Private/Data/Crossings.h"
 
 class vtkDataObject;
+class vtkPointSet;
 class vtkPolyData;
 class vtkUnstructuredGrid;
 
@@ -25,6 +27,7 @@ struct Measures
 {
   bool All = true;      ///< of all cells, not of those behind the outer faces alone
   bool Certify = false; ///< vtkMorphAlgorithm::SetCertify(); with All alone
+  bool Cross = true;    ///< whether the boundary crosses itself; with All alone
 };
 
 /// Writes the mesh at `moved`. `precision`: of the points, as vtkAlgorithm::DEFAULT_PRECISION.
@@ -32,14 +35,16 @@ struct Measures
 void WriteMesh(const Session& session, const morph::Points& moved, int precision,
   vtkUnstructuredGrid* grid, vtkUnstructuredGrid* output, morph::Monitor& monitor);
 /// Writes what is measured on `output`, which has a step's mesh: its quality, its inverted cells
-/// and its surface. It does not read the step's points.
+/// and its surface. It does not read the step's points. `boundary`: the displaced one.
 void WriteMeasures(const Session& session, const StepResult& step, Measures measures,
-  Results& results, vtkUnstructuredGrid* output, vtkUnstructuredGrid* badCells,
-  vtkPolyData* surface, morph::Monitor& monitor);
+  vtkPointSet* boundary, Results& results, vtkUnstructuredGrid* output,
+  vtkUnstructuredGrid* badCells, vtkPolyData* surface, morph::Monitor& monitor);
 
 /// Sets the step's status and largest valid step. Where rounding has inverted `bad` cells of a mesh
 /// that was valid, both are those of an inverted mesh. `monitor`: is warned of it, or null.
 void SetStatus(const StepResult& step, morph::Index bad, Results& results, morph::Monitor* monitor);
+/// Sets the number of crossing faces and, of a mesh that is valid all the way, its status.
+void SetCrossings(const Crossings::Found& found, Results& results);
 /// Sets the counts of a step and of its method, and adds all results to the output.
 void WriteCounts(const StepResult& step, Results& results, vtkDataObject* output);
 

@@ -392,6 +392,7 @@ void vtkMorphMesh::vtkInternals::TakeResults()
   to.SetInteger("DegenerateCells", from->GetDegenerateCells());
   to.SetInteger("InvertedBefore", from->GetInvertedBefore());
   to.SetInteger("NewInvertedCells", from->GetNewInvertedCells());
+  to.SetInteger("CrossingFaces", from->GetCrossingFaces());
   to.SetInteger("WorstCellId", from->GetWorstCellId());
   to.SetInteger("SurfaceInvertedCells", from->GetSurfaceInvertedCells());
   to.SetInteger("BoundaryInvertedCells", from->GetBoundaryInvertedCells());

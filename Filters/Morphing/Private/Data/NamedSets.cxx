@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Private/Displace/NamedSets.h"
+#include "Private/Data/NamedSets.h"
 
 #include "Mesh/CellShape.h"
 
@@ -14,7 +14,9 @@
 #include <vtkUnsignedCharArray.h>
 
 #include <algorithm>
+#include <optional>
 #include <set>
+#include <utility>
 
 namespace morph::filters
 {
@@ -95,13 +97,34 @@ void sortUnique(std::vector<Index>& list)
   list.erase(std::unique(list.begin(), list.end()), list.end());
 }
 
-NamedSet findSet(vtkPointSet* input, const char* name, const morph::Mesh& mesh,
+/// The names in the field data, each once.
+std::vector<std::string> setNames(vtkPointSet* input)
+{
+  std::vector<std::string> result;
+  auto* names =
+    vtkStringArray::SafeDownCast(input->GetFieldData()->GetAbstractArray("SurfaceNames"));
+  for (vtkIdType i = 0; names && i < names->GetNumberOfValues(); ++i)
+  {
+    if (names->LookupValue(names->GetValue(i)) == i)
+    {
+      result.push_back(names->GetValue(i));
+    }
+  }
+  return result;
+}
+
+std::optional<NamedSet> findSet(vtkPointSet* input, const char* name, const morph::Mesh& mesh,
   const morph::BoundaryFaces& faces, Index firstPolygon)
 {
   NamedSet set;
   set.Name = name;
   const auto isNode = marks(input->GetPointData(), name, input->GetNumberOfPoints());
   const auto isCell = marks(input->GetCellData(), name, input->GetNumberOfCells());
+  if (std::count(isNode.begin(), isNode.end(), 1) + std::count(isCell.begin(), isCell.end(), 1) ==
+      0)
+  {
+    return std::nullopt;
+  }
   if (!isCell.empty())
   {
     addFacesOfCells(mesh, faces, firstPolygon, isCell, set.Faces);
@@ -132,23 +155,29 @@ NamedSet findSet(vtkPointSet* input, const char* name, const morph::Mesh& mesh,
 }
 }
 
+std::vector<std::uint8_t> CellsOfNamedSets(vtkPointSet* input)
+{
+  std::vector<std::uint8_t> result(static_cast<std::size_t>(input->GetNumberOfCells()), 0);
+  for (const std::string& name : setNames(input))
+  {
+    const auto isCell = marks(input->GetCellData(), name.c_str(), input->GetNumberOfCells());
+    for (std::size_t c = 0; c < isCell.size(); ++c)
+    {
+      result[c] |= isCell[c];
+    }
+  }
+  return result;
+}
+
 std::vector<NamedSet> FindNamedSets(vtkPointSet* input, const morph::Mesh& mesh,
   const morph::BoundaryFaces& faces, Index firstPolygon)
 {
   std::vector<NamedSet> result;
-  auto* names =
-    vtkStringArray::SafeDownCast(input->GetFieldData()->GetAbstractArray("SurfaceNames"));
-  for (vtkIdType i = 0; names && i < names->GetNumberOfValues(); ++i)
+  for (const std::string& name : setNames(input))
   {
-    const std::string name = names->GetValue(i);
-    if (names->LookupValue(name) < i)
+    if (auto set = findSet(input, name.c_str(), mesh, faces, firstPolygon))
     {
-      continue; // named twice
-    }
-    NamedSet set = findSet(input, name.c_str(), mesh, faces, firstPolygon);
-    if (!set.Nodes.empty())
-    {
-      result.push_back(std::move(set));
+      result.push_back(std::move(*set));
     }
   }
   return result;

@@ -3,6 +3,7 @@
 
 #include "Mesh/Topology.h"
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -19,11 +20,14 @@ struct NamedSet
   std::vector<morph::Index> Faces; ///< ascending
 };
 
+/// For each cell of the input whether a set that its field data `SurfaceNames` lists has it.
+std::vector<std::uint8_t> CellsOfNamedSets(vtkPointSet* input);
+
 /// The sets that the input's field data `SurfaceNames` (vtkStringArray) lists. The point array of
 /// that name marks nodes, by values that are not zero: a face belongs to the set if all of its
 /// corners do. The cell array marks cells: a face belongs to the set if a two-dimensional cell on
-/// it does or, where no two-dimensional cell does, if the volume cell behind it does. A set that is
-/// not on the boundary is left out, as is a name without arrays.
+/// it does or, where no two-dimensional cell does, if the volume cell behind it does. A name without
+/// arrays is left out; a set that is not on the boundary has no nodes.
 /// `mesh`, `faces`: of a grid; of a surface `mesh` has no cells, and each face is a polygon, the
 /// first one the cell `firstPolygon`.
 std::vector<NamedSet> FindNamedSets(vtkPointSet* input, const morph::Mesh& mesh,

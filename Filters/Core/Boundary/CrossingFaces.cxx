@@ -1,0 +1,297 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Boundary/CrossingFaces.h"
+
+#include "Boundary/SurfaceEdges.h"
+#include "Geometry/OrientationPredicate.h"
+#include "Geometry/OverlappingBoxes.h"
+#include "Support/Parallel.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace morph
+{
+namespace
+{
+/// Of the shortest edge at a node: how far it is pushed. Rounding of coordinates is below it.
+constexpr double Depth = 1e-3;
+/// The same for faces in contact at rest: of curved bodies whose faces do not match, facets cross by
+/// their height, a small part of an edge.
+constexpr double DepthInContact = 0.1;
+
+/// The boundary faces by numbers of their own corners, so that its arrays do not grow with the mesh.
+struct Shell
+{
+  std::vector<Index> nodes;          ///< the mesh's, ascending
+  std::vector<Index> corners;        ///< of all faces, numbers in `nodes`
+  const std::vector<Index>& offsets; ///< #faces + 1, into `corners`
+  const std::vector<Index>& cells;   ///< #faces
+  const std::vector<std::int8_t>& orientation;
+
+  Shell(const BoundaryFaces& faces, const std::vector<std::int8_t>& orientationOfCells)
+    : nodes(faces.connectivity)
+    , offsets(faces.offsets)
+    , cells(faces.cells)
+    , orientation(orientationOfCells)
+  {
+    std::sort(this->nodes.begin(), this->nodes.end());
+    this->nodes.erase(std::unique(this->nodes.begin(), this->nodes.end()), this->nodes.end());
+    std::vector<Index> number(this->nodes.empty() ? 0 : this->nodes.back() + 1);
+    for (std::size_t i = 0; i < this->nodes.size(); ++i)
+    {
+      number[this->nodes[i]] = static_cast<Index>(i);
+    }
+    this->corners.reserve(faces.connectivity.size());
+    for (const Index node : faces.connectivity)
+    {
+      this->corners.push_back(number[node]);
+    }
+  }
+
+  Index count() const { return static_cast<Index>(this->cells.size()); }
+  const Index* begin(Index face) const { return this->corners.data() + this->offsets[face]; }
+  const Index* end(Index face) const { return this->corners.data() + this->offsets[face + 1]; }
+  Index size(Index face) const { return this->offsets[face + 1] - this->offsets[face]; }
+
+  /// The corners that two faces share: none (-1), the only one, or several (-2).
+  Index shared(Index f, Index g) const
+  {
+    Index found = -1;
+    for (const Index* corner = this->begin(f); corner != this->end(f); ++corner)
+    {
+      if (*corner != found && std::find(this->begin(g), this->end(g), *corner) != this->end(g))
+      {
+        if (found >= 0)
+        {
+          return -2;
+        }
+        found = *corner;
+      }
+    }
+    return found;
+  }
+};
+
+/// The corners at one time, and where they are once they are pushed into their body.
+struct Place
+{
+  Points at, inside, deepInside;
+
+  Place(const Shell& shell, const ConstPoints& points)
+    : at(points(shell.nodes, allColumns))
+    , inside(at)
+    , deepInside(at)
+  {
+    Points normals = Points::Zero(this->at.rows(), 3);
+    Eigen::VectorXd shortest =
+      Eigen::VectorXd::Constant(this->at.rows(), std::numeric_limits<double>::infinity());
+    for (Index f = 0; f < shell.count(); ++f)
+    {
+      const Index* nodes = shell.begin(f);
+      const Index size = shell.size(f);
+      const Eigen::RowVector3d normal =
+        shell.orientation[shell.cells[f]] * vectorArea(this->at, nodes, size).normalized();
+      for (Index k = 0; k < size; ++k)
+      {
+        const Index a = nodes[k], b = nodes[(k + 1) % size];
+        normals.row(a) += normal;
+        const double length = (this->at.row(a) - this->at.row(b)).norm();
+        if (length > 0)
+        {
+          shortest[a] = std::min(shortest[a], length);
+          shortest[b] = std::min(shortest[b], length);
+        }
+      }
+    }
+    for (Index i = 0; i < this->at.rows(); ++i)
+    {
+      if (std::isfinite(shortest[i]))
+      {
+        const Eigen::RowVector3d inwards = -shortest[i] * normals.row(i).normalized();
+        this->inside.row(i) += Depth * inwards;
+        this->deepInside.row(i) += DepthInContact * inwards;
+      }
+    }
+  }
+};
+
+struct Facet
+{
+  std::array<Eigen::Vector3d, 3> corners;
+  int shared = -1; ///< the corner that the other face has, too
+  Eigen::AlignedBox3d box;
+};
+
+/// Fills `triangles` with those of a face. `shared`: the corner that is not pushed, or -1.
+void makeFacets(const Shell& shell, Index face, const Points& at0, const Points& pushed,
+  Index shared, std::vector<Facet>& triangles)
+{
+  const auto at = [&](Index corner) -> Eigen::Vector3d
+  { return (corner != shared ? pushed : at0).row(corner).transpose(); };
+  const Index* nodes = shell.begin(face);
+  const Index size = shell.size(face);
+  triangles.clear();
+  const auto add = [&](const Eigen::Vector3d& a, Index b, Index c, int isShared)
+  {
+    Facet triangle;
+    triangle.corners = { a, at(b), at(c) };
+    triangle.shared = b == shared ? 1 : c == shared ? 2 : isShared;
+    for (const Eigen::Vector3d& corner : triangle.corners)
+    {
+      triangle.box.extend(corner);
+    }
+    triangles.push_back(triangle);
+  };
+  if (size == 3)
+  {
+    add(at(nodes[0]), nodes[1], nodes[2], nodes[0] == shared ? 0 : -1);
+    return;
+  }
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  for (Index k = 0; k < size; ++k)
+  {
+    mean += at(nodes[k]) / static_cast<double>(size);
+  }
+  for (Index k = 0; k < size; ++k)
+  {
+    add(mean, nodes[k], nodes[(k + 1) % size], -1);
+  }
+}
+
+/// Whether the line from p to q passes from one side of the triangle's plane to the other, through
+/// the triangle or its rim. Lines that only reach the plane do not.
+bool pierces(const Eigen::Vector3d& p, const Eigen::Vector3d& q, const Facet& triangle)
+{
+  const auto& [a, b, c] = triangle.corners;
+  if (orientationSign(a, b, c, p) * orientationSign(a, b, c, q) >= 0)
+  {
+    return false;
+  }
+  const int sides[] = { orientationSign(p, q, a, b), orientationSign(p, q, b, c),
+    orientationSign(p, q, c, a) };
+  return std::find(sides, sides + 3, -1) == sides + 3 ||
+         std::find(sides, sides + 3, 1) == sides + 3;
+}
+
+/// Whether an edge of a triangle passes through another one. Where both have the shared corner, the
+/// edges from it touch, and do not count.
+bool anyEdgePierces(const Facet& edges, const Facet& other)
+{
+  for (int k = 0; k < 3; ++k)
+  {
+    const int next = (k + 1) % 3;
+    const bool touches = other.shared >= 0 && (k == edges.shared || next == edges.shared);
+    if (!touches && pierces(edges.corners[k], edges.corners[next], other))
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+bool anyCross(const std::vector<Facet>& first, const std::vector<Facet>& second)
+{
+  for (const Facet& a : first)
+  {
+    for (const Facet& b : second)
+    {
+      if (a.box.intersects(b.box) && (anyEdgePierces(a, b) || anyEdgePierces(b, a)))
+      {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+/// Whether two faces cross with one of them pushed.
+bool facesCross(const Shell& shell, const Place& place, const std::array<Index, 2>& pair,
+  bool areInContact, std::vector<Facet>& first, std::vector<Facet>& second)
+{
+  const Points& inside = areInContact ? place.deepInside : place.inside;
+  const Index shared = shell.shared(pair[0], pair[1]);
+  for (const bool isFirstPushed : { true, false })
+  {
+    makeFacets(shell, pair[0], place.at, isFirstPushed ? inside : place.at, shared, first);
+    makeFacets(shell, pair[1], place.at, isFirstPushed ? place.at : inside, shared, second);
+    if (anyCross(first, second))
+    {
+      return true;
+    }
+  }
+  return false;
+}
+}
+
+std::vector<std::array<Index, 2>> crossingFaces(const ConstPoints& rest, const ConstPoints& moved,
+  const BoundaryFaces& faces, const std::vector<std::int8_t>& orientation, Monitor& monitor)
+{
+  const Shell shell(faces, orientation);
+  std::vector<Eigen::AlignedBox3d> boxes(static_cast<std::size_t>(shell.count()));
+  std::vector<std::uint8_t> isMoved(boxes.size());
+  for (Index f = 0; f < shell.count(); ++f)
+  {
+    for (const Index* corner = shell.begin(f); corner != shell.end(f); ++corner)
+    {
+      const Index node = shell.nodes[*corner];
+      boxes[f].extend(moved.row(node).transpose());
+      isMoved[f] |= rest.row(node) != moved.row(node);
+    }
+  }
+  monitor.check();
+  std::vector<std::array<Index, 2>> pairs =
+    overlappingBoxes(boxes, isMoved, [&](Index f, Index g) { return shell.shared(f, g) >= -1; });
+  if (pairs.empty())
+  {
+    return pairs;
+  }
+  // In contact: as near at rest as DepthInContact of their size, and no neighbors.
+  const auto areInContact = [&](const std::array<Index, 2>& pair)
+  {
+    Eigen::AlignedBox3d at[2];
+    double reach = 0;
+    for (int i = 0; i < 2; ++i)
+    {
+      for (const Index* corner = shell.begin(pair[i]); corner != shell.end(pair[i]); ++corner)
+      {
+        at[i].extend(rest.row(shell.nodes[*corner]).transpose());
+      }
+      reach += DepthInContact / 2 * at[i].diagonal().norm();
+    }
+    return at[0].exteriorDistance(at[1]) <= reach && shell.shared(pair[0], pair[1]) == -1;
+  };
+  const auto keepCrossing = [&](const Place& place, bool isKept)
+  {
+    constexpr Index Batch = 1 << 16, Grain = 256;
+    std::vector<std::uint8_t> areKept(pairs.size());
+    parallelBatches(monitor, static_cast<Index>(pairs.size()), Batch, Grain,
+      [&](Index begin, Index end)
+      {
+        std::vector<Facet> first, second;
+        for (Index i = begin; i < end; ++i)
+        {
+          areKept[i] = facesCross(shell, place, pairs[i], isKept && areInContact(pairs[i]), first,
+                         second) == isKept;
+        }
+      });
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < pairs.size(); ++i)
+    {
+      if (areKept[i])
+      {
+        pairs[kept++] = pairs[i];
+      }
+    }
+    pairs.resize(kept);
+  };
+  keepCrossing(Place(shell, moved), true);
+  if (!pairs.empty())
+  {
+    keepCrossing(Place(shell, rest), false);
+  }
+  return pairs;
+}
+}

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Mesh/Topology.h"
+#include "Support/Monitor.h"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace morph
+{
+/// Returns the pairs of boundary faces that run into each other at `moved` and did not at `rest`,
+/// ascending, the lower number first. One face of each pair at least has moved. `rest`, `moved`:
+/// #nodes x 3, finite. `orientation`: #cells, +1 or -1 (cellSigns()).
+///
+/// Faces count by their corners, a face of more than three as triangles around the mean of its
+/// corners. Faces cross if they still do once one of them is pushed into its own body, by a
+/// thousandth of the shortest edges, or by a tenth if they are in contact at rest. So bodies in
+/// contact do not cross, whatever rounding and the facets of curved sides do. Bodies that overlap do, also where their sides lie in one plane and no edge
+/// passes through a face. Faces that share an edge may fold, but do not count.
+///
+/// The signs of the predicates are exact. Cost: a pass over the boundary, n log^3 n for the n faces,
+/// and some 100 predicates for each pair that touches at one node. Threads come from `monitor`.
+std::vector<std::array<Index, 2>> crossingFaces(const ConstPoints& rest, const ConstPoints& moved,
+  const BoundaryFaces& faces, const std::vector<std::int8_t>& orientation, Monitor& monitor);
+}
