@@ -142,7 +142,8 @@ def morph(grid, displaced, method="FEMWARP", *, ids=None, allow_inverted=False, 
         Tolerance=1e-8, NumberOfThreads=1. Text chooses a value by its name.
 
     Returns the morphed mesh, an object of the grid's class, with the cell array ScaledJacobian.
-    Raises MorphError where the morph fails, inverts cells or crosses itself; TypeError and ValueError for
+    Raises MorphError where the morph fails, inverts cells or crosses itself; TypeError and
+    ValueError for
     arguments of the wrong kind. What the filter warns of is a MorphWarning.
     """
     if not isinstance(grid, (vtkUnstructuredGrid, vtkDataObjectTree)):

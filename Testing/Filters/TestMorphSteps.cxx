@@ -21,6 +21,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include <cmath>
 
 using Pipeline = vtkStreamingDemandDrivenPipeline;
@@ -355,7 +357,10 @@ TEST_F(RelativeSteps, InvertedCellsOfAStepThatWasKeptAreReportedToo)
     grids::Listener listener(this->Filter);
     EXPECT_EQ(this->PreparesAt(step), step == 4 ? 4 : 0) << step;
     EXPECT_EQ(this->Filter->GetInvertedCells() > 0, step > 1);
-    EXPECT_EQ(listener.Warnings.size(), step > 1 ? 1u : 0u) << step;
+    // That the boundary runs into itself is a warning of its own.
+    const auto ofCells = std::count_if(listener.Warnings.begin(), listener.Warnings.end(),
+      [](const std::string& text) { return text.find("scaled Jacobian") != std::string::npos; });
+    EXPECT_EQ(ofCells, step > 1 ? 1 : 0) << step;
   }
 }
 

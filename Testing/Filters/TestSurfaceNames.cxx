@@ -188,8 +188,8 @@ bool onPlate(const grids::Row& x)
   return x[0] == 2 && x[1] <= 2;
 }
 
-/// A cube of 4 x 4 x 4 cells with a baffle: two patches of 8 faces each, on the same points. A third
-/// set has a face inside on one side alone.
+/// A cube of 4 x 4 x 4 cells with a baffle: two patches of 8 faces each, on the same points. A
+/// third set has a face inside on one side alone.
 vtkSmartPointer<vtkUnstructuredGrid> withBaffle()
 {
   morph::Mesh mesh = meshes::hexes(4, 4, 4);

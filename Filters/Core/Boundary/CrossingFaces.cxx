@@ -18,7 +18,7 @@ namespace
 {
 /// Of the shortest edge at a node: how far it is pushed. Rounding of coordinates is below it.
 constexpr double Depth = 1e-3;
-/// The same for faces in contact at rest: of curved bodies whose faces do not match, facets cross by
+/// The same for faces in contact before: of curved bodies whose faces do not match, facets cross by
 /// their height, a small part of an edge.
 constexpr double DepthInContact = 0.1;
 
@@ -248,7 +248,7 @@ std::vector<std::array<Index, 2>> crossingFaces(const ConstPoints& rest, const C
   {
     return pairs;
   }
-  // In contact: as near at rest as DepthInContact of their size, and no neighbors.
+  // In contact: as near before as DepthInContact of their size, and no neighbors.
   const auto areInContact = [&](const std::array<Index, 2>& pair)
   {
     Eigen::AlignedBox3d at[2];
