@@ -143,8 +143,7 @@ def morph(grid, displaced, method="FEMWARP", *, ids=None, allow_inverted=False, 
 
     Returns the morphed mesh, an object of the grid's class, with the cell array ScaledJacobian.
     Raises MorphError where the morph fails, inverts cells or crosses itself; TypeError and
-    ValueError for
-    arguments of the wrong kind. What the filter warns of is a MorphWarning.
+    ValueError for arguments of the wrong kind. What the filter warns of is a MorphWarning.
     """
     if not isinstance(grid, (vtkUnstructuredGrid, vtkDataObjectTree)):
         raise TypeError(f"grid is a {type(grid).__name__}; a vtkUnstructuredGrid is needed, or "

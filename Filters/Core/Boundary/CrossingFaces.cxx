@@ -22,7 +22,7 @@ constexpr double Depth = 1e-3;
 /// their height, a small part of an edge.
 constexpr double DepthInContact = 0.1;
 
-/// The boundary faces by numbers of their own corners, so that its arrays do not grow with the mesh.
+/// The boundary faces by numbers of their own corners: its arrays do not grow with the mesh.
 struct Shell
 {
   std::vector<Index> nodes;          ///< the mesh's, ascending
