@@ -21,8 +21,8 @@ namespace morph
 /// overlap do, also where their sides lie in one plane and no edge passes through a face. Faces
 /// that share an edge may fold, but do not count.
 ///
-/// The signs of the predicates are exact. Cost: a pass over the boundary, n log^3 n for n faces, and
-/// some 100 predicates for each pair that touches at one node. Threads come from `monitor`.
+/// The signs of the predicates are exact. Cost: a pass over the boundary, n log^3 n for n faces,
+/// and some 100 predicates for each pair that touches at one node. Threads come from `monitor`.
 std::vector<std::array<Index, 2>> crossingFaces(const ConstPoints& rest, const ConstPoints& moved,
   const BoundaryFaces& faces, const std::vector<std::int8_t>& orientation, Monitor& monitor);
 }
