@@ -453,7 +453,7 @@ def shape_rows():
         "two": {"Weights": [0.5, 0.25]}, "back": {"Weights": [-0.25, 0.5]},
         "one": {"Weights": [0, 1], "FindValidRanges": 0},
         "LBWARP": {"Weights": [0.5, 0.25], "Method": "LBWARP"},
-        "radial": {"Weights": [0.5, 0.25], "Method": "Radial Basis"},
+        "radial": {"Weights": [0.5, 0.25], "Method": "Radial basis"},
         "surface": {"Weights": [0.5, 0.25], "Quality": "Surface"},
     }.items():
         yield f"MorphShapes.{name}/bore_hex", "exact", shapes("bore_hex", **options)

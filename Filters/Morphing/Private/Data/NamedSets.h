@@ -26,8 +26,8 @@ std::vector<std::uint8_t> CellsOfNamedSets(vtkPointSet* input);
 /// The sets that the input's field data `SurfaceNames` (vtkStringArray) lists. The point array of
 /// that name marks nodes, by values that are not zero: a face belongs to the set if all of its
 /// corners do. The cell array marks cells: a face belongs to the set if a two-dimensional cell on
-/// it does or, where no two-dimensional cell does, if the volume cell behind it does. A name without
-/// arrays is left out; a set that is not on the boundary has no nodes.
+/// it does or, where no two-dimensional cell does, if the volume cell behind it does. A name
+/// without arrays is left out; a set that is not on the boundary has no nodes.
 /// `mesh`, `faces`: of a grid; of a surface `mesh` has no cells, and each face is a polygon, the
 /// first one the cell `firstPolygon`.
 std::vector<NamedSet> FindNamedSets(vtkPointSet* input, const morph::Mesh& mesh,

@@ -8,7 +8,7 @@ class vtkUnstructuredGrid;
 
 namespace morph::filters::RankCrossings
 {
-/// Crossings::Find() of the whole mesh, the same on each process. `output`: of this process's piece.
+/// Crossings::Find() of the whole mesh, alike on each process. `output`: of this process's piece.
 /// Surfaces have the names that the file gives. Memory and messages grow with the whole boundary:
 /// 90 bytes a corner. Collective.
 Crossings::Found Find(const RankMesh& mesh, vtkUnstructuredGrid* output, morph::Monitor& monitor);
