@@ -20,7 +20,7 @@ namespace
 constexpr double Depth = 1e-3;
 /// The same for faces in contact before: of curved bodies whose faces do not match, facets cross by
 /// their height, a small part of an edge.
-constexpr double DepthInContact = 0.1;
+constexpr double DepthInContact = 0.25;
 
 /// The boundary faces by numbers of their own corners: its arrays do not grow with the mesh.
 struct Shell
