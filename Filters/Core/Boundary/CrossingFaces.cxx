@@ -18,9 +18,9 @@ namespace
 {
 /// Of the shortest edge at a node: how far it is pushed. Rounding of coordinates is below it.
 constexpr double Depth = 1e-3;
-/// The same for faces in contact before: of curved bodies whose faces do not match, facets cross by
-/// their height, a small part of an edge.
-constexpr double DepthInContact = 0.25;
+/// Faces whose boxes are nearer than this part of their size are in contact. Of curved bodies whose
+/// faces do not match, facets in contact cross by their height, however small the motion.
+constexpr double Contact = 0.125;
 
 /// The boundary faces by numbers of their own corners: its arrays do not grow with the mesh.
 struct Shell
@@ -78,12 +78,11 @@ struct Shell
 /// The corners at one time, and where they are once they are pushed into their body.
 struct Place
 {
-  Points at, inside, deepInside;
+  Points at, inside;
 
   Place(const Shell& shell, const ConstPoints& points)
     : at(points(shell.nodes, allColumns))
     , inside(at)
-    , deepInside(at)
   {
     Points normals = Points::Zero(this->at.rows(), 3);
     Eigen::VectorXd shortest =
@@ -110,9 +109,7 @@ struct Place
     {
       if (std::isfinite(shortest[i]))
       {
-        const Eigen::RowVector3d inwards = -shortest[i] * normals.row(i).normalized();
-        this->inside.row(i) += Depth * inwards;
-        this->deepInside.row(i) += DepthInContact * inwards;
+        this->inside.row(i) -= Depth * shortest[i] * normals.row(i).normalized();
       }
     }
   }
@@ -209,14 +206,13 @@ bool anyCross(const std::vector<Facet>& first, const std::vector<Facet>& second)
 
 /// Whether two faces cross with one of them pushed.
 bool facesCross(const Shell& shell, const Place& place, const std::array<Index, 2>& pair,
-  bool areInContact, std::vector<Facet>& first, std::vector<Facet>& second)
+  std::vector<Facet>& first, std::vector<Facet>& second)
 {
-  const Points& inside = areInContact ? place.deepInside : place.inside;
   const Index shared = shell.shared(pair[0], pair[1]);
   for (const bool isFirstPushed : { true, false })
   {
-    makeFacets(shell, pair[0], place.at, isFirstPushed ? inside : place.at, shared, first);
-    makeFacets(shell, pair[1], place.at, isFirstPushed ? place.at : inside, shared, second);
+    makeFacets(shell, pair[0], place.at, isFirstPushed ? place.inside : place.at, shared, first);
+    makeFacets(shell, pair[1], place.at, isFirstPushed ? place.at : place.inside, shared, second);
     if (anyCross(first, second))
     {
       return true;
@@ -248,7 +244,7 @@ std::vector<std::array<Index, 2>> crossingFaces(const ConstPoints& rest, const C
   {
     return pairs;
   }
-  // In contact: as near before as DepthInContact of their size, and no neighbors.
+  // Before the motion; neighbors are none.
   const auto areInContact = [&](const std::array<Index, 2>& pair)
   {
     Eigen::AlignedBox3d at[2];
@@ -259,7 +255,7 @@ std::vector<std::array<Index, 2>> crossingFaces(const ConstPoints& rest, const C
       {
         at[i].extend(rest.row(shell.nodes[*corner]).transpose());
       }
-      reach += DepthInContact / 2 * at[i].diagonal().norm();
+      reach += Contact * at[i].diagonal().norm();
     }
     return at[0].exteriorDistance(at[1]) <= reach && shell.shared(pair[0], pair[1]) == -1;
   };
@@ -273,8 +269,9 @@ std::vector<std::array<Index, 2>> crossingFaces(const ConstPoints& rest, const C
         std::vector<Facet> first, second;
         for (Index i = begin; i < end; ++i)
         {
-          areKept[i] = facesCross(shell, place, pairs[i], isKept && areInContact(pairs[i]), first,
-                         second) == isKept;
+          const bool doCross =
+            !areInContact(pairs[i]) && facesCross(shell, place, pairs[i], first, second);
+          areKept[i] = doCross == isKept;
         }
       });
     std::size_t kept = 0;

@@ -15,11 +15,12 @@ namespace morph
 /// #nodes x 3, finite. `orientation`: #cells, +1 or -1 (cellSigns()).
 ///
 /// Faces count by their corners, a face of more than three as triangles around the mean of its
-/// corners. Faces cross if they still do once one of them is pushed into its own body: by a
-/// thousandth of the shortest edges, or by a quarter if they are in contact in the reference mesh.
-/// So bodies in contact do not cross, whatever rounding and the facets of curved sides do. Bodies
-/// that overlap do, also where their sides lie in one plane and no edge passes through a face.
-/// Faces that share an edge may fold, but do not count.
+/// corners. Faces cross if they still do once one of them is pushed into its own body by a
+/// thousandth of the shortest edges, so that rounding has no effect. Bodies that overlap cross
+/// also where their sides lie in one plane and no edge passes through a face. Faces that share an
+/// edge may fold, but do not count. Nor do faces that are in contact at `rest`: the facets of
+/// curved sides cross when bodies slide. A body that runs deeper into another one crosses other
+/// faces, too.
 ///
 /// The signs of the predicates are exact. Cost: a pass over the boundary, n log^3 n for n faces,
 /// and some 100 predicates for each pair that touches at one node. Threads come from `monitor`.
