@@ -244,7 +244,6 @@ std::vector<std::array<Index, 2>> crossingFaces(const ConstPoints& rest, const C
   {
     return pairs;
   }
-  // Before the motion; neighbors are none.
   const auto areInContact = [&](const std::array<Index, 2>& pair)
   {
     Eigen::AlignedBox3d at[2];
@@ -257,7 +256,7 @@ std::vector<std::array<Index, 2>> crossingFaces(const ConstPoints& rest, const C
       }
       reach += Contact * at[i].diagonal().norm();
     }
-    return at[0].exteriorDistance(at[1]) <= reach && shell.shared(pair[0], pair[1]) == -1;
+    return at[0].exteriorDistance(at[1]) <= reach;
   };
   const auto keepCrossing = [&](const Place& place, bool isKept)
   {
