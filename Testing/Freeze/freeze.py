@@ -40,7 +40,8 @@ IGNORED = re.compile("Seconds|Iterations|Evaluations|Memory|Megabytes|SlideRepor
                      "|(Prepare|Solve|Classify|Choose)Count"
                      "|MethodCounts|WorstCellId|(Patch|Surface)(List|Sizes|Bounds)|Picked|Timestep"
                      "|FinalDisplacement|MorphDisplacement|RestPosition")
-NOTHING = ("-1", "0", "0.0", "-1.0", "nan", "'None'", "''", "[]")  # what a filter without a result says
+# What a filter without a result says.
+NOTHING = ("-1", "0", "0.0", "-1.0", "nan", "'None'", "''", "[]")
 NUMBER = re.compile(r"-?\b\d+\.?\d*(?:e[-+]?\d+)?")
 
 
