@@ -34,7 +34,7 @@ blocks (hex (0 1 2 3 4 5 6 7) (6 6 12) simpleGrading (1 1 1));
 boundary (walls { type wall;
   faces ((0 4 7 3) (1 2 6 5) (0 1 5 4) (3 7 6 2) (0 3 2 1) (4 5 6 7)); });"""
 SNAPPY = """castellatedMesh true; snap false; addLayers false;
-geometry { ball { type searchableSphere; center (0.5 0.5 1); radius 0.25; } }
+geometry { ball { type searchableSphere; centre (0.5 0.5 1); radius 0.25; } }
 castellatedMeshControls { maxLocalCells 100000; maxGlobalCells 200000; minRefinementCells 0;
   nCellsBetweenLevels 1; features (); refinementSurfaces { ball { level (1 1); } }
   resolveFeatureAngle 30; refinementRegions {} locationInMesh (0.05 0.05 0.05);
