@@ -126,17 +126,26 @@ CXX_TYPES = {"number": "double", "integer": "int", "flag": "bool", "choice": "in
              "surfaces": "std::set<std::string>"}
 
 
+def component_type(row):
+    """Of kinds numbers and integers."""
+    return CXX_TYPES[row.kind[:-1]]
+
+
 def cxx_type(row):
     if row.kind in ("numbers", "integers"):
-        return f"std::array<{'double' if row.kind == 'numbers' else 'int'}, {row.count}>"
+        return f"std::array<{component_type(row)}, {row.count}>"
     return CXX_TYPES[row.kind]
 
 
-def bounds_text(row):
+def integer_bounds(row):
     low, high = row.range
-    if row.kind not in ("number", "numbers", "integer", "integers") or (low, high) == (None, None):
+    return low or "VTK_INT_MIN", high or "VTK_INT_MAX"
+
+
+def bounds_text(row):
+    if row.kind not in ("number", "numbers", "integer", "integers") or row.range == [None, None]:
         return ""
-    return f", range [{low or 'VTK_INT_MIN'}, {high or 'VTK_INT_MAX'}]"
+    return ", range [{}, {}]".format(*integer_bounds(row))
 
 
 def comment(row):
@@ -166,7 +175,7 @@ def declarations(row):
         text += f"  enum {name}Values\n  {{\n{entries[:-2]}\n  }};\n"
     text += comment(row)
     if row.kind in ("numbers", "integers"):
-        one = "double" if row.kind == "numbers" else "int"
+        one = component_type(row)
         arguments = ", ".join(f"{one} v{i}" for i in range(row.count))
         text += (f"  void Set{name}({arguments});\n"
                  f"  void Set{name}(const {one} values[{row.count}]);\n"
@@ -218,9 +227,9 @@ def definitions(cls, options, row):
     elif row.kind == "choice":
         bounds = f"0, {len(row.values) - 1}"
     else:
-        bounds = f"{low or 'VTK_INT_MIN'}, {high or 'VTK_INT_MAX'}"
+        bounds = ", ".join(integer_bounds(row))
     if row.kind in ("numbers", "integers"):
-        one, n = ("double" if row.kind == "numbers" else "int"), row.count
+        one, n = component_type(row), row.count
         arguments = ", ".join(f"{one} v{i}" for i in range(n))
         values = ", ".join(f"v{i}" for i in range(n))
         parts = ", ".join(f"values[{i}]" for i in range(n))
@@ -514,7 +523,7 @@ def make_tests(path):
             if row.kind in ("flag", "choice"):
                 low, high = "0", "1" if row.kind == "flag" else str(len(row.values) - 1)
             elif row.kind == "integer":
-                low, high = low or "VTK_INT_MIN", high or "VTK_INT_MAX"
+                low, high = integer_bounds(row)
             value = {"number": "value", "flag": "value != 0"}.get(row.kind, "int(value)")
             # A choice may have fewer values in a class than its superclass accepts.
             most = high if row.kind != "choice" else str(

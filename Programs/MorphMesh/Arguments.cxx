@@ -254,66 +254,65 @@ std::vector<Option> optionsOf(Arguments& result)
     { "--shapes", "<boundary>...",
       "shapes, one displaced boundary each, whose motions are added with weights; up to the next "
       "option",
-      "Files and tasks", [&](const std::string& value) { result.shapes.push_back(value); } },
+      Files, [&](const std::string& value) { result.shapes.push_back(value); } },
     { "--table", "<file>",
       "the weights, comma-separated values: a column for each shape, named as its file without "
       "extension,\nand a line for each design",
-      "Files and tasks", text(result.table) },
+      Files, text(result.table) },
     { "--output", "<file or folder>",
       "the output, in place of the last file; of designs a folder, in which a run that was stopped "
       "continues",
-      "Files and tasks", text(result.output) },
+      Files, text(result.output) },
     { "--as-rotation", "<shape>",
-      "the weight of this shape is the factor of its angle; may be repeated", "Files and tasks",
+      "the weight of this shape is the factor of its angle; may be repeated", Files,
       [&](const std::string& value) { result.rotations.push_back(value); } },
     { "--criteria", "<name>[=<limit>],...",
       "also report these, with the worst cell and how many are beyond the limit, before and after: "
       "AspectRatio,\nSkewness, Warpage, JacobianRatio, Taper, NonOrthogonality, FaceSkewness, "
       "FacePyramid, FirstHeight;\nFirstHeight:BLADE is that of a surface that the file names",
-      "Files and tasks", text(result.criteria) },
+      Files, text(result.criteria) },
     { "--require-valid", "",
       "exit status 3 if the motion inverts or collapses a cell, or the boundary crosses itself",
-      "Files and tasks", flag(result.requireValid) },
-    { "--threads", "<number>", "threads to compute with; by default 0, all cores",
-      "Files and tasks", whole("--threads", result.threads, 0) },
-    { "--progress", "", "show progress even if standard error is no terminal", "Files and tasks",
+      Files, flag(result.requireValid) },
+    { "--threads", "<number>", "threads to compute with; by default 0, all cores", Files,
+      whole("--threads", result.threads, 0) },
+    { "--progress", "", "show progress even if standard error is no terminal", Files,
       flag(result.progress) },
-    { "--quiet", "", "print nothing but warnings and errors", "Files and tasks",
-      flag(result.quiet) },
+    { "--quiet", "", "print nothing but warnings and errors", Files, flag(result.quiet) },
     { "--target", "<file>",
       "a surface onto which the surfaces of --move go; without --move, those that it belongs to",
-      "Files and tasks", moving(result.target, "Target", "--target") },
+      Files, moving(result.target, "Target", "--target") },
     { "--handles", "<csv>",
       "points that take what moves along smoothly (without --move, everything): columns x, y, z, "
       "dx, "
       "dy, dz\nand, optional, radius (0: no limit)",
-      "Files and tasks", moving(result.handles, "Handles", "--handles") },
+      Files, moving(result.handles, "Handles", "--handles") },
     { "--lattice", "<csv>",
       "control points of a box that move what is inside (without --move, everything): columns i, "
       "j, "
       "k,\ndx, dy, dz",
-      "Files and tasks", moving(result.lattice, "Lattice", "--lattice") },
+      Files, moving(result.lattice, "Lattice", "--lattice") },
     { "--displacements", "<csv>",
       "nodes that move: columns id (0-based point id), dx, dy, dz; or pointDisplacement of "
       "OpenFOAM",
-      "Files and tasks", text(result.displacements) },
-    { "--node-numbers", "", "ids of --displacements are the node numbers of the grid's file",
-      "Files and tasks", flag(result.nodeNumbers) },
+      Files, text(result.displacements) },
+    { "--node-numbers", "", "ids of --displacements are the node numbers of the grid's file", Files,
+      flag(result.nodeNumbers) },
     { "--steps", "<number>",
-      "write the equal steps of the motion: <output> with -1, -2, ... before its extension",
-      "Files and tasks", whole("--steps", result.steps, 1) },
+      "write the equal steps of the motion: <output> with -1, -2, ... before its extension", Files,
+      whole("--steps", result.steps, 1) },
     { "--results", "",
       "write the arrays that the morph adds, too: scaled Jacobian and the like; by default the\n"
       "arrays of <grid> alone",
-      "Files and tasks", flag(result.results) },
-    { "--list-surfaces", "", "print name, faces, area and center of each surface, and stop",
-      "Files and tasks", task(Task::ListSurfaces) },
-    { "--extract-boundary", "", "write the grid's boundary, to be moved, and stop",
-      "Files and tasks", task(Task::ExtractBoundary) },
-    { "--version", "", "print the version and stop", "Files and tasks", task(Task::ShowVersion) },
-    { "--help", "", "print this and stop", "Files and tasks", task(Task::ShowHelp) },
+      Files, flag(result.results) },
+    { "--list-surfaces", "", "print name, faces, area and center of each surface, and stop", Files,
+      task(Task::ListSurfaces) },
+    { "--extract-boundary", "", "write the grid's boundary, to be moved, and stop", Files,
+      task(Task::ExtractBoundary) },
+    { "--version", "", "print the version and stop", Files, task(Task::ShowVersion) },
+    { "--help", "", "print this and stop", Files, task(Task::ShowHelp) },
   };
-  std::vector<std::string> groups = { "Files and tasks" }; // in the order of the table
+  std::vector<std::string> groups = { Files }; // in the order of the table
   const auto rank = [&](const std::string& group)
   {
     const auto found = std::find(groups.begin(), groups.end(), group);

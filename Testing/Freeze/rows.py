@@ -322,10 +322,10 @@ AROUND = {
 }
 
 
-def motion(options, how, default="Vector"):
-    """The options with How and the name of a surface under the names of the filter's properties."""
+def motion(options, default="Vector"):
+    """The options with How under the name of the filter's property."""
     options = dict(options)
-    options[how] = options.pop("How", default)
+    options["Displacement"] = options.pop("How", default)
     return options
 
 
@@ -335,10 +335,10 @@ def boundary_rows():
         default = "Transform" if changes else "Vector"
         yield (f"BoundaryDisplacement.{name}/canister_hex", "solved", morph_mesh(
             "canister_hex", changes, "BoundaryDisplacement",
-            **motion({**chosen, **options}, "Displacement", default)))
+            **motion({**chosen, **options}, default)))
         yield (f"MorphMesh.{name}/canister_hex", "solved", morph_mesh(
             "canister_hex", changes, Surfaces=["Surface 0"],
-            **motion(options, "Displacement", default)))
+            **motion(options, default)))
     bulge = {"Displacement": "Translate, rotate, scale", "Translation": [0, 0.05, 0.1],
              "Rotation": [0, 0, 10]}
     for mesh in ("canister_tet", "pipe_hex"):

@@ -2,6 +2,7 @@
 #include "Boundary/CrossingFaces.h"
 
 #include "Boundary/SurfaceEdges.h"
+#include "Geometry/MeanOfRows.h"
 #include "Geometry/OrientationPredicate.h"
 #include "Geometry/OverlappingBoxes.h"
 #include "Support/Parallel.h"
@@ -55,24 +56,6 @@ struct Shell
   const Index* begin(Index face) const { return this->corners.data() + this->offsets[face]; }
   const Index* end(Index face) const { return this->corners.data() + this->offsets[face + 1]; }
   Index size(Index face) const { return this->offsets[face + 1] - this->offsets[face]; }
-
-  /// The corners that two faces share: none (-1), the only one, or several (-2).
-  Index shared(Index f, Index g) const
-  {
-    Index found = -1;
-    for (const Index* corner = this->begin(f); corner != this->end(f); ++corner)
-    {
-      if (*corner != found && std::find(this->begin(g), this->end(g), *corner) != this->end(g))
-      {
-        if (found >= 0)
-        {
-          return -2;
-        }
-        found = *corner;
-      }
-    }
-    return found;
-  }
 };
 
 /// The corners at one time, and where they are once they are pushed into their body.
@@ -118,24 +101,20 @@ struct Place
 struct Facet
 {
   std::array<Eigen::Vector3d, 3> corners;
-  int shared = -1; ///< the corner that the other face has, too
   Eigen::AlignedBox3d box;
 };
 
-/// Fills `triangles` with those of a face. `shared`: the corner that is not pushed, or -1.
-void makeFacets(const Shell& shell, Index face, const Points& at0, const Points& pushed,
-  Index shared, std::vector<Facet>& triangles)
+/// Fills `triangles` with those of a face.
+void makeFacets(const Shell& shell, Index face, const Points& points, std::vector<Facet>& triangles)
 {
-  const auto at = [&](Index corner) -> Eigen::Vector3d
-  { return (corner != shared ? pushed : at0).row(corner).transpose(); };
+  const auto at = [&](Index corner) -> Eigen::Vector3d { return points.row(corner).transpose(); };
   const Index* nodes = shell.begin(face);
   const Index size = shell.size(face);
   triangles.clear();
-  const auto add = [&](const Eigen::Vector3d& a, Index b, Index c, int isShared)
+  const auto add = [&](const Eigen::Vector3d& a, Index b, Index c)
   {
     Facet triangle;
     triangle.corners = { a, at(b), at(c) };
-    triangle.shared = b == shared ? 1 : c == shared ? 2 : isShared;
     for (const Eigen::Vector3d& corner : triangle.corners)
     {
       triangle.box.extend(corner);
@@ -144,17 +123,13 @@ void makeFacets(const Shell& shell, Index face, const Points& at0, const Points&
   };
   if (size == 3)
   {
-    add(at(nodes[0]), nodes[1], nodes[2], nodes[0] == shared ? 0 : -1);
+    add(at(nodes[0]), nodes[1], nodes[2]);
     return;
   }
-  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  const Eigen::Vector3d mean = meanOfRows(points, nodes, nodes + size).transpose();
   for (Index k = 0; k < size; ++k)
   {
-    mean += at(nodes[k]) / static_cast<double>(size);
-  }
-  for (Index k = 0; k < size; ++k)
-  {
-    add(mean, nodes[k], nodes[(k + 1) % size], -1);
+    add(mean, nodes[k], nodes[(k + 1) % size]);
   }
 }
 
@@ -173,15 +148,12 @@ bool pierces(const Eigen::Vector3d& p, const Eigen::Vector3d& q, const Facet& tr
          std::find(sides, sides + 3, 1) == sides + 3;
 }
 
-/// Whether an edge of a triangle passes through another one. Where both have the shared corner, the
-/// edges from it touch, and do not count.
+/// Whether an edge of a triangle passes through another one.
 bool anyEdgePierces(const Facet& edges, const Facet& other)
 {
   for (int k = 0; k < 3; ++k)
   {
-    const int next = (k + 1) % 3;
-    const bool touches = other.shared >= 0 && (k == edges.shared || next == edges.shared);
-    if (!touches && pierces(edges.corners[k], edges.corners[next], other))
+    if (pierces(edges.corners[k], edges.corners[(k + 1) % 3], other))
     {
       return true;
     }
@@ -208,11 +180,10 @@ bool anyCross(const std::vector<Facet>& first, const std::vector<Facet>& second)
 bool facesCross(const Shell& shell, const Place& place, const std::array<Index, 2>& pair,
   std::vector<Facet>& first, std::vector<Facet>& second)
 {
-  const Index shared = shell.shared(pair[0], pair[1]);
   for (const bool isFirstPushed : { true, false })
   {
-    makeFacets(shell, pair[0], place.at, isFirstPushed ? place.inside : place.at, shared, first);
-    makeFacets(shell, pair[1], place.at, isFirstPushed ? place.at : place.inside, shared, second);
+    makeFacets(shell, pair[0], isFirstPushed ? place.inside : place.at, first);
+    makeFacets(shell, pair[1], isFirstPushed ? place.at : place.inside, second);
     if (anyCross(first, second))
     {
       return true;
@@ -227,6 +198,7 @@ std::vector<std::array<Index, 2>> crossingFaces(const ConstPoints& rest, const C
 {
   const Shell shell(faces, orientation);
   std::vector<Eigen::AlignedBox3d> boxes(static_cast<std::size_t>(shell.count()));
+  std::vector<Eigen::AlignedBox3d> boxesAtRest(boxes.size());
   std::vector<std::uint8_t> isMoved(boxes.size());
   for (Index f = 0; f < shell.count(); ++f)
   {
@@ -234,30 +206,23 @@ std::vector<std::array<Index, 2>> crossingFaces(const ConstPoints& rest, const C
     {
       const Index node = shell.nodes[*corner];
       boxes[f].extend(moved.row(node).transpose());
+      boxesAtRest[f].extend(rest.row(node).transpose());
       isMoved[f] |= rest.row(node) != moved.row(node);
     }
   }
   monitor.check();
-  std::vector<std::array<Index, 2>> pairs =
-    overlappingBoxes(boxes, isMoved, [&](Index f, Index g) { return shell.shared(f, g) >= -1; });
+  // Faces that share a node are 0 apart, so they are in contact, too.
+  const auto areApart = [&](Index f, Index g)
+  {
+    const Eigen::AlignedBox3d &first = boxesAtRest[f], &second = boxesAtRest[g];
+    const double reach = Contact * (first.diagonal().norm() + second.diagonal().norm());
+    return first.exteriorDistance(second) > reach;
+  };
+  std::vector<std::array<Index, 2>> pairs = overlappingBoxes(boxes, isMoved, areApart);
   if (pairs.empty())
   {
     return pairs;
   }
-  const auto areInContact = [&](const std::array<Index, 2>& pair)
-  {
-    Eigen::AlignedBox3d at[2];
-    double reach = 0;
-    for (int i = 0; i < 2; ++i)
-    {
-      for (const Index* corner = shell.begin(pair[i]); corner != shell.end(pair[i]); ++corner)
-      {
-        at[i].extend(rest.row(shell.nodes[*corner]).transpose());
-      }
-      reach += Contact * at[i].diagonal().norm();
-    }
-    return at[0].exteriorDistance(at[1]) <= reach;
-  };
   const auto keepCrossing = [&](const Place& place, bool isKept)
   {
     constexpr Index Batch = 1 << 16, Grain = 256;
@@ -268,9 +233,7 @@ std::vector<std::array<Index, 2>> crossingFaces(const ConstPoints& rest, const C
         std::vector<Facet> first, second;
         for (Index i = begin; i < end; ++i)
         {
-          const bool doCross =
-            !areInContact(pairs[i]) && facesCross(shell, place, pairs[i], first, second);
-          areKept[i] = doCross == isKept;
+          areKept[i] = facesCross(shell, place, pairs[i], first, second) == isKept;
         }
       });
     std::size_t kept = 0;

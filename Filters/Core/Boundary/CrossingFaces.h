@@ -18,12 +18,12 @@ namespace morph
 /// corners. Faces cross if they still do once one of them is pushed into its own body by a
 /// thousandth of the shortest edges, so that rounding has no effect. Bodies that overlap cross
 /// also where their sides lie in one plane and no edge passes through a face. Faces that share an
-/// edge may fold, but do not count. Nor do faces that are in contact at `rest`: the facets of
+/// node may fold, but do not count. Nor do faces that are in contact at `rest`: the facets of
 /// curved sides cross when bodies slide. A body that runs deeper into another one crosses other
 /// faces, too.
 ///
 /// The signs of the predicates are exact. Cost: a pass over the boundary, n log^3 n for n faces,
-/// and some 100 predicates for each pair that touches at one node. Threads come from `monitor`.
+/// and some 100 predicates for each pair of faces whose boxes overlap. Threads come from `monitor`.
 std::vector<std::array<Index, 2>> crossingFaces(const ConstPoints& rest, const ConstPoints& moved,
   const BoundaryFaces& faces, const std::vector<std::int8_t>& orientation, Monitor& monitor);
 }

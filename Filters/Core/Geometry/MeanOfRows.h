@@ -8,7 +8,7 @@ namespace morph
 /// Returns the mean of rows of `points`. `first`, `last`: iterators over at least one row number.
 /// Equal rows have that row as their mean, bit for bit.
 template <typename Numbers>
-Eigen::RowVector3d meanOfRows(const Points& points, Numbers first, Numbers last)
+Eigen::RowVector3d meanOfRows(const ConstPoints& points, Numbers first, Numbers last)
 {
   const Eigen::RowVector3d origin = points.row(*first);
   Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();

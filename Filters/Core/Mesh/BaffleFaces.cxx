@@ -52,10 +52,13 @@ std::vector<std::pair<Index, int>> baffleFaces(
   {
     for (Index f = table.start[c]; f < table.start[c + 1]; ++f)
     {
+      if (table.first[f] != f || table.uses[f] < 2)
+      {
+        continue;
+      }
       Corners corners(table.corners.begin(f), table.corners.end(f));
       std::sort(corners.begin(), corners.end());
-      if (table.first[f] == f && table.uses[f] > 1 &&
-          std::binary_search(walls.begin(), walls.end(), corners))
+      if (std::binary_search(walls.begin(), walls.end(), corners))
       {
         result.emplace_back(c, static_cast<int>(f - table.start[c]));
       }

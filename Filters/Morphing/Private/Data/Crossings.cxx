@@ -2,6 +2,7 @@
 #include "Private/Data/Crossings.h"
 
 #include "Boundary/CrossingFaces.h"
+#include "Geometry/MeanOfRows.h"
 #include "Private/Data/NamedSets.h"
 #include "Private/Data/Surface.h"
 #include "Private/Data/WrittenPoints.h"
@@ -73,12 +74,9 @@ void takeIds(
 std::string place(const morph::BoundaryFaces& faces, const std::vector<Index>& cells,
   const morph::ConstPoints& points, Index face)
 {
-  Eigen::RowVector3d mean = Eigen::RowVector3d::Zero();
-  const Index begin = faces.offsets[face], end = faces.offsets[face + 1];
-  for (Index k = begin; k < end; ++k)
-  {
-    mean += points.row(faces.connectivity[k]) / static_cast<double>(end - begin);
-  }
+  const Index* corners = faces.connectivity.data();
+  const Eigen::RowVector3d mean =
+    morph::meanOfRows(points, corners + faces.offsets[face], corners + faces.offsets[face + 1]);
   std::ostringstream text;
   text << "cell " << cells[face] << " at (" << mean[0] << ", " << mean[1] << ", " << mean[2] << ")";
   return text.str();

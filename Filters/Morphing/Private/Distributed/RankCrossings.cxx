@@ -37,12 +37,12 @@ struct Part
 Part ownPart(const RankMesh& mesh, vtkUnstructuredGrid* output)
 {
   Part part;
-  if (mesh.Whole().outerFaces().cells.empty())
+  const auto& whole = mesh.Whole();
+  const morph::BoundaryFaces& outer = whole.outerFaces();
+  if (outer.cells.empty())
   {
     return part;
   }
-  const auto& whole = mesh.Whole();
-  const morph::BoundaryFaces& outer = whole.outerFaces();
   withPoints(output,
     [&](const morph::ConstPoints& moved)
     {
