@@ -65,7 +65,7 @@ void vtkBoundaryDisplacement::SetSelectionExtractor(vtkExtractSelection* extract
   if (this->Internals->Extractor != extractor)
   {
     this->Internals->Extractor = extractor;
-    this->Internals->ChosenFrom = filters::ChoiceKey();
+    this->Internals->ChosenVersion = -1;
     this->Modified();
   }
 }

@@ -14,18 +14,9 @@
 #include <vtkPointSet.h>
 #include <vtkUnstructuredGrid.h>
 
-#include <sstream>
 #include <utility>
 
 namespace filters = morph::filters;
-
-/// The stiffness of the last inputs. Its version changes with the content.
-class vtkFEMWarpMorph::vtkTaken
-{
-public:
-  morph::CellStiffness Stiffness;
-  vtkIdType Version = 0;
-};
 
 namespace
 {
@@ -83,7 +74,7 @@ void multiply(vtkDataArray* by, vtkIdType cells, std::vector<double>& values)
 vtkStandardNewMacro(vtkFEMWarpMorph);
 
 vtkFEMWarpMorph::vtkFEMWarpMorph()
-  : Taken(new vtkTaken)
+  : Taken(std::make_unique<morph::CellStiffness>())
   , Options(std::make_unique<morph::FEMWarpMorphOptions>())
 {
 }
@@ -138,39 +129,15 @@ void vtkFEMWarpMorph::TakeInputs(vtkUnstructuredGrid* rest, vtkDataObject* bound
       }
     }
   }
-  vtkTaken& taken = *this->Taken;
-  if (next.kind != taken.Stiffness.kind || next.exponent != taken.Stiffness.exponent ||
-      next.walls != taken.Stiffness.walls || next.noWalls != taken.Stiffness.noWalls ||
-      next.values != taken.Stiffness.values)
-  {
-    taken.Stiffness = std::move(next);
-    ++taken.Version;
-  }
+  *this->Taken = std::move(next);
 }
 
 std::unique_ptr<morph::Morpher> vtkFEMWarpMorph::CreateMorpher()
 {
   auto morpher = std::make_unique<morph::FemWarp>();
-  morpher->setStiffness(this->Taken->Stiffness);
+  morpher->setStiffness(*this->Taken);
+  morpher->setTolerance(this->Options->Tolerance);
   return morpher;
-}
-
-std::string vtkFEMWarpMorph::PrepareOptions()
-{
-  return "stiffness " + std::to_string(this->Taken->Version);
-}
-
-void vtkFEMWarpMorph::SetEvaluateOptions(morph::Morpher& morpher)
-{
-  static_cast<morph::FemWarp&>(morpher).setTolerance(this->Options->Tolerance);
-}
-
-std::string vtkFEMWarpMorph::EvaluateOptions()
-{
-  std::ostringstream text;
-  text.precision(17);
-  text << this->Options->Tolerance;
-  return text.str();
 }
 
 void vtkFEMWarpMorph::PrintSelf(ostream& os, vtkIndent indent)

@@ -19,14 +19,11 @@ vtkInversionFreeMorph::~vtkInversionFreeMorph() = default;
 
 std::unique_ptr<morph::Morpher> vtkInversionFreeMorph::CreateMorpher()
 {
-  return std::make_unique<morph::InversionFree>();
-}
-
-void vtkInversionFreeMorph::SetEvaluateOptions(morph::Morpher& morpher)
-{
   using Steps = morph::RaisingSteps;
   constexpr int steps[] = { Steps::Quick, Steps::Default, Steps::Thorough };
-  static_cast<morph::InversionFree&>(morpher).setSteps(steps[this->Options->Effort]);
+  auto morpher = std::make_unique<morph::InversionFree>();
+  morpher->setSteps(steps[this->Options->Effort]);
+  return morpher;
 }
 
 void vtkInversionFreeMorph::PrintSelf(ostream& os, vtkIndent indent)

@@ -6,8 +6,6 @@
 
 #include <vtkObjectFactory.h>
 
-#include <sstream>
-
 vtkStandardNewMacro(vtkLBWarpMorph);
 
 vtkLBWarpMorph::vtkLBWarpMorph()
@@ -23,25 +21,8 @@ std::unique_ptr<morph::Morpher> vtkLBWarpMorph::CreateMorpher()
   morpher->setOutsideHull(this->Options->OutsideHull == OUTSIDE_HULL_RELAX
                             ? morph::LogBarrierWarp::OutsideHull::Relax
                             : morph::LogBarrierWarp::OutsideHull::Error);
+  morpher->setTolerance(this->Options->Tolerance);
   return morpher;
-}
-
-std::string vtkLBWarpMorph::PrepareOptions()
-{
-  return std::to_string(this->Options->OutsideHull);
-}
-
-void vtkLBWarpMorph::SetEvaluateOptions(morph::Morpher& morpher)
-{
-  static_cast<morph::LogBarrierWarp&>(morpher).setTolerance(this->Options->Tolerance);
-}
-
-std::string vtkLBWarpMorph::EvaluateOptions()
-{
-  std::ostringstream text;
-  text.precision(17);
-  text << this->Options->Tolerance;
-  return text.str();
 }
 
 void vtkLBWarpMorph::PrintSelf(ostream& os, vtkIndent indent)

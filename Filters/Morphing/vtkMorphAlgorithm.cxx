@@ -273,11 +273,7 @@ filters::Session::Options vtkMorphAlgorithm::vtkInternals::Options(
   options.PostSmoothIterations = filter->Options->PostSmoothIterations;
   options.StepMemoryLimit = filter->Options->StepMemoryLimit;
   options.IsFloat = filters::Output::IsFloat(grid, filter->Options->OutputPointsPrecision);
-  options.PrepareOptions = filter->PrepareOptions();
   options.CreateMorpher = [filter] { return filter->CreateMorpher(); };
-  options.EvaluateOptions = filter->EvaluateOptions();
-  options.SetEvaluateOptions = [filter](morph::Morpher& morpher)
-  { filter->SetEvaluateOptions(morpher); };
   return options;
 }
 

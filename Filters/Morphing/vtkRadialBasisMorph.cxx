@@ -7,7 +7,6 @@
 #include <vtkObjectFactory.h>
 
 #include <algorithm>
-#include <sstream>
 
 vtkStandardNewMacro(vtkRadialBasisMorph);
 
@@ -31,15 +30,6 @@ std::unique_ptr<morph::Morpher> vtkRadialBasisMorph::CreateMorpher()
       ? std::max<morph::Index>(this->Options->NumberOfCenters, morph::RadialBasis::FewestCenters)
       : 0);
   return morpher;
-}
-
-std::string vtkRadialBasisMorph::PrepareOptions()
-{
-  std::ostringstream text;
-  text.precision(17);
-  text << this->Options->Kernel << " " << this->Options->SupportRadius << " "
-       << this->Options->NumberOfCenters;
-  return text.str();
 }
 
 void vtkRadialBasisMorph::PrintSelf(ostream& os, vtkIndent indent)

@@ -6,8 +6,6 @@
 
 #include <vtkObjectFactory.h>
 
-#include <sstream>
-
 vtkStandardNewMacro(vtkSimplexNaturalNeighborMorph);
 
 vtkSimplexNaturalNeighborMorph::vtkSimplexNaturalNeighborMorph()
@@ -22,14 +20,6 @@ std::unique_ptr<morph::Morpher> vtkSimplexNaturalNeighborMorph::CreateMorpher()
   auto morpher = std::make_unique<morph::SimplexNaturalNeighbor>();
   morpher->setMemoryLimit(static_cast<std::size_t>(1e6 * this->Options->MemoryLimit));
   return morpher;
-}
-
-std::string vtkSimplexNaturalNeighborMorph::PrepareOptions()
-{
-  std::ostringstream text;
-  text.precision(17);
-  text << this->Options->MemoryLimit;
-  return text.str();
 }
 
 void vtkSimplexNaturalNeighborMorph::PrintSelf(ostream& os, vtkIndent indent)

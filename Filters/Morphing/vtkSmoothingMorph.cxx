@@ -17,11 +17,6 @@ vtkSmoothingMorph::~vtkSmoothingMorph() = default;
 
 std::unique_ptr<morph::Morpher> vtkSmoothingMorph::CreateMorpher()
 {
-  return std::make_unique<morph::Smoothing>();
-}
-
-void vtkSmoothingMorph::SetEvaluateOptions(morph::Morpher& morpher)
-{
   morph::SmoothingOptions options;
   options.target = this->Options->TargetShape == TARGET_SHAPE_INITIAL
                      ? morph::SmoothingTarget::Initial
@@ -29,7 +24,9 @@ void vtkSmoothingMorph::SetEvaluateOptions(morph::Morpher& morpher)
   options.objective = static_cast<morph::SmoothingObjective>(this->Options->Objective);
   options.iterationLimit = this->Options->IterationLimit;
   options.stopMove = this->Options->StopMove;
-  static_cast<morph::Smoothing&>(morpher).setOptions(options);
+  auto morpher = std::make_unique<morph::Smoothing>();
+  morpher->setOptions(options);
+  return morpher;
 }
 
 void vtkSmoothingMorph::PrintSelf(ostream& os, vtkIndent indent)

@@ -22,11 +22,6 @@ std::unique_ptr<morph::Morpher> vtkWeightedResidualMorph::CreateMorpher()
   return morpher;
 }
 
-std::string vtkWeightedResidualMorph::PrepareOptions()
-{
-  return std::to_string(this->Options->NumberOfNeighbors);
-}
-
 void vtkWeightedResidualMorph::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);

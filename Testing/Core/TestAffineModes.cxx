@@ -61,10 +61,10 @@ TEST_P(AffineModesOf, GiveWhatEvaluateGives)
     method->prepare(mesh, partition, monitor);
     const AffineFields fields = fading(mesh, partition);
     AffineModes modes;
-    EXPECT_FALSE(modes.isPreparedFor(fields));
+    EXPECT_FALSE(modes.isPreparedFor(*method, fields));
     modes.prepare(*method, fields, monitor);
-    EXPECT_TRUE(modes.isPreparedFor(fields));
-    EXPECT_FALSE(modes.isPreparedFor(2 * fields));
+    EXPECT_TRUE(modes.isPreparedFor(*method, fields));
+    EXPECT_FALSE(modes.isPreparedFor(*method, 2 * fields));
     for (int i = 0; i < 3; ++i)
     {
       const AffineMotion motion = randomMotion(random);
@@ -161,7 +161,7 @@ TEST(AffineModes, RefuseFieldsAndPositionsOfAnotherBoundary)
   modes.prepare(*method, fields, monitor);
   motions::kindOf([&] { modes.evaluate(*method, motion, to.topRows(3), moved, monitor); }, message);
   motions::kindOf([&] { modes.prepare(*method, fields.topRows(3), monitor); }, message);
-  EXPECT_FALSE(modes.isPreparedFor(fields)); // and nothing is half prepared
+  EXPECT_FALSE(modes.isPreparedFor(*method, fields)); // and nothing is half prepared
   fields(0, 2) = std::nan("");
   motions::kindOf([&] { modes.prepare(*method, fields, monitor); }, message);
   EXPECT_NE(message.find("not finite"), std::string::npos) << message;

@@ -23,6 +23,18 @@
 namespace
 {
 /// A method with an option that prepare() reads.
+class OptionWarp : public morph::FemWarp
+{
+public:
+  int Option = 0;
+
+protected:
+  bool hasPrepareOptionsOf(const morph::Morpher& other) const override
+  {
+    return this->Option == static_cast<const OptionWarp&>(other).Option;
+  }
+};
+
 class OptionMorph : public vtkMorphAlgorithm
 {
 public:
@@ -33,9 +45,10 @@ public:
 protected:
   std::unique_ptr<morph::Morpher> CreateMorpher() override
   {
-    return std::make_unique<morph::FemWarp>();
+    auto morpher = std::make_unique<OptionWarp>();
+    morpher->Option = this->Option;
+    return morpher;
   }
-  std::string PrepareOptions() override { return std::to_string(this->Option); }
   int Option = 0;
 };
 vtkStandardNewMacro(OptionMorph);

@@ -24,6 +24,12 @@ struct SurfaceMorphOptions
   /// Only the part of the weighted residual that is linear in the displacements, see
   /// SurfaceResidual::evaluateLinear(); `method` has no effect.
   bool linear = false;
+
+  bool operator==(const SurfaceMorphOptions& other) const
+  {
+    return this->method == other.method && this->neighbors == other.neighbors &&
+           this->unattached == other.unattached && this->linear == other.linear;
+  }
 };
 
 struct SurfaceMorphReport

@@ -38,7 +38,11 @@ public:
   /// Sets the relative residual at which the solver stops, per coordinate. Range (0, 1), default
   /// 1e-10.
   void setTolerance(double tolerance);
-  double tolerance() const { return this->tolerance_; }
+  double tolerance() const override { return this->tolerance_; }
+  void takeEvaluateOptions(const Morpher& other) override
+  {
+    this->tolerance_ = static_cast<const FemWarp&>(other).tolerance_;
+  }
 
   /// Returns the node id of each matrix row: NodePartition::free, or these ids in a better order
   /// for memory. Of a mesh with polyhedra some centers are eliminated and are no rows, if the

@@ -40,7 +40,11 @@ public:
   /// Sets the relative residual at which the solver stops, per coordinate. Range (0, 1), default
   /// 1e-10.
   void setTolerance(double tolerance);
-  double tolerance() const { return this->tolerance_; }
+  double tolerance() const override { return this->tolerance_; }
+  void takeEvaluateOptions(const Morpher& other) override
+  {
+    this->tolerance_ = static_cast<const LogBarrierWarp&>(other).tolerance_;
+  }
 
   /// Call it before prepare(). Default Error.
   void setOutsideHull(OutsideHull outsideHull) { this->outsideHull_ = outsideHull; }
@@ -64,6 +68,10 @@ public:
 
 protected:
   void doPrepare(const Mesh& rest, Monitor& monitor) override;
+  bool hasPrepareOptionsOf(const Morpher& other) const override
+  {
+    return this->outsideHull_ == static_cast<const LogBarrierWarp&>(other).outsideHull_;
+  }
   /// The report counts OutsideHullNodes, and the TwoRingNodes, AffineNodes and StiffnessNodes among
   /// them.
   EvaluateReport displace(const Points& prescribed, Points& free, Monitor& monitor) const override;

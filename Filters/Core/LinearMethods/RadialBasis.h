@@ -71,6 +71,12 @@ protected:
   /// Throws Error of kind Singular for sites in one plane, or where rounding makes the system
   /// indefinite.
   void doPrepare(const Mesh& rest, Monitor& monitor) override;
+  bool hasPrepareOptionsOf(const Morpher& other) const override
+  {
+    const auto& basis = static_cast<const RadialBasis&>(other);
+    return this->kind_ == basis.kind_ && this->supportRadius_ == basis.supportRadius_ &&
+           this->numberOfCenters_ == basis.numberOfCenters_;
+  }
   EvaluateReport displace(const Points& prescribed, Points& free, Monitor& monitor) const override;
   EvaluateReport displaceTranspose(
     const Points& free, Points& prescribed, Monitor& monitor) const override;

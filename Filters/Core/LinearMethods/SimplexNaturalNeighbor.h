@@ -47,6 +47,10 @@ public:
 
 protected:
   void doPrepare(const Mesh& rest, Monitor& monitor) override;
+  bool hasPrepareOptionsOf(const Morpher& other) const override
+  {
+    return this->memoryLimit_ == static_cast<const SimplexNaturalNeighbor&>(other).memoryLimit_;
+  }
   EvaluateReport displace(const Points& prescribed, Points& free, Monitor& monitor) const override;
   EvaluateReport displaceTranspose(
     const Points& free, Points& prescribed, Monitor& monitor) const override;

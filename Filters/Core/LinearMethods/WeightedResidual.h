@@ -45,6 +45,11 @@ public:
 
 protected:
   void doPrepare(const Mesh& rest, Monitor& monitor) override;
+  bool hasPrepareOptionsOf(const Morpher& other) const override
+  {
+    const auto& residual = static_cast<const WeightedResidual&>(other);
+    return this->numberOfNeighbors_ == residual.numberOfNeighbors_;
+  }
   /// Warns where the fit reflects or flattens the mesh: the result is then rarely useful.
   void warnOf(const Points& prescribed, Monitor& monitor) const override;
   EvaluateReport displace(const Points& prescribed, Points& free, Monitor& monitor) const override;

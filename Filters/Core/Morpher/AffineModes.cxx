@@ -8,10 +8,6 @@
 
 namespace morph
 {
-namespace
-{
-}
-
 void AffineModes::prepare(const LinearMorpher& method, const AffineFields& fields, Monitor& monitor)
 {
   this->clear();
@@ -22,6 +18,7 @@ void AffineModes::prepare(const LinearMorpher& method, const AffineFields& field
   scaled.col(0) *= unit;
   this->modes_ = method.fields(scaled, monitor, &this->report_);
   this->modes_.col(0) /= unit;
+  this->tolerance_ = method.tolerance();
   this->given_ = fields; // last: what throws above leaves nothing prepared
 }
 
@@ -31,9 +28,10 @@ void AffineModes::clear()
   this->modes_.resize(0, 4);
 }
 
-bool AffineModes::isPreparedFor(const AffineFields& fields) const
+bool AffineModes::isPreparedFor(const LinearMorpher& method, const AffineFields& fields) const
 {
-  return this->modes_.rows() > 0 && this->given_.rows() == fields.rows() && this->given_ == fields;
+  return this->modes_.rows() > 0 && this->tolerance_ == method.tolerance() &&
+         this->given_.rows() == fields.rows() && this->given_ == fields;
 }
 
 EvaluateReport AffineModes::evaluate(const LinearMorpher& method, const AffineMotion& motion,

@@ -31,8 +31,8 @@ public:
   void prepare(const LinearMorpher& method, const AffineFields& fields, Monitor& monitor);
   /// Forgets the fields.
   void clear();
-  /// Whether prepare() was called with these fields.
-  bool isPreparedFor(const AffineFields& fields) const;
+  /// Whether prepare() was called with these fields, and the method had this tolerance.
+  bool isPreparedFor(const LinearMorpher& method, const AffineFields& fields) const;
 
   /// Moves the mesh, as LinearMorpher::evaluate() does with the positions `prescribed`, #prescribed
   /// x 3; prescribed nodes go there exactly. `method`: the one of prepare(). `moved`: becomes
@@ -44,6 +44,7 @@ public:
 private:
   AffineFields given_; ///< #prescribed x 4
   AffineFields modes_; ///< #nodes x 4
+  double tolerance_ = 0;
   EvaluateReport report_;
 };
 }

@@ -27,6 +27,8 @@ struct CellStiffness
   std::vector<double> values; ///< #cells, positive, multiply the kind's; none: 1
   std::string noWalls = {};   ///< the error where there are no walls; empty: no error
   bool areWallsGlobal = true; ///< not numbers in this part of a distributed mesh
+
+  bool operator==(const CellStiffness& other) const;
 };
 
 /// A linear method that knows the stiffness of cells. It stays linear, affine motions stay exact,
@@ -44,6 +46,9 @@ public:
   /// such a center.
   void setFirstCenter(Index node) { this->firstCenter_ = node; }
   Index firstCenter() const { return this->firstCenter_; }
+
+protected:
+  bool hasPrepareOptionsOf(const Morpher& other) const override;
 
 private:
   Index firstCenter_ = std::numeric_limits<Index>::max();

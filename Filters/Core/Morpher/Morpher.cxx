@@ -8,6 +8,7 @@
 #include "Support/ReproducibleSum.h"
 
 #include <algorithm>
+#include <typeinfo>
 #include <utility>
 
 namespace morph
@@ -131,6 +132,20 @@ void Morpher::prepareFor(const Mesh& rest, std::shared_ptr<const Points> points,
 // NOLINTNEXTLINE(performance-unnecessary-value-param): for methods that keep it
 void Morpher::setReference(Points)
 {
+}
+
+bool Morpher::preparesLike(const Morpher& other) const
+{
+  return typeid(*this) == typeid(other) && this->hasPrepareOptionsOf(other);
+}
+
+void Morpher::takeEvaluateOptions(const Morpher& /*other*/)
+{
+}
+
+bool Morpher::hasPrepareOptionsOf(const Morpher& /*other*/) const
+{
+  return true;
 }
 
 void Morpher::warnOf(const Points&, Monitor&) const

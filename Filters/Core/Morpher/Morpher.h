@@ -67,11 +67,20 @@ public:
   /// follow the motion ignore it.
   virtual void setReference(Points reference);
 
+  /// Whether prepare() of `other` reads the same options, so that a preparation serves both. That
+  /// of another class never does.
+  bool preparesLike(const Morpher& other) const;
+  /// Takes the options that evaluate() alone reads from an object of the same class. By default
+  /// there are none.
+  virtual void takeEvaluateOptions(const Morpher& other);
+
   const NodePartition& partition() const { return *this->partition_; }
   const Points& restPoints() const { return *this->rest_; }
 
 protected:
   virtual void doPrepare(const Mesh& rest, Monitor& monitor) = 0;
+  /// preparesLike() for an object of the same class. By default doPrepare() reads no options.
+  virtual bool hasPrepareOptionsOf(const Morpher& other) const;
   /// `prescribed`: #prescribed x 3 displacements, finite. `free`: #free x 3, receives
   /// displacements.
   virtual EvaluateReport displace(
@@ -103,6 +112,9 @@ private:
 class LinearMorpher : public Morpher
 {
 public:
+  /// The relative residual at which evaluate() stops; 0 for a method without an iterative solver.
+  virtual double tolerance() const { return 0; }
+
   /// The adjoint: converts a gradient over the moved mesh to one over the prescribed positions.
   /// `gradient`: #nodes x 3, d(objective)/d(position). `prescribed`: becomes #prescribed x 3,
   /// d(objective)/d(prescribed position) = g_B + M^T g_I. Errors and cost: as evaluate().

@@ -147,6 +147,7 @@ class PolyhedralLinearMorpher : public PolyhedralMorpher<LinearMorpher>
 {
   using PolyhedralMorpher<LinearMorpher>::PolyhedralMorpher;
 
+  double tolerance() const override { return this->onPieces_.method().tolerance(); }
   EvaluateReport displaceFields(
     const FourFields& prescribed, FourFields& free, Monitor& monitor) const override
   {

@@ -12,6 +12,14 @@
 
 namespace morph
 {
+void InversionFree::takeEvaluateOptions(const Morpher& other)
+{
+  const auto& settings = static_cast<const InversionFree&>(other);
+  this->setTolerance(settings.tolerance());
+  this->steps_ = settings.steps_;
+  this->raisesValid_ = settings.raisesValid_;
+}
+
 void InversionFree::doPrepare(const Mesh& rest, Monitor& monitor)
 {
   this->referenceMesh_ = rest;

@@ -58,6 +58,7 @@ public:
   /// Default off.
   void setNearOnly(bool on) { this->nearOnly_ = on; }
 
+  void takeEvaluateOptions(const Morpher& other) override;
   void setReference(Points reference) override { this->reference_ = std::move(reference); }
 
   /// Repairs `moved`, another method's mesh, instead of evaluate(). `moved`: #nodes x 3, with the
@@ -69,6 +70,10 @@ public:
 
 protected:
   void doPrepare(const Mesh& rest, Monitor& monitor) override;
+  bool hasPrepareOptionsOf(const Morpher& other) const override
+  {
+    return this->nearOnly_ == static_cast<const InversionFree&>(other).nearOnly_;
+  }
   EvaluateReport displace(const Points& prescribed, Points& free, Monitor& monitor) const override;
 
 private:

@@ -34,6 +34,10 @@ public:
   /// Call it before evaluate().
   void setOptions(const SmoothingOptions& options) { this->options_ = options; }
   const SmoothingOptions& options() const { return this->options_; }
+  void takeEvaluateOptions(const Morpher& other) override
+  {
+    this->options_ = static_cast<const Smoothing&>(other).options_;
+  }
 
 protected:
   void doPrepare(const Mesh& rest, Monitor& monitor) override;

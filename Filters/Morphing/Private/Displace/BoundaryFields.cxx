@@ -18,40 +18,31 @@ bool follows(const Surroundings::Options& rest, const Surroundings::Result& resu
 }
 }
 
-bool BoundaryFields::Key::operator==(const Key& other) const
-{
-  const Surroundings::Options &a = this->Rest, &b = other.Rest;
-  return this->MotionVersion == other.MotionVersion && this->Moving == other.Moving &&
-         this->Held == other.Held && a.How == b.How && a.Radius == b.Radius && a.Free == b.Free &&
-         a.Follow.neighbors == b.Follow.neighbors && a.Follow.unattached == b.Follow.unattached;
-}
-
 void BoundaryFields::Write(const BoundaryModel& model, const Choice::Result& choice,
   const Motion::Options& motion, const Surroundings::Options& rest,
   const Surroundings::Result& result, Surroundings& spread, vtkPolyData* output,
   morph::Monitor& monitor)
 {
   AffineArrays::Remove(output);
-  Key now;
-  now.MotionVersion = model.MotionVersion();
-  now.Rest = rest;
-  now.Rest.Sliding.clear(); // has no effect on what is linear
-  now.Rest.Follow.linear = true;
-  now.Moving = choice.Moving;
-  now.Held = choice.Held;
+  Surroundings::Options linear = rest;
+  linear.Sliding.clear(); // has no effect on what is linear
+  linear.Follow.linear = true;
   if (!follows(rest, result))
   {
-    now.Rest.How = rest.How == Surroundings::Kind::Fade ? rest.How : Surroundings::Kind::Stay;
+    linear.How = rest.How == Surroundings::Kind::Fade ? rest.How : Surroundings::Kind::Stay;
   }
   else if (rest.Follow.method != morph::SurfaceMorphOptions::Method::WeightedResidual)
   {
     return;
   }
-  if (!this->Fields || !(now == this->Kept))
+  if (!this->Fields || this->MotionVersion != model.MotionVersion() || !(this->Rest == linear) ||
+      !(this->Chosen == choice))
   {
     this->Fields = nullptr; // in case it throws
-    this->Compute(model, choice, now.Rest, spread, monitor);
-    this->Kept = now;
+    this->Compute(model, choice, linear, spread, monitor);
+    this->MotionVersion = model.MotionVersion();
+    this->Rest = linear;
+    this->Chosen = choice;
   }
   const auto affine = Motion::Affine(model, choice, motion, this->Center);
   if (affine && this->Give(*affine, model, result.Moved))

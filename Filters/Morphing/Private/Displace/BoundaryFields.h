@@ -32,15 +32,6 @@ public:
     morph::Monitor& monitor);
 
 private:
-  /// What the fields depend on.
-  struct Key
-  {
-    vtkIdType MotionVersion = -1;
-    Surroundings::Options Rest;
-    std::vector<morph::Index> Moving, Held;
-
-    bool operator==(const Key& other) const;
-  };
   /// Whether the fields with this motion take all points to `moved`, up to rounding.
   bool Give(const morph::AffineMotion& motion, const BoundaryModel& model,
     const morph::Points& moved) const;
@@ -48,7 +39,12 @@ private:
     const Surroundings::Options& options, Surroundings& spread, morph::Monitor& monitor);
 
   vtkSmartPointer<vtkDoubleArray> Fields; ///< for the motions of what follows, or null
-  Key Kept;
+  /// What they depend on.
+  ///@{
+  vtkIdType MotionVersion = -1;
+  Surroundings::Options Rest;
+  Choice::Result Chosen;
+  ///@}
   Eigen::RowVector3d Center; ///< of what moves
 };
 }

@@ -10,6 +10,7 @@
 #include <vtkPointSet.h>
 
 #include <algorithm>
+#include <tuple>
 
 namespace morph::filters
 {
@@ -117,6 +118,21 @@ std::vector<std::uint8_t> Marked(vtkDataArray* array)
     }
   }
   return isMarked;
+}
+
+bool Options::operator==(const Options& other) const
+{
+  const auto all = [](const Options& o)
+  {
+    return std::tie(o.How, o.SelectionTime, o.Surfaces, o.RegionTime, o.ArrayName, o.FixedSurfaces);
+  };
+  return all(*this) == all(other);
+}
+
+bool Result::operator==(const Result& other) const
+{
+  return this->Moving == other.Moving && this->Held == other.Held &&
+         this->IsMovingFace == other.IsMovingFace;
 }
 
 Result Choose(vtkPointSet* input, const BoundaryModel& model, const Options& options)

@@ -4,6 +4,8 @@
 #include "Private/Displace/BoundaryModel.h"
 #include "Private/Displace/Patches.h"
 
+#include <vtkType.h>
+
 #include <cstdint>
 #include <set>
 #include <string>
@@ -32,13 +34,18 @@ struct Options
 {
   By How = By::Everything;
   vtkSelection* Selection = nullptr;
+  vtkMTimeType SelectionTime = 0; ///< its modification
   vtkExtractSelection* Extractor = nullptr;
   /// #points, what a selection has chosen on MPI processes; null: evaluates Selection
   const std::vector<std::uint8_t>* IsSelected = nullptr;
   std::set<std::string> Surfaces;
   vtkImplicitFunction* Region = nullptr; ///< inside where it is zero or less
+  vtkMTimeType RegionTime = 0;           ///< its modification
   std::string ArrayName;                 ///< a point array: nodes where it is not zero
   std::set<std::string> FixedSurfaces;
+
+  /// Whether they choose the same of the same model. No two objects have the same time.
+  bool operator==(const Options& other) const;
 };
 
 struct Result
@@ -46,6 +53,8 @@ struct Result
   std::vector<morph::Index> Moving;       ///< ascending, at least one unless By::Nothing
   std::vector<morph::Index> Held;         ///< ascending, none of them moving
   std::vector<std::uint8_t> IsMovingFace; ///< #faces
+
+  bool operator==(const Result& other) const;
 };
 
 /// Chooses the nodes and faces that move. Nodes between corners (of quadratic cells) that all move,

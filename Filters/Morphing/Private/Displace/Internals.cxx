@@ -92,18 +92,14 @@ void vtkBoundaryDisplacement::vtkInternals::Classify(
 void vtkBoundaryDisplacement::Choose(vtkPointSet* input, vtkSelection* selection)
 {
   vtkInternals& own = *this->Internals;
-  filters::ChoiceKey key;
-  key.InputVersion = own.Model.InputVersion();
-  key.Moving = this->Options->Moving;
-  key.FixedSurfaces = this->Options->FixedSurfaces;
   filters::Choice::Options options;
   options.How = static_cast<filters::Choice::By>(this->Options->Moving);
   options.FixedSurfaces = this->Options->FixedSurfaces;
   if (this->Options->Moving == MOVING_SELECTION)
   {
     selection = own.Selected.OfGrid(own.Blocks, selection, own.Extractor);
-    key.Selection = timeOf(selection);
     options.Selection = selection;
+    options.SelectionTime = timeOf(selection);
     options.Extractor = own.Extractor;
     options.IsSelected = own.Whole ? &own.IsSelected : nullptr;
   }
@@ -111,23 +107,23 @@ void vtkBoundaryDisplacement::Choose(vtkPointSet* input, vtkSelection* selection
   {
     const bool byTarget =
       this->Options->Surfaces.empty() && this->Options->Displacement == DISPLACEMENT_TARGET;
-    key.Surfaces = options.Surfaces =
-      byTarget ? own.Fit.NearestSurfaces(own.Model) : this->Options->Surfaces;
+    options.Surfaces = byTarget ? own.Fit.NearestSurfaces(own.Model) : this->Options->Surfaces;
   }
   else if (this->Options->Moving == MOVING_REGION)
   {
-    key.Region = timeOf(own.Region);
     options.Region = own.Region;
+    options.RegionTime = timeOf(own.Region);
   }
   else if (this->Options->Moving == MOVING_ARRAY)
   {
-    key.Array = options.ArrayName = filters::Input::ArrayName(this->Options->MovingArray);
+    options.ArrayName = filters::Input::ArrayName(this->Options->MovingArray);
   }
-  if (!(key == own.ChosenFrom))
+  if (own.ChosenVersion != own.Model.InputVersion() || !(own.ChosenBy == options))
   {
-    own.ChosenFrom = filters::ChoiceKey(); // in case the choice throws
+    own.ChosenVersion = -1; // in case the choice throws
     own.Choice = filters::Choice::Choose(input, own.Model, options);
-    own.ChosenFrom = key;
+    own.ChosenVersion = own.Model.InputVersion();
+    own.ChosenBy = options;
     ++this->ChooseCount;
   }
 }
@@ -514,7 +510,7 @@ void vtkBoundaryDisplacement::vtkInternals::SelectOnRanks(
       }
     });
   this->IsSelected = this->Whole->AnyFlags(isSelected);
-  this->ChosenFrom = filters::ChoiceKey();
+  this->ChosenVersion = -1;
 }
 
 void vtkBoundaryDisplacement::vtkInternals::DisplaceOnRanks(vtkBoundaryDisplacement* filter,

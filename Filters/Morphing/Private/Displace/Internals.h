@@ -34,28 +34,6 @@
 #include <string>
 #include <vector>
 
-namespace morph::filters
-{
-/// The inputs of a choice. Modification times distinguish an object from an earlier one at its
-/// address.
-struct ChoiceKey
-{
-  vtkIdType InputVersion = -1;
-  int Moving = -1;
-  std::set<std::string> Surfaces, FixedSurfaces;
-  std::string Array;
-  vtkMTimeType Region = 0, Selection = 0;
-
-  bool operator==(const ChoiceKey& other) const
-  {
-    return this->InputVersion == other.InputVersion && this->Moving == other.Moving &&
-           this->Surfaces == other.Surfaces && this->FixedSurfaces == other.FixedSurfaces &&
-           this->Array == other.Array && this->Region == other.Region &&
-           this->Selection == other.Selection;
-  }
-};
-}
-
 struct vtkBoundaryDisplacement::vtkInternals : vtkDisplacementAlgorithm::vtkShared
 {
   vtkNew<vtkDataArraySelection> SurfaceList;
@@ -69,7 +47,8 @@ struct vtkBoundaryDisplacement::vtkInternals : vtkDisplacementAlgorithm::vtkShar
   morph::filters::BlockSelection Selected, ZoneSelected;
   morph::filters::BoundaryModel Model;
   std::vector<std::string> Warnings; ///< of the geometry, not reported yet
-  morph::filters::ChoiceKey ChosenFrom;
+  vtkIdType ChosenVersion = -1;      ///< of Model, that Choice is of
+  morph::filters::Choice::Options ChosenBy;
   morph::filters::Choice::Result Choice;
   morph::filters::Surroundings Spread;
   morph::filters::Surroundings::Result Displaced; ///< by the last execution

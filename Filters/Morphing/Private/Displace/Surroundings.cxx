@@ -10,6 +10,7 @@
 #include <iterator>
 #include <map>
 #include <sstream>
+#include <tuple>
 #include <utility>
 
 namespace morph::filters
@@ -525,6 +526,13 @@ void Surroundings::Fade(const BoundaryModel& model, const Choice::Result& choice
       result.Moved.row(node) += displacement.row(i);
     }
   }
+}
+
+bool Surroundings::Options::operator==(const Options& other) const
+{
+  const auto all = [](const Options& o)
+  { return std::tie(o.How, o.Follow, o.Radius, o.Sliding, o.Free, o.FreeNodes); };
+  return all(*this) == all(other);
 }
 
 int Surroundings::PrepareCount() const

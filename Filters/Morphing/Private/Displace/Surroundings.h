@@ -35,6 +35,8 @@ public:
     std::vector<morph::Index> Sliding;   ///< surfaces of the geometry that slide, of any kind
     std::vector<morph::Index> Free;      ///< surfaces whose nodes are solved with the interior
     std::vector<morph::Index> FreeNodes; ///< that are, too
+
+    bool operator==(const Options& other) const;
   };
 
   /// What a node does; the values of the output's array Role.

@@ -107,7 +107,7 @@ public:
     const Session::Motion& motion, const Session::Options& options, morph::Monitor& monitor);
 
 private:
-  /// The serial method with the options that evaluate() reads.
+  /// The serial method with its options.
   std::unique_ptr<morph::Morpher> Settings(const Session::Options& options) const;
   std::unique_ptr<Method> Make(const Session::Options& options) const;
   morph::NodePartition PartitionOf(
@@ -117,7 +117,7 @@ private:
 
   std::unique_ptr<Method> Prepared;
   std::vector<morph::Index> PreparedFor; ///< the prescribed nodes of Prepared
-  std::string PreparedOptions;
+  std::unique_ptr<const morph::Morpher> PreparedLike;
 };
 
 Morphing::Morphing(Results& results)
@@ -193,7 +193,6 @@ BoundaryMatch::Result Morphing::Internals::Match(vtkDataObject* boundary, double
 std::unique_ptr<morph::Morpher> Morphing::Internals::Settings(const Session::Options& options) const
 {
   std::unique_ptr<morph::Morpher> settings = options.CreateMorpher();
-  options.SetEvaluateOptions(*settings);
   if (this->Mesh.HasPolyhedra())
   {
     PolyhedralRepair::Adapt(*settings);
@@ -203,13 +202,11 @@ std::unique_ptr<morph::Morpher> Morphing::Internals::Settings(const Session::Opt
 
 std::unique_ptr<Method> Morphing::Internals::Make(const Session::Options& options) const
 {
-  const std::unique_ptr<morph::Morpher> settings = this->Settings(options);
-  std::unique_ptr<Method> method = morph::distributed::makeMethod(options.CreateMorpher());
+  std::unique_ptr<Method> method = morph::distributed::makeMethod(this->Settings(options));
   if (this->Mesh.HasPolyhedra())
   {
     method = std::make_unique<morph::distributed::PolyhedralMethod>(std::move(method));
   }
-  method->takeEvaluateOptions(*settings);
   return method;
 }
 
@@ -231,8 +228,9 @@ Method& Morphing::Internals::Prepare(
 {
   const auto& ranks = this->Mesh.Ranks();
   this->Results.SetNumber("PrepareSeconds", 0);
+  std::unique_ptr<morph::Morpher> settings = this->Settings(options);
   const bool same = this->Prepared && this->PreparedFor == partition.prescribed &&
-                    this->PreparedOptions == options.PrepareOptions;
+                    this->PreparedLike->preparesLike(*settings);
   if (ranks.sum(morph::Index(!same)) > 0)
   {
     const auto start = Clock::now();
@@ -241,12 +239,11 @@ Method& Morphing::Internals::Prepare(
     method->prepare(this->Mesh.Whole(), partition, monitor);
     this->Prepared = std::move(method);
     this->PreparedFor = partition.prescribed;
-    this->PreparedOptions = options.PrepareOptions;
     this->Results.SetInteger("PrepareCount", this->Results.Integer("PrepareCount") + 1);
     this->Results.SetNumber("PrepareSeconds", ranks.maximum(secondsSince(start)));
   }
-  const std::unique_ptr<morph::Morpher> settings = this->Settings(options);
   this->Prepared->takeEvaluateOptions(*settings);
+  this->PreparedLike = std::move(settings);
   return *this->Prepared;
 }
 

@@ -50,23 +50,24 @@ bool isWorse(const morph::Quality& after, const morph::Quality& before)
          (bad(after) == bad(before) && !(after.minimum >= before.minimum));
 }
 
+/// The options for the cells of `mesh`, as a method that is not prepared.
+std::unique_ptr<morph::Morpher> settingsFor(
+  const Session::Options& options, const morph::Mesh& mesh)
+{
+  auto method = options.CreateMorpher();
+  if (morph::hasPolyhedra(mesh))
+  {
+    PolyhedralRepair::Adapt(*method);
+  }
+  return method;
+}
+
 /// A method with these options, not prepared, for the cells of `mesh`.
 std::unique_ptr<morph::Morpher> makeMethod(const Session::Options& options, const morph::Mesh& mesh)
 {
-  auto method = options.CreateMorpher();
+  auto method = settingsFor(options, mesh);
   return morph::hasPolyhedra(mesh) ? morph::morpherForPolyhedra(std::move(method))
                                    : std::move(method);
-}
-
-/// Sets the options that only evaluate() reads; `method`: of makeMethod().
-void setEvaluateOptions(
-  const Session::Options& options, const morph::Mesh& mesh, morph::Morpher& method)
-{
-  options.SetEvaluateOptions(morph::methodOf(method));
-  if (morph::hasPolyhedra(mesh))
-  {
-    PolyhedralRepair::Adapt(morph::methodOf(method));
-  }
 }
 
 /// Smooths `moved` and returns the steps that led to it.
@@ -242,23 +243,16 @@ StepResult Session::MorphStep(const morph::Mesh& from, const BoundaryMatch::Resu
     this->Kept.Mesh().points, before, partition, this->Kept.Orientation(), match.Targets,
     this->Kept.OuterFaces(),
     dynamic_cast<morph::InversionFree*>(options.CreateMorpher().get()) != nullptr,
-    [&options, &from]
-    {
-      auto morpher = makeMethod(options, from);
-      setEvaluateOptions(options, from, *morpher);
-      return morpher;
-    } };
+    [&options, &from] { return makeMethod(options, from); } };
   validity.RequireFeasible();
 
   auto preparing = part(0.05, 0.45);
   this->Prepare(from, options, preparing);
 
   auto evaluating = part(0.45, 0.75);
-  setEvaluateOptions(options, from, *this->Method);
   const auto start = Clock::now();
   StepResult result;
-  const morph::EvaluateReport report =
-    this->Evaluate(match, handle, options, result.Moved, evaluating);
+  const morph::EvaluateReport report = this->Evaluate(match, handle, result.Moved, evaluating);
   if (validity.IsInversionFree && morph::hasPolyhedra(from))
   {
     auto repairing = part(0.7, 0.75);
@@ -330,8 +324,7 @@ StepResult Session::MorphStep(const morph::Mesh& from, const BoundaryMatch::Resu
 }
 
 morph::EvaluateReport Session::Evaluate(const BoundaryMatch::Result& match,
-  const std::optional<AffineHandle>& handle, const Options& options, morph::Points& moved,
-  morph::Monitor& monitor)
+  const std::optional<AffineHandle>& handle, morph::Points& moved, morph::Monitor& monitor)
 {
   const auto* linear = dynamic_cast<const morph::LinearMorpher*>(this->Method.get());
   if (!handle || !linear)
@@ -339,10 +332,9 @@ morph::EvaluateReport Session::Evaluate(const BoundaryMatch::Result& match,
     return this->Method->evaluate(match.Targets, moved, monitor);
   }
   // Always, not from the second motion on: a result must not depend on what ran before.
-  if (!this->Modes.isPreparedFor(handle->Fields) || this->ModesOptions != options.EvaluateOptions)
+  if (!this->Modes.isPreparedFor(*linear, handle->Fields))
   {
     this->Modes.prepare(*linear, handle->Fields, monitor);
-    this->ModesOptions = options.EvaluateOptions;
   }
   return this->Modes.evaluate(*linear, handle->Motion, match.Targets, moved, monitor);
 }
@@ -364,10 +356,12 @@ void Session::Prepare(const morph::Mesh& from, const Options& options, morph::Mo
   this->Results.SetNumber("PrepareSeconds", 0);
   // SetGrid() drops the method with the mesh that it is prepared for.
   const bool isOfKept = &from == &this->Kept.Mesh();
-  if (this->Method && this->MethodOptions == options.PrepareOptions &&
+  std::unique_ptr<morph::Morpher> settings = settingsFor(options, from);
+  if (this->Method && this->Settings->preparesLike(*settings) &&
       this->Method->partition().prescribed == this->Partition->prescribed &&
       ((isOfKept && this->MethodIsOfKept) || this->Method->restPoints() == from.points))
   {
+    morph::methodOf(*this->Method).takeEvaluateOptions(*settings);
     return;
   }
   const auto start = Clock::now();
@@ -388,7 +382,7 @@ void Session::Prepare(const morph::Mesh& from, const Options& options, morph::Mo
   }
   this->Method = std::move(morpher);
   this->MethodIsOfKept = isOfKept;
-  this->MethodOptions = options.PrepareOptions;
+  this->Settings = std::move(settings);
   this->Results.SetInteger("PrepareCount", this->Results.Integer("PrepareCount") + 1);
   this->Results.SetNumber("PrepareSeconds", secondsSince(start));
 }
@@ -417,7 +411,6 @@ void Session::Transpose(vtkUnstructuredGrid* rest, vtkDataObject* boundary, vtkD
                  "gradient is that of the method alone.");
   }
   morph::ProgressRange applying(monitor, 0.5, 1);
-  options.SetEvaluateOptions(morph::methodOf(*linear));
   morph::Points prescribed;
   this->Attached.applyTranspose(nodes);
   linear->applyTranspose(nodes, prescribed, applying);

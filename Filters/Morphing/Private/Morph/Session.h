@@ -45,14 +45,8 @@ public:
     int PostSmoothIterations = 0;
     double StepMemoryLimit = 0; ///< megabytes
     bool IsFloat = false;       ///< the result is rounded to single precision
-    /// A text that differs for any two settings of the options that prepare() reads.
-    std::string PrepareOptions;
-    /// Makes a method with these options.
+    /// Makes a method with all its options.
     std::function<std::unique_ptr<morph::Morpher>()> CreateMorpher;
-    /// A text that differs for any two settings of the options that evaluate() reads.
-    std::string EvaluateOptions;
-    /// Sets the options that only evaluate() reads.
-    std::function<void(morph::Morpher&)> SetEvaluateOptions;
   };
 
   /// The steps of a motion, each of which starts from the mesh of the step before.
@@ -107,12 +101,11 @@ private:
     morph::Monitor& monitor);
   /// Moves the mesh by the prepared method, by its modes where a handle has some.
   morph::EvaluateReport Evaluate(const BoundaryMatch::Result& match,
-    const std::optional<AffineHandle>& handle, const Options& options, morph::Points& moved,
-    morph::Monitor& monitor);
+    const std::optional<AffineHandle>& handle, morph::Points& moved, morph::Monitor& monitor);
   /// The partition with these prescribed nodes, kept while they stay.
   const morph::NodePartition& PartitionOf(const std::vector<morph::Index>& prescribed);
   /// Prepares the method for the mesh, with its own points or others, and for Partition, unless it
-  /// is prepared.
+  /// is prepared. Sets its other options.
   void Prepare(const morph::Mesh& from, const Options& options, morph::Monitor& monitor);
 
   filters::Results& Results;
@@ -121,11 +114,10 @@ private:
   std::shared_ptr<const morph::NodePartition> Partition = std::make_shared<morph::NodePartition>();
   morph::AttachedNodes Attached;                  ///< of Kept and Partition
   std::unique_ptr<morph::MovableQuality> Samples; ///< of the same, or null
-  std::unique_ptr<morph::Morpher> Method; ///< prepared for Kept under MethodOptions, or null
-  bool MethodIsOfKept = false;            ///< not of a step's points
-  std::string MethodOptions;
-  morph::AffineModes Modes; ///< of Method under ModesOptions
-  std::string ModesOptions;
+  std::unique_ptr<morph::Morpher> Method;         ///< prepared for Kept under Settings, or null
+  bool MethodIsOfKept = false;                    ///< not of a step's points
+  std::unique_ptr<const morph::Morpher> Settings;
+  morph::AffineModes Modes; ///< of Method
 
   Series Steps;
   BoundaryMatch::Result Whole; ///< the whole motion, for Steps, of one that does not

@@ -27,7 +27,6 @@
 #include <chrono>
 #include <cmath>
 #include <memory>
-#include <sstream>
 #include <utility>
 
 namespace filters = morph::filters;
@@ -71,10 +70,6 @@ filters::ShapeModes::Options vtkMorphShapes::vtkInternals::Options() const
     filters::Input::ArrayName(this->Filter->Options->DisplacementArray);
   options.Matching.MatchTolerance = this->Filter->Options->MatchTolerance;
   options.Matching.FixUnnamedBoundary = this->Filter->Options->FixUnnamedBoundary;
-  std::ostringstream text;
-  text.precision(17);
-  text << this->Filter->Options->Method << " " << this->Filter->Options->Tolerance;
-  options.Method = text.str();
   options.CreateMorpher = [filter = this->Filter]
   { return makeMethod(filter->Options->Method, filter->Options->Tolerance); };
   return options;
@@ -111,14 +106,7 @@ std::vector<filters::ShapeModes::Shape> vtkMorphShapes::vtkInternals::Shapes(
 vtkMorphShapes::vtkInternals::Source vtkMorphShapes::vtkInternals::SourceOf(
   vtkInformationVector* boundaries) const
 {
-  const filters::ShapeModes::Options options = this->Options();
-  std::ostringstream settings;
-  settings.precision(17);
-  settings << options.Method << "\n"
-           << options.Matching.BoundaryIdArray << "\n"
-           << options.Matching.DisplacementArray << "\n"
-           << options.Matching.MatchTolerance << " " << options.Matching.FixUnnamedBoundary;
-  Source source;
+  Source source{ *this->Filter->Options, {}, {}, {} };
   for (int i = 0; i < boundaries->GetNumberOfInformationObjects(); ++i)
   {
     vtkDataObject* boundary = vtkDataObject::GetData(boundaries, i);
@@ -126,10 +114,10 @@ vtkMorphShapes::vtkInternals::Source vtkMorphShapes::vtkInternals::SourceOf(
     {
       return {}; // the time of composite data is not that of its blocks
     }
-    settings << "\n" << this->Filter->GetMotion(i) << " " << this->Filter->GetShapeName(i);
-    source.second.emplace_back(boundary, boundary->GetMTime());
+    source.Names.emplace_back(this->Filter->GetShapeName(i));
+    source.Motions.push_back(this->Filter->GetMotion(i));
+    source.Boundaries.emplace_back(boundary, boundary->GetMTime());
   }
-  source.first = settings.str();
   return source;
 }
 
@@ -137,7 +125,7 @@ void vtkMorphShapes::vtkInternals::Solve(vtkInformationVector* boundaries, morph
 {
   Source source = this->SourceOf(boundaries);
   const filters::RankGroup& processes = this->Modes.Group();
-  if (!processes.Any(source.first.empty() || source != this->SolvedFrom))
+  if (!processes.Any(source.Boundaries.empty() || !(source == this->SolvedFrom)))
   {
     for (const std::string& warning : this->Modes.GetWarnings())
     {

@@ -5,6 +5,7 @@
 #include "vtkMorphShapes.h"
 
 #include "Private/Data/Results.h"
+#include "Private/Options.h"
 #include "Private/Pipeline/Ports.h"
 #include "Private/Pipeline/Ranks.h"
 #include "Private/Shapes/Designs.h"
@@ -56,10 +57,22 @@ public:
   vtkIdType RowOf(vtkIdType rows) const;
 
 private:
-  /// What the fields were solved from: all settings as text, and each boundary with its time. The
-  /// text is empty where that is not known. A weight that is dragged solves nothing, and does not
-  /// match the boundaries again.
-  using Source = std::pair<std::string, std::vector<std::pair<vtkDataObject*, vtkMTimeType>>>;
+  /// What the fields were solved from. A weight that is dragged solves nothing, and does not match
+  /// the boundaries again.
+  struct Source
+  {
+    morph::MorphShapesOptions Options;
+    std::vector<std::string> Names;
+    std::vector<int> Motions;
+    /// With their times; none where these are not known.
+    std::vector<std::pair<vtkDataObject*, vtkMTimeType>> Boundaries;
+
+    bool operator==(const Source& other) const
+    {
+      return this->Options == other.Options && this->Names == other.Names &&
+             this->Motions == other.Motions && this->Boundaries == other.Boundaries;
+    }
+  };
 
   vtkMorphShapes* Filter;
   Source SolvedFrom;

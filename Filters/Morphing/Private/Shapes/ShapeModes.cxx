@@ -199,8 +199,10 @@ ShapeModes::Solved ShapeModes::Describe(const Shape& shape, const BoundaryMatch:
 void ShapeModes::Prepare(const std::vector<Index>& prescribed, const Options& options,
   Effort& effort, morph::Monitor& monitor)
 {
-  const bool isSame =
-    this->IsPrepared && this->MethodOptions == options.Method && this->PreparedFor == prescribed;
+  std::unique_ptr<const morph::LinearMorpher> settings = options.CreateMorpher();
+  const bool isSame = this->IsPrepared && this->Settings->preparesLike(*settings) &&
+                      this->Settings->tolerance() == settings->tolerance() &&
+                      this->PreparedFor == prescribed;
   if (!this->Processes.Any(!isSame))
   {
     return;
@@ -209,7 +211,7 @@ void ShapeModes::Prepare(const std::vector<Index>& prescribed, const Options& op
   this->Modes.clear();
   this->Solver->Prepare(options.CreateMorpher(), prescribed, monitor);
   this->PreparedFor = prescribed;
-  this->MethodOptions = options.Method;
+  this->Settings = std::move(settings);
   this->IsPrepared = true;
   ++effort.Preparations;
 }

@@ -38,8 +38,6 @@ public:
   struct Options
   {
     BoundaryMatch::Options Matching;
-    /// A text that differs for any two settings of the method.
-    std::string Method;
     ModeSolver::CreateMorpher CreateMorpher;
   };
   /// The work of one call of Solve().
@@ -123,9 +121,9 @@ private:
 
   RankGroup Processes{ RankGroup::Of::One };
   std::unique_ptr<ModeSolver> Solver;
-  bool IsPrepared = false; ///< Solver, for the nodes PreparedFor under MethodOptions
+  bool IsPrepared = false; ///< Solver, for the nodes PreparedFor under Settings
   std::vector<morph::Index> PreparedFor;
-  std::string MethodOptions;
+  std::unique_ptr<const morph::LinearMorpher> Settings;
   std::vector<Mode> Modes;    ///< of Solver
   std::vector<Solved> Shapes; ///< of the last Solve()
   std::vector<std::string> Warnings;
