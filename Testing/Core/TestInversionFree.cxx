@@ -193,7 +193,7 @@ TEST(InversionFree, TangledRestMeshesAreUntangled)
     meshes::ThreadedMonitor monitor;
     const auto orientation = morph::cellSigns(mesh, morph::connectedComponents(mesh));
     const auto inverted = [&](const Points& points)
-    { return morph::measureCorners(mesh, points, orientation, {}, monitor).inverted; };
+    { return morph::measureCorners(tangled, points, orientation, {}, monitor).inverted; };
     ASSERT_GT(inverted(tangled.points), 0);
     InversionFree method;
     const Morphed result =

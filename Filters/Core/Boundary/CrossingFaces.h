@@ -17,7 +17,7 @@ namespace morph
 /// Faces count by their corners, a face of more than three as triangles around the mean of its
 /// corners. Faces cross if they still do once one of them is pushed into its own body by a
 /// thousandth of the shortest edges, so that rounding has no effect. Bodies that overlap cross
-/// also where their sides lie in one plane and no edge passes through a face. Faces that share an
+/// also where their sides lie in one plane and no edge passes through a face. Faces that share a
 /// node may fold, but do not count. Nor do faces that are in contact at `rest`: the facets of
 /// curved sides cross when bodies slide. A body that runs deeper into another one crosses other
 /// faces, too.
