@@ -27,6 +27,9 @@ function (morph_unity target)
       continue ()
     endif ()
     file(READ "${file}" text)
+    if (text MATCHES "windows\\.h")
+      continue () # its macros, such as `near`, would reach the other sources
+    endif ()
     string(REGEX REPLACE "[];[]" " " text "${text}")
     # What stands at the start of a line: a type, an alias, a macro, a constant, a function.
     set(word "[A-Za-z0-9_]+")

@@ -17,8 +17,9 @@ import textwrap
 
 PROJECT = pathlib.Path(__file__).resolve().parent.parent
 MODULE = PROJECT / "Filters" / "Morphing"
-KINDS = ("number", "numbers", "integer", "integers", "flag", "choice", "text", "array", "names",
-         "surfaces", "own")
+LISTS = {"surfaces": "Surface", "zones": "Zone"}  # sets of names that a list of the filter has
+KINDS = ("number", "numbers", "integer", "integers", "flag", "choice", "text", "array", *LISTS,
+         "own")
 
 
 class Row:
@@ -40,7 +41,7 @@ class Row:
         self.count = int(count or 1)
         self.values = [" ".join(v.split()) for v in self["values"].split("|") if v.strip()]
         self.default = self["default"] or {"flag": "0", "choice": (self.values or [""])[0]}.get(
-            self.kind, "" if self.kind in ("text", "array", "names", "surfaces", "own")
+            self.kind, "" if self.kind in ("text", "array", *LISTS, "own")
             else " ".join(["0"] * self.count))
         self.range = [None if v == "-" else v for v in (self["range"] or "- -").split()]
         self.paragraphs = [p.strip("\n") for p in re.split(r"\n\s*\n", self["text"])]
@@ -122,8 +123,8 @@ def constants(row):
 
 
 CXX_TYPES = {"number": "double", "integer": "int", "flag": "bool", "choice": "int",
-             "text": "std::string", "array": "std::string", "names": "std::set<std::string>",
-             "surfaces": "std::set<std::string>"}
+             "text": "std::string", "array": "std::string",
+             **dict.fromkeys(LISTS, "std::set<std::string>")}
 
 
 def component_type(row):
@@ -157,7 +158,7 @@ def comment(row):
             lines += [line.strip() for line in paragraph.splitlines()]
         else:
             lines += textwrap.wrap(" ".join(paragraph.split()), 95)
-    default = {"names": "none", "surfaces": "none", "text": "none", "array": "none",
+    default = {**dict.fromkeys(LISTS, "none"), "text": "none", "array": "none",
                "flag": "on" if row.default == "1" else "off"}.get(row.kind, row.default)
     last = textwrap.wrap(f"{lines.pop()} Default {default}{bounds_text(row)}.", 95)
     text = "\n".join(f"   * {line}".rstrip() for line in lines + last)
@@ -181,7 +182,7 @@ def declarations(row):
                  f"  void Set{name}(const {one} values[{row.count}]);\n"
                  f"  {one}* Get{name}() VTK_SIZEHINT({row.count});\n"
                  f"  void Get{name}({one} values[{row.count}]);\n")
-    elif row.kind in ("names", "surfaces"):
+    elif row.kind in LISTS:
         text += (f"  void Set{name[:-1]}Status(const char* name, int status);\n"
                  f"  void Add{name[:-1]}(const char* name)\n"
                  f"  {{\n    this->Set{name[:-1]}Status(name, 1);\n  }}\n"
@@ -240,7 +241,7 @@ def definitions(cls, options, row):
                 f"{one}* {cls}::Get{name}()\n{{\n  return {kept}.data();\n}}\n"
                 f"void {cls}::Get{name}({one} values[{n}])\n{{\n"
                 f"  std::copy({kept}.begin(), {kept}.end(), values);\n}}\n")
-    if row.kind in ("names", "surfaces"):
+    if row.kind in LISTS:
         return (f"void {cls}::Set{name[:-1]}Status(const char* name, int status)\n{{\n"
                 f"  Property::SetStatus(this, {kept}, name, status);\n}}\n"
                 f"void {cls}::RemoveAll{name}()\n{{\n  Property::Set(this, {kept}, {{}});\n}}\n")
@@ -363,10 +364,10 @@ def domain(row):
         return (f'<{kind} name="array_list" input_domain_name="{name}" none_string="None">'
                 f'<RequiredProperties><Property function="Input" name="{port}"/>'
                 f"</RequiredProperties></{kind}>")
-    if row.kind == "surfaces":
+    if row.kind in LISTS:
         return ('<KeptArraySelectionDomain name="list"><RequiredProperties>'
-                '<Property function="ArrayList" name="SurfaceList"/></RequiredProperties>'
-                "</KeptArraySelectionDomain>")
+                f'<Property function="ArrayList" name="{LISTS[row.kind]}List"/>'
+                "</RequiredProperties></KeptArraySelectionDomain>")
     if (low, high) == (None, None):
         return ""
     kind = "Int" if row.kind.startswith("integer") else "Double"
@@ -378,13 +379,10 @@ def domain(row):
 def property_xml(row, find, more=""):
     kind = {"number": "Double", "numbers": "Double", "integer": "Int", "integers": "Int",
             "flag": "Int", "choice": "Int"}.get(row.kind, "String")
-    if row.kind == "surfaces":
+    if row.kind in LISTS:
         what = (f'command="Set{row.name[:-1]}Status" clean_command="RemoveAll{row.name}" '
                 'information_property="SurfaceList" repeat_command="1" '
                 'number_of_elements_per_command="2" element_types="2 0" panel_widget="SurfaceList"')
-    elif row.kind == "names":
-        what = (f'command="Add{row.name[:-1]}" clean_command="RemoveAll{row.name}" '
-                'repeat_command="1" number_of_elements_per_command="1"')
     else:
         default = row.default_number or ("None" if row.kind == "array" else "")
         what = (f'command="Set{row.name}" number_of_elements="{row.count}" '
@@ -395,11 +393,13 @@ def property_xml(row, find, more=""):
     visible = f' panel_visibility="{panel}"' if panel != "default" else ""
     animated = ' animateable="1"' if row["animated"] == "yes" else ""
     hints = []
-    if row.kind == "surfaces":
-        hints += ["<OmitFromLoadAllVariables/>", '<SurfaceList sizes="SurfaceSizes"/>']
+    if row.kind in LISTS:
+        counts = {"surfaces": "Faces Area", "zones": "Cells Nodes"}[row.kind]
+        hints += ["<OmitFromLoadAllVariables/>",
+                  f'<SurfaceList sizes="{LISTS[row.kind]}Sizes" columns="{counts}"/>']
     if row["shown"]:
         hints.append(condition(row["shown"], find))
-    if row["unit"] or row.kind in ("names", "surfaces"):  # lists have no label of their own
+    if row["unit"] or row.kind in LISTS:  # lists have no label of their own
         label = row.words + (f' ({row["unit"]})' if row["unit"] else "")
         hints.append(f'<PropertyWidgetDecorator type="PanelLabel" text="{label}"/>')
     hint = f"<Hints>{''.join(hints)}</Hints>" if hints else ""
@@ -463,7 +463,7 @@ def setter(row, cls):
     call = f"Set{row.name}({value})"
     if row.kind == "integers":
         call = f"Set{row.name}({', '.join(f'int(value.numbers[{i}])' for i in range(row.count))})"
-    elif row.kind in ("names", "surfaces"):
+    elif row.kind in LISTS:
         call = f"Add{row.name[:-1]}({value})"
     return f"on<vtk{cls}>(filter, [&](auto* one) {{ one->{call}; }})"
 
@@ -482,7 +482,7 @@ def make_options(path):
         defaults = ", ".join(row.default.split()) if count else ""
         pairs = ", ".join(f"{{ {quoted(a)}, {quoted(b)} }}" for a, b in implied(row))
         kind = {"numbers": "number", "integers": "integer", "array": "text",
-                "surfaces": "names"}.get(row.kind, row.kind).capitalize()
+                **dict.fromkeys(LISTS, "names")}.get(row.kind, row.kind).capitalize()
         text = quoted(" ".join(row.paragraphs[0].split()))
         sets = " ||\n               ".join(setter(row, cls) for cls in classes)
         lines.append(
@@ -585,7 +585,7 @@ def accepted(row):
     low, high = row.range
     kind = {"number": "number", "numbers": f"{row.count} numbers", "integer": "whole number",
             "integers": f"{row.count} whole numbers", "flag": "on or off", "text": "text",
-            "array": "array", "names": "names", "surfaces": "names"}.get(row.kind, "")
+            "array": "array", **dict.fromkeys(LISTS, "names")}.get(row.kind, "")
     if row.kind == "choice":
         return ", ".join(row.values)
     if low or high:

@@ -134,6 +134,16 @@ vtkStringArray* vtkBoundaryDisplacement::GetSurfaceSizes()
   return this->Internals->SurfaceSizes;
 }
 
+vtkDataArraySelection* vtkBoundaryDisplacement::GetZoneList()
+{
+  return this->Internals->ZoneList;
+}
+
+vtkStringArray* vtkBoundaryDisplacement::GetZoneSizes()
+{
+  return this->Internals->ZoneSizes;
+}
+
 vtkDoubleArray* vtkBoundaryDisplacement::GetSurfaceBounds()
 {
   return this->Internals->SurfaceBounds;

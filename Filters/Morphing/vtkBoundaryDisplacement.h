@@ -134,10 +134,20 @@ public:
 
   /**
    * The size of each surface of the list: its name, how many faces it has, and their area, three
-   * strings each. Of a curve: edges and length. Of a baffle inside of the mesh the number is
+   * strings each. Of a curve: edges and length. Of faces inside of the mesh the number is
    * followed by " inner".
    */
   vtkStringArray* GetSurfaceSizes();
+
+  ///@{
+  /**
+   * Names of zones, as GetSurfaceList() has those of surfaces: sets of cells or nodes, other arrays
+   * of marks, blocks. The size of each: its name, how many volume cells it has and, of a set of
+   * nodes, how many nodes, three strings each. Of a mesh on several MPI ranks these are empty.
+   */
+  vtkDataArraySelection* GetZoneList();
+  vtkStringArray* GetZoneSizes();
+  ///@}
 
   /**
    * The bounding box of each surface of the list, undeformed: six numbers as in

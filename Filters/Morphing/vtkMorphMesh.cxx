@@ -146,6 +146,16 @@ vtkStringArray* vtkMorphMesh::GetSurfaceSizes()
   return this->Internals->Displacement->GetSurfaceSizes();
 }
 
+vtkDataArraySelection* vtkMorphMesh::GetZoneList()
+{
+  return this->Internals->Displacement->GetZoneList();
+}
+
+vtkStringArray* vtkMorphMesh::GetZoneSizes()
+{
+  return this->Internals->Displacement->GetZoneSizes();
+}
+
 vtkDoubleArray* vtkMorphMesh::GetSurfaceBounds()
 {
   return this->Internals->Displacement->GetSurfaceBounds();

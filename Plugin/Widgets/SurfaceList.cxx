@@ -29,13 +29,14 @@ SurfaceList::SurfaceList(vtkSMProxy* filter, vtkSMProperty* list, QWidget* paren
   vtkPVXMLElement* const hints = list->GetHints();
   vtkPVXMLElement* const own = hints ? hints->FindNestedElementByName("SurfaceList") : nullptr;
   const char* const sizes = own ? own->GetAttribute("sizes") : nullptr;
+  const QStringList columns = QString(own ? own->GetAttribute("columns") : "").split(' ');
   this->Sizes = sizes ? filter->GetProperty(sizes) : nullptr;
 
   const QByteArray name = this->Name.toUtf8();
   this->List->setObjectName("ArraySelectionWidget");
   this->List->setHeaderLabel(0, tr("Name"));
-  this->List->setHeaderLabel(1, tr("Faces"));
-  this->List->setHeaderLabel(2, tr("Area"));
+  this->List->setHeaderLabel(1, columns.value(0));
+  this->List->setHeaderLabel(2, columns.value(1));
   this->List->setMaximumRowCountBeforeScrolling(
     pqPropertyWidget::hintsWidgetHeightNumberOfRows(hints));
   new pqTreeViewSelectionHelper(this->List);
@@ -89,7 +90,11 @@ void SurfaceList::showSizes()
   for (unsigned int i = 0; i + 2 < sizes.GetNumberOfElements(); i += 3)
   {
     const QString name = sizes.GetAsString(i);
-    const QString measure = QString::number(QString(sizes.GetAsString(i + 2)).toDouble(), 'g', 4);
+    const QString text = sizes.GetAsString(i + 2);
+    bool isWhole = false;
+    text.toLongLong(&isWhole); // a count, or none
+    const QString measure =
+      isWhole || text.isEmpty() ? text : QString::number(text.toDouble(), 'g', 4);
     const bool isCurve = name.startsWith("Curve ");
     counts[name] =
       isCurve ? tr("%1 edges").arg(sizes.GetAsString(i + 1)) : sizes.GetAsString(i + 1);

@@ -8,12 +8,12 @@
 
 class pqArraySelectionWidget;
 
-/// A list of surfaces to tick, with the size of each in columns beside its name: faces and area; of
-/// a curve edges and length. It is the widget of a list with a KeptArraySelectionDomain
+/// A list of surfaces or zones to tick, with the size of each in two columns beside its name. Of a
+/// curve these are edges and length. It is the widget of a list with a KeptArraySelectionDomain
 /// (panel_widget="SurfaceList"), whose hint names the property that has the sizes, three texts for
-/// each name:
+/// each name, and the columns:
 ///
-///     <SurfaceList sizes="SurfaceSizes"/>
+///     <SurfaceList sizes="SurfaceSizes" columns="Faces Area"/>
 class SurfaceList : public pqPropertyWidget
 {
   Q_OBJECT

@@ -249,6 +249,25 @@ void addPolygon(vtkPolyData* boundary, vtkIdList* corners, SurfaceSums& sums)
     }
   }
 }
+
+/// What --fix-zone, --rigid and --soft can name.
+void printZones(vtkBoundaryDisplacement* filter)
+{
+  vtkStringArray* sizes = filter->GetZoneSizes();
+  if (sizes->GetNumberOfValues() > 0)
+  {
+    std::cout << "\n"
+              << std::left << std::setw(14) << "zone" << std::right << std::setw(10) << "cells"
+              << std::setw(14) << "nodes"
+              << "\n";
+  }
+  for (vtkIdType i = 0; i + 2 < sizes->GetNumberOfValues(); i += 3)
+  {
+    std::cout << std::left << std::setw(14) << sizes->GetValue(i) << std::right << std::setw(10)
+              << sizes->GetValue(i + 1) << std::setw(14) << sizes->GetValue(i + 2) << "\n";
+  }
+}
+
 }
 
 void readMotion(vtkDisplacementAlgorithm* filter, const Arguments& arguments)
@@ -444,5 +463,6 @@ void printSurfaces(vtkUnstructuredGrid* grid, const std::string& path, int threa
               << sum.Center[1] / area << ", " << sum.Center[2] / area
               << (sum.IsInner && sum.Faces > 0 ? "  inner" : "") << "\n";
   }
+  printZones(filter);
 }
 }

@@ -4,6 +4,7 @@
 
 #include "vtkMorphMesh.h"
 
+#include <vtkBox.h>
 #include <vtkCellData.h>
 #include <vtkDataArraySelection.h>
 #include <vtkDataSet.h>
@@ -188,8 +189,8 @@ bool onPlate(const grids::Row& x)
   return x[0] == 2 && x[1] <= 2;
 }
 
-/// A cube of 4 x 4 x 4 cells with a baffle: two patches of 8 faces each, on the same points. A
-/// third set has a face inside on one side alone.
+/// A cube of 4 x 4 x 4 cells with a baffle: two patches of 8 faces each, on the same points. The
+/// set `sheet` has the 16 faces at x = 3 once, and `core` a cell.
 vtkSmartPointer<vtkUnstructuredGrid> withBaffle()
 {
   morph::Mesh mesh = meshes::hexes(4, 4, 4);
@@ -210,11 +211,15 @@ vtkSmartPointer<vtkUnstructuredGrid> withBaffle()
       add(name, 2, k % 2, k / 2);
     }
   }
-  add("zone", 1, 3, 1);
+  for (morph::Index k = 0; k < 16; ++k)
+  {
+    add("sheet", 3, k % 4, k / 4);
+  }
+  patch[21] = "core";
   auto grid = grids::make(mesh);
   vtkNew<vtkStringArray> names;
   names->SetName("SurfaceNames");
-  for (const char* name : { "plateLeft", "plateRight", "zone" })
+  for (const char* name : { "plateLeft", "plateRight", "sheet", "core" })
   {
     vtkNew<vtkUnsignedCharArray> marks;
     marks->SetName(name);
@@ -230,7 +235,7 @@ vtkSmartPointer<vtkUnstructuredGrid> withBaffle()
 }
 }
 
-TEST(SurfaceNames, BafflesAreListedAsInner)
+TEST(SurfaceNames, BafflesAndSheetsAreListedAsInner)
 {
   vtkNew<vtkMorphMesh> filter;
   filter->SetInputData(withBaffle());
@@ -242,7 +247,10 @@ TEST(SurfaceNames, BafflesAreListedAsInner)
   EXPECT_EQ(sizes->GetValue(2), "8");
   EXPECT_EQ(sizes->GetValue(3), "plateRight");
   EXPECT_EQ(sizes->GetValue(4), "8 inner");
-  EXPECT_EQ(sizes->LookupValue("zone"), -1);
+  EXPECT_EQ(sizes->GetValue(6), "sheet");
+  EXPECT_EQ(sizes->GetValue(7), "16 inner");
+  EXPECT_EQ(sizes->LookupValue("core"), -1);
+  EXPECT_TRUE(filter->GetZoneList()->ArrayExists("core"));
 }
 
 TEST(SurfaceNames, ABaffleMovesByItsName)
@@ -297,14 +305,48 @@ TEST(SurfaceNames, ABaffleStaysWhileAnotherSurfaceMoves)
   }
 }
 
+TEST(SurfaceNames, ASheetMovesByItsNameAndElseGoesAlong)
+{
+  auto grid = withBaffle();
+  const morph::Points x = grids::points(grid);
+  vtkNew<vtkBox> side;
+  side->SetBounds(3.9, 5, -1, 5, -1, 5);
+  const auto moved = [&](int moving, const char* fixed)
+  {
+    vtkNew<vtkMorphMesh> filter;
+    filter->SetInputData(grid);
+    filter->SetMoving(moving);
+    filter->SetRegion(side);
+    filter->AddSurface("sheet");
+    filter->AddFixedSurface(fixed);
+    filter->SetDisplacementToVector();
+    filter->SetVector(0.25, 0, 0);
+    filter->SetSurroundingsToStay();
+    grids::Listener listener(filter);
+    filter->Update();
+    EXPECT_TRUE(listener.Errors.empty()) << listener.Errors[0];
+    return morph::Points(grids::points(filter->GetOutput()) - x);
+  };
+  const morph::Points bySheet = moved(vtkMorphMesh::MOVING_SURFACES, "plateLeft");
+  const morph::Points along = moved(vtkMorphMesh::MOVING_REGION, "plateLeft");
+  const morph::Points held = moved(vtkMorphMesh::MOVING_REGION, "sheet");
+  for (morph::Index i = 0; i < x.rows(); ++i)
+  {
+    const bool isRim = x(i, 1) == 0 || x(i, 1) == 4 || x(i, 2) == 0 || x(i, 2) == 4;
+    EXPECT_TRUE(x(i, 0) != 3 || bySheet(i, 0) == 0.25) << i;
+    EXPECT_TRUE(x(i, 0) != 3 || isRim || along(i, 0) > 0.01) << i;
+    EXPECT_TRUE(x(i, 0) != 3 || held(i, 0) == 0) << i;
+  }
+}
+
 TEST(SurfaceNames, ASetInsideThatCannotMoveSaysSo)
 {
   vtkNew<vtkMorphMesh> filter;
   filter->SetInputData(withBaffle());
-  filter->AddSurface("zone");
+  filter->AddSurface("core");
   grids::Listener listener(filter);
   filter->Update();
   ASSERT_EQ(listener.Errors.size(), 1u);
-  EXPECT_NE(listener.Errors[0].find("'zone', which lies inside of the mesh"), std::string::npos)
+  EXPECT_NE(listener.Errors[0].find("'core', which lies inside of the mesh"), std::string::npos)
     << listener.Errors[0];
 }

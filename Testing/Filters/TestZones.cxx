@@ -15,12 +15,17 @@
 
 #include <vtkBox.h>
 #include <vtkCellData.h>
+#include <vtkDataArraySelection.h>
+#include <vtkDataSetAttributes.h>
 #include <vtkDoubleArray.h>
+#include <vtkFieldData.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkSelection.h>
 #include <vtkSelectionNode.h>
+#include <vtkStringArray.h>
 #include <vtkTransform.h>
+#include <vtkUnsignedCharArray.h>
 
 #include <gtest/gtest.h>
 
@@ -70,6 +75,18 @@ vtkSmartPointer<vtkUnstructuredGrid> marked()
   grid->GetPointData()->AddArray(nodes);
   grid->GetCellData()->AddArray(cells);
   return grid;
+}
+
+/// Makes arrays sets of the file.
+void name(vtkUnstructuredGrid* grid, const std::vector<std::string>& arrays)
+{
+  vtkNew<vtkStringArray> names;
+  names->SetName("SurfaceNames");
+  for (const std::string& array : arrays)
+  {
+    names->InsertNextValue(array);
+  }
+  grid->GetFieldData()->AddArray(names);
 }
 
 /// Turns and stretches the top, the rest of the boundary follows.
@@ -252,6 +269,33 @@ TEST(Zones, SelectionsAndBlocksAreZonesToo)
   }
 }
 
+TEST(Zones, AreListedByTheirNamesWithTheirSizes)
+{
+  auto grid = marked();
+  vtkNew<vtkUnsignedCharArray> ghosts; // no zone
+  ghosts->SetName(vtkDataSetAttributes::GhostArrayName());
+  ghosts->SetNumberOfValues(grid->GetNumberOfCells());
+  ghosts->FillValue(0);
+  grid->GetCellData()->AddArray(ghosts);
+  name(grid, { "Cells", "Nodes", "Nowhere" });
+  vtkNew<vtkMorphMesh> mesh;
+  mesh->SetInputData(grid);
+  mesh->UpdateInformation();
+  ASSERT_EQ(mesh->GetZoneList()->GetNumberOfArrays(), 2);
+  vtkStringArray* sizes = mesh->GetZoneSizes();
+  ASSERT_EQ(sizes->GetNumberOfValues(), 6);
+  EXPECT_EQ(sizes->GetValue(0) + ":" + sizes->GetValue(1) + ":" + sizes->GetValue(2), "Cells:8:");
+  EXPECT_EQ(sizes->GetValue(3) + ":" + sizes->GetValue(4) + ":" + sizes->GetValue(5), "Nodes::27");
+
+  // Of blocks, the last parts of their paths.
+  const blocks::Pieces pieces = blocks::cut(
+    grid, 2, [](const Row& x) { return isMiddleCell(x) ? 1 : 0; }, false);
+  mesh->SetInputDataObject(blocks::multiBlock(pieces));
+  mesh->UpdateInformation();
+  EXPECT_TRUE(mesh->GetZoneList()->ArrayExists("A"));
+  EXPECT_TRUE(mesh->GetZoneList()->ArrayExists("B"));
+}
+
 namespace
 {
 /// A cube whose cells with x above 4 are the zone `Rotor`, and whose top turns by 30 degrees.
@@ -368,6 +412,8 @@ TEST(Zones, ErrorsNameWhatIsWrong)
   auto unknown = twisted(grid);
   unknown->AddFixedZone("Bolt");
   EXPECT_NE(errorOf(unknown).find("The zone 'Bolt' is neither"), std::string::npos);
+  name(grid, { "Cells", "Nodes" });
+  EXPECT_NE(errorOf(unknown).find("it has Cells, Nodes."), std::string::npos);
   auto empty = twisted(grid);
   vtkNew<vtkBox> far;
   far->SetBounds(100, 101, 0, 1, 0, 1);

@@ -56,6 +56,29 @@ class OpenFoam(solver_files.SolverFiles):
                 self.assertEqual(listed, run("--list-surfaces", mesh).stdout)
                 self.assertRegex(listed, f"wall +{len(foam.model.wall)} ")
 
+    def test_zones_of_cells_and_faces_are_read(self):
+        foam, case = self.case(kind="hexahedra")
+        mesh = foam.write(case)
+        foam.write_zones(mesh, [0, 1, 2], [0])
+        listed = run("list", case).stdout
+        self.assertRegex(listed, r"zone +cells +nodes\nrotor +3 ")
+        self.assertRegex(listed, r"disk +1 +\S+ .*  inner")
+        once, twice = self.folder / "once.vtk", self.folder / "twice.vtk"
+        for out, way in ((once, "0.01,0,0"), (twice, "0.02,0,0")):
+            result = run("--move", "wall", "--translate", way, "--fix-zone", "rotor", case, out)
+            self.assertEqual(result.returncode, 0, result.stderr)
+        a, b = points_of(once), points_of(twice)
+        place = {node: i for i, node in enumerate(foam.model.order)}
+        held = {place[node] for _, nodes in foam.model.cells[:3] for node in nodes}
+        for i in range(len(place)):
+            if i in held:
+                self.assertEqual(a[3 * i:3 * i + 3], b[3 * i:3 * i + 3])
+        self.assertNotEqual(a, b)
+        self.refuse("The zone 'rotr' is neither .*; it has rotor", "--move", "wall", "--translate",
+                    "1,0,0", "--rigid", "rotr", case, once)
+        foam.write_zones(mesh, [10 ** 6], [0])
+        self.refuse("zone rotor of cellZones has the entry 1000000", "list", case)
+
     def test_binary_files_keep_all_but_coordinates(self):
         for label, scalar in ((4, 8), (8, 8), (4, 4)):
             with self.subTest(label=label, scalar=scalar):

@@ -369,6 +369,59 @@ std::vector<FoamList::Patch> FoamList::patches()
   return result;
 }
 
+/// "List<label>" before a list.
+void FoamList::skipListType()
+{
+  this->skipBlanks();
+  if (this->content_.compare(this->at_, 5, "List<") == 0)
+  {
+    this->word();
+  }
+}
+
+/// "flipMap List<bool> 3(0 1 0);", "3{0};" or, of a binary file, bytes.
+void FoamList::skipFlips()
+{
+  this->skipListType();
+  const auto flips = static_cast<std::size_t>(std::max<Index>(this->integer(), 0));
+  const bool areAlike = this->peek() == '{';
+  if (areAlike || this->isBinary_)
+  {
+    ++this->at_;
+    this->bytes(areAlike ? 1 : flips);
+    this->expect(areAlike ? '}' : ')');
+  }
+  this->skipEntry();
+}
+
+std::vector<FoamList::Zone> FoamList::zones()
+{
+  std::vector<Zone> result(static_cast<std::size_t>(this->count(4)));
+  this->expect('(');
+  for (Zone& zone : result)
+  {
+    zone.name = std::string(this->word().of(this->content_));
+    this->readDictionary(
+      [&](const std::string& key, bool)
+      {
+        if (key == "flipMap")
+        {
+          this->skipFlips();
+          return true;
+        }
+        if (key != "cellLabels" && key != "faceLabels" && key != "pointLabels")
+        {
+          return false;
+        }
+        this->skipListType();
+        zone.members = this->labels();
+        this->expect(';');
+        return true;
+      });
+  }
+  return result;
+}
+
 /// "uniform (x y z);" or "nonuniform List<vector> N(...);"
 std::vector<double> FoamList::fieldValues(bool& isUniform)
 {
@@ -381,11 +434,7 @@ std::vector<double> FoamList::fieldValues(bool& isUniform)
   }
   else if (kind == "nonuniform")
   {
-    this->skipBlanks();
-    if (this->content_.compare(this->at_, 5, "List<") == 0)
-    {
-      this->word();
-    }
+    this->skipListType();
     found = this->vectors();
   }
   else

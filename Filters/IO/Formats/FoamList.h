@@ -44,6 +44,14 @@ public:
   };
   std::vector<Patch> patches();
 
+  /// The zones of polyMesh/cellZones, faceZones or pointZones.
+  struct Zone
+  {
+    std::string name;
+    std::vector<Index> members;
+  };
+  std::vector<Zone> zones();
+
   /// What a field of vectors has for a patch.
   struct PatchVectors
   {
@@ -64,6 +72,8 @@ private:
   template <typename Take>
   void readDictionary(Take take);
   void skipEntry();
+  void skipListType();
+  void skipFlips();
   std::string name(bool& isQuoted);
   void vector(const std::string& what, Vectors& to);
   std::vector<double> fieldValues(bool& isUniform);

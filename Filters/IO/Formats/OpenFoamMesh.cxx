@@ -168,8 +168,12 @@ public:
 
 private:
   void readCells(const fs::path& folder);
-  void addPatches(
-    const fs::path& folder, const std::vector<std::vector<Index>>& faces, Index inner);
+  using Faces = std::vector<std::vector<Index>>;
+  /// Adds the faces of patches as cells, and returns the cell of each face, or -1.
+  std::vector<Index> addPatches(const fs::path& folder, const Faces& faces, Index inner);
+  void addZones(
+    const fs::path& folder, const Faces& faces, Index cells, std::vector<Index> cellOfFace);
+  Index addFace(const std::vector<Index>& face);
   std::string asText(const std::vector<double>& coordinates, double& largestRounding) const;
   std::string asBytes(const std::vector<double>& coordinates, double& largestRounding) const;
 
@@ -229,12 +233,22 @@ void OpenFoamMesh::readCells(const fs::path& folder)
     }
     this->mesh_.addCell(cell.type, cell.nodes, static_cast<Index>(c));
   }
-  this->addPatches(folder, faces, static_cast<Index>(neighbour.size()));
+  std::vector<Index> cellOfFace =
+    this->addPatches(folder, faces, static_cast<Index>(neighbour.size()));
+  this->addZones(folder, faces, static_cast<Index>(facesOfCell.size()), std::move(cellOfFace));
 }
 
-void OpenFoamMesh::addPatches(
-  const fs::path& folder, const std::vector<std::vector<Index>>& faces, Index inner)
+Index OpenFoamMesh::addFace(const std::vector<Index>& face)
 {
+  const std::uint8_t type = face.size() == 3   ? std::uint8_t(Triangle)
+                            : face.size() == 4 ? std::uint8_t(Quad)
+                                               : std::uint8_t(Polygon);
+  return this->mesh_.addCell(type, face, -1);
+}
+
+std::vector<Index> OpenFoamMesh::addPatches(const fs::path& folder, const Faces& faces, Index inner)
+{
+  std::vector<Index> cellOfFace(faces.size(), -1);
   for (const FoamList::Patch& patch : FoamList((folder / "boundary").string()).patches())
   {
     if (patch.first < 0 || patch.count < 0 ||
@@ -252,14 +266,56 @@ void OpenFoamMesh::addPatches(
     }
     for (Index f = patch.first; f < patch.first + patch.count; ++f)
     {
-      const std::vector<Index>& face = faces[static_cast<std::size_t>(f)];
-      const std::uint8_t type = face.size() == 3   ? std::uint8_t(Triangle)
-                                : face.size() == 4 ? std::uint8_t(Quad)
-                                                   : std::uint8_t(Polygon);
-      const Index cell = this->mesh_.addCell(type, face, -1);
-      this->mesh_.set(patch.name).cells.push_back(cell);
+      const auto at = static_cast<std::size_t>(f);
+      cellOfFace[at] = this->addFace(faces[at]);
+      this->mesh_.set(patch.name).cells.push_back(cellOfFace[at]);
     }
   }
+  return cellOfFace;
+}
+
+/// `cells`: the first ones of the mesh.
+void OpenFoamMesh::addZones(
+  const fs::path& folder, const Faces& faces, Index cells, std::vector<Index> cellOfFace)
+{
+  const auto add = [&](const char* file, Index size, const auto& take)
+  {
+    const auto zones = hasFile(folder, file) ? FoamList((folder / file).string()).zones()
+                                             : std::vector<FoamList::Zone>();
+    for (const FoamList::Zone& zone : zones)
+    {
+      const auto isTaken = [&](const std::string& name)
+      {
+        return std::any_of(this->mesh_.sets.begin(), this->mesh_.sets.end(),
+          [&](const NamedSet& set) { return set.name == name; });
+      };
+      std::string name = zone.name;
+      while (isTaken(name)) // a patch, or a zone of another kind
+      {
+        name += " (" + std::string(file) + ")";
+      }
+      NamedSet& set = this->mesh_.set(name);
+      for (const Index member : zone.members)
+      {
+        if (member < 0 || member >= size)
+        {
+          this->fail("the zone " + zone.name + " of " + file + " has the entry " +
+                     std::to_string(member) + ", which does not exist.");
+        }
+        take(set, member);
+      }
+    }
+  };
+  add("cellZones", cells, [](NamedSet& set, Index cell) { set.cells.push_back(cell); });
+  add("pointZones", this->mesh_.nodes(),
+    [](NamedSet& set, Index node) { set.nodes.push_back(node); });
+  add("faceZones", static_cast<Index>(faces.size()),
+    [&](NamedSet& set, Index face)
+    {
+      Index& cell = cellOfFace[static_cast<std::size_t>(face)];
+      cell = cell < 0 ? this->addFace(faces[static_cast<std::size_t>(face)]) : cell;
+      set.cells.push_back(cell);
+    });
 }
 
 std::string OpenFoamMesh::asText(

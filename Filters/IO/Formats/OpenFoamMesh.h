@@ -11,9 +11,9 @@ namespace morph::io
 bool isOpenFoamMesh(const std::string& path);
 
 /// Reads points, faces, owner, neighbour and boundary, text or binary, packed (.gz) or not; nodes
-/// and cells are numbered from 0. A time's folder may have its points alone. Patches are sets of
-/// faces. Cells of other shapes are polyhedra. Throws Error for a case of several regions, which
-/// names them, and for a decomposed case or a piece of it.
+/// and cells are numbered from 0. A time's folder may have its points alone. Patches and zones are
+/// sets of faces, cells or points. Cells of other shapes are polyhedra. Throws Error for a case of
+/// several regions, which names them, and for a decomposed case or a piece of it.
 std::unique_ptr<SolverFile> readOpenFoamMesh(const std::string& path);
 
 /// The file of points that `out` means: itself, where it is called points or points.gz; or that of

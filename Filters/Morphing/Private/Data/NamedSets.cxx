@@ -73,14 +73,15 @@ std::set<std::vector<Index>> markedFlatCells(
   return result;
 }
 
+/// A volume cell has faces on the boundary alone, of which the last `inside` faces are not.
 void addFacesOfCells(const morph::Mesh& mesh, const morph::BoundaryFaces& faces, Index firstPolygon,
-  const std::vector<std::uint8_t>& isMarked, std::vector<Index>& result)
+  std::size_t inside, const std::vector<std::uint8_t>& isMarked, std::vector<Index>& result)
 {
-  const std::size_t count = faces.offsets.size() - 1;
   const bool isGrid = mesh.numberOfCells() > 0;
   const std::set<std::vector<Index>> flat =
     isGrid ? markedFlatCells(mesh, isMarked) : std::set<std::vector<Index>>();
-  for (std::size_t f = 0; f < count; ++f)
+  const std::size_t count = faces.offsets.size() - 1;
+  for (std::size_t f = 0; f < (flat.empty() ? count - inside : count); ++f)
   {
     const Index behind = isGrid ? faces.cells[f] : firstPolygon + static_cast<Index>(f);
     if (flat.empty() ? isMarked[static_cast<std::size_t>(behind)] != 0
@@ -97,24 +98,8 @@ void sortUnique(std::vector<Index>& list)
   list.erase(std::unique(list.begin(), list.end()), list.end());
 }
 
-/// The names in the field data, each once.
-std::vector<std::string> setNames(vtkPointSet* input)
-{
-  std::vector<std::string> result;
-  auto* names =
-    vtkStringArray::SafeDownCast(input->GetFieldData()->GetAbstractArray("SurfaceNames"));
-  for (vtkIdType i = 0; names && i < names->GetNumberOfValues(); ++i)
-  {
-    if (names->LookupValue(names->GetValue(i)) == i)
-    {
-      result.push_back(names->GetValue(i));
-    }
-  }
-  return result;
-}
-
 std::optional<NamedSet> findSet(vtkPointSet* input, const char* name, const morph::Mesh& mesh,
-  const morph::BoundaryFaces& faces, Index firstPolygon)
+  const morph::BoundaryFaces& faces, Index firstPolygon, std::size_t inside)
 {
   NamedSet set;
   set.Name = name;
@@ -127,7 +112,7 @@ std::optional<NamedSet> findSet(vtkPointSet* input, const char* name, const morp
   }
   if (!isCell.empty())
   {
-    addFacesOfCells(mesh, faces, firstPolygon, isCell, set.Faces);
+    addFacesOfCells(mesh, faces, firstPolygon, inside, isCell, set.Faces);
     for (const Index face : set.Faces)
     {
       const auto begin = faces.connectivity.begin();
@@ -155,10 +140,25 @@ std::optional<NamedSet> findSet(vtkPointSet* input, const char* name, const morp
 }
 }
 
+std::vector<std::string> NamesOfSets(vtkPointSet* input)
+{
+  std::vector<std::string> result;
+  auto* names =
+    vtkStringArray::SafeDownCast(input->GetFieldData()->GetAbstractArray("SurfaceNames"));
+  for (vtkIdType i = 0; names && i < names->GetNumberOfValues(); ++i)
+  {
+    if (names->LookupValue(names->GetValue(i)) == i)
+    {
+      result.push_back(names->GetValue(i));
+    }
+  }
+  return result;
+}
+
 std::vector<std::uint8_t> CellsOfNamedSets(vtkPointSet* input)
 {
   std::vector<std::uint8_t> result(static_cast<std::size_t>(input->GetNumberOfCells()), 0);
-  for (const std::string& name : setNames(input))
+  for (const std::string& name : NamesOfSets(input))
   {
     const auto isCell = marks(input->GetCellData(), name.c_str(), input->GetNumberOfCells());
     for (std::size_t c = 0; c < isCell.size(); ++c)
@@ -170,12 +170,12 @@ std::vector<std::uint8_t> CellsOfNamedSets(vtkPointSet* input)
 }
 
 std::vector<NamedSet> FindNamedSets(vtkPointSet* input, const morph::Mesh& mesh,
-  const morph::BoundaryFaces& faces, Index firstPolygon)
+  const morph::BoundaryFaces& faces, Index firstPolygon, std::size_t inside)
 {
   std::vector<NamedSet> result;
-  for (const std::string& name : setNames(input))
+  for (const std::string& name : NamesOfSets(input))
   {
-    if (auto set = findSet(input, name.c_str(), mesh, faces, firstPolygon))
+    if (auto set = findSet(input, name.c_str(), mesh, faces, firstPolygon, inside))
     {
       result.push_back(std::move(*set));
     }

@@ -20,6 +20,9 @@ struct NamedSet
   std::vector<morph::Index> Faces; ///< ascending
 };
 
+/// The names that the input's field data `SurfaceNames` (vtkStringArray) lists, each once.
+std::vector<std::string> NamesOfSets(vtkPointSet* input);
+
 /// For each cell of the input whether a set that its field data `SurfaceNames` lists has it.
 std::vector<std::uint8_t> CellsOfNamedSets(vtkPointSet* input);
 
@@ -29,9 +32,9 @@ std::vector<std::uint8_t> CellsOfNamedSets(vtkPointSet* input);
 /// it does or, where no two-dimensional cell does, if the volume cell behind it does. A name
 /// without arrays is left out; a set that is not on the boundary has no nodes.
 /// `mesh`, `faces`: of a grid; of a surface `mesh` has no cells, and each face is a polygon, the
-/// first one the cell `firstPolygon`.
+/// first one the cell `firstPolygon`. `inside`: how many faces, the last ones, lie inside.
 std::vector<NamedSet> FindNamedSets(vtkPointSet* input, const morph::Mesh& mesh,
-  const morph::BoundaryFaces& faces, morph::Index firstPolygon);
+  const morph::BoundaryFaces& faces, morph::Index firstPolygon, std::size_t inside = 0);
 
 /// Adds a cell array for each set to the boundary: 1 on its faces. `faceOf`: the face of each
 /// polygon. Adds SurfaceNames to the field data where there are sets.

@@ -2,7 +2,6 @@
 #include "Private/Displace/BoundaryModel.h"
 
 #include "Boundary/FaceAreas.h"
-#include "Mesh/BaffleFaces.h"
 #include "Mesh/FacesOfCells.h"
 #include "Private/Data/DataCheck.h"
 #include "Private/Data/GridMesh.h"
@@ -181,7 +180,8 @@ void BoundaryModel::Update(vtkPointSet* input, const Geometry::Options& options,
     this->TakeSurface(vtkPolyData::SafeDownCast(input), options, key, next, monitor);
   }
   const Index firstPolygon = next.Surface->GetNumberOfVerts() + next.Surface->GetNumberOfLines();
-  next.NamedSets = FindNamedSets(input, next.Mesh, next.Faces, firstPolygon);
+  next.NamedSets = FindNamedSets(input, next.Mesh, next.Faces, firstPolygon,
+    next.Inner.baffles.size() + next.Inner.sheets.size());
   const auto outer = std::stable_partition(next.NamedSets.begin(), next.NamedSets.end(),
     [](const NamedSet& set) { return !set.Nodes.empty(); });
   next.SetsInside.assign(outer, next.NamedSets.end());
@@ -201,7 +201,8 @@ void BoundaryModel::FindFaces(vtkUnstructuredGrid* grid, State& next, morph::Mon
   const morph::ConnectedComponents bodies = morph::connectedComponents(next.Mesh);
   next.BodyOfNode = bodies.ofNode;
   next.Faces = morph::boundaryFaces(next.Mesh, monitor);
-  AddBaffles(grid, next, monitor);
+  next.IsNamed = CellsOfNamedSets(grid);
+  AddInner(next, monitor);
   const std::vector<std::int8_t> ofCell = morph::cellSigns(next.Mesh, bodies);
   next.Orientation.clear();
   for (Index cell : next.Faces.cells)
@@ -211,10 +212,10 @@ void BoundaryModel::FindFaces(vtkUnstructuredGrid* grid, State& next, morph::Mon
   monitor.check();
 }
 
-void BoundaryModel::AddBaffles(vtkUnstructuredGrid* grid, State& next, morph::Monitor& monitor)
+void BoundaryModel::AddInner(State& next, morph::Monitor& monitor)
 {
-  next.Baffles = morph::baffleFaces(next.Mesh, CellsOfNamedSets(grid), monitor);
-  if (next.Baffles.empty())
+  next.Inner = morph::innerFaces(next.Mesh, next.Faces, next.IsNamed, monitor);
+  if (next.Inner.baffles.empty() && next.Inner.sheets.empty())
   {
     return;
   }
@@ -223,20 +224,50 @@ void BoundaryModel::AddBaffles(vtkUnstructuredGrid* grid, State& next, morph::Mo
   {
     places.emplace_back(next.Faces.cells[f], next.Faces.sides[f]);
   }
-  places.insert(places.end(), next.Baffles.begin(), next.Baffles.end());
+  for (const auto* inner : { &next.Inner.baffles, &next.Inner.sheets })
+  {
+    places.insert(places.end(), inner->begin(), inner->end());
+  }
   next.Faces = morph::facesAt(next.Mesh, places);
 }
 
-bool BoundaryModel::AreInner(const std::vector<Index>& faces) const
+bool BoundaryModel::AreLast(const std::vector<Index>& faces, std::size_t number) const
 {
-  const auto first = static_cast<Index>(this->Kept.Faces.offsets.size() - 1) -
-                     static_cast<Index>(this->Kept.Baffles.size());
+  const auto first = static_cast<Index>(this->Kept.Faces.offsets.size() - 1 - number);
   return !faces.empty() &&
          std::all_of(faces.begin(), faces.end(), [first](Index face) { return face >= first; });
 }
 
+bool BoundaryModel::AreInner(const std::vector<Index>& faces) const
+{
+  return this->AreLast(faces, this->Kept.Inner.baffles.size() + this->Kept.Inner.sheets.size());
+}
+
+bool BoundaryModel::AreSheets(const std::vector<Index>& faces) const
+{
+  return this->AreLast(faces, this->Kept.Inner.sheets.size());
+}
+
+std::vector<std::uint8_t> BoundaryModel::OffSheets() const
+{
+  std::vector<std::uint8_t> result(this->Kept.Mesh.points.rows(), 1);
+  for (const bool sheets : { true, false }) // other surfaces win
+  {
+    for (const morph::GeometrySurface& surface : this->Kept.Geometry.surfaces)
+    {
+      const bool counts = this->AreSheets(surface.faces) == sheets;
+      for (std::size_t i = 0; counts && i < surface.nodes.size(); ++i)
+      {
+        result[surface.nodes[i]] = !sheets;
+      }
+    }
+  }
+  return result;
+}
+
 void BoundaryModel::TakeFaces(const WholeSurface& whole, State& next)
 {
+  next.Inner = {};
   next.Mesh = whole.Mesh();
   next.BodyOfNode = whole.BodyOfNode();
   next.Faces = whole.Faces();
@@ -253,8 +284,7 @@ void BoundaryModel::TakeGrid(vtkUnstructuredGrid* grid, const Geometry::Options&
   const bool sameMesh =
     next.Mesh.numberOfCells() > 0 && GridMesh::SameCells(grid, next.Mesh) &&
     GridMesh::SamePoints(grid, next.Mesh) &&
-    (whole ? sameFaces(next.Faces, whole->Faces())
-           : next.Baffles == morph::baffleFaces(next.Mesh, CellsOfNamedSets(grid), monitor));
+    (whole ? sameFaces(next.Faces, whole->Faces()) : next.IsNamed == CellsOfNamedSets(grid));
   if (!sameMesh && whole)
   {
     TakeFaces(*whole, next);
@@ -273,9 +303,10 @@ void BoundaryModel::TakeGrid(vtkUnstructuredGrid* grid, const Geometry::Options&
   next.FaceOfPolygon = Surface::Write(
     grid, next.Mesh, next.Faces, next.Surface, whole ? &whole->Orientation() : nullptr);
   next.NodeOfPoint = next.Faces.nodes;
-  if (!next.Baffles.empty())
+  const std::size_t inner = next.Inner.baffles.size() + next.Inner.sheets.size();
+  if (inner > 0)
   {
-    const auto first = static_cast<Index>(next.Faces.cells.size() - next.Baffles.size());
+    const auto first = static_cast<Index>(next.Faces.cells.size() - inner);
     vtkNew<vtkUnsignedCharArray> isInner;
     isInner->SetName("Inner");
     for (const Index face : next.FaceOfPolygon)
@@ -291,6 +322,7 @@ void BoundaryModel::TakeGrid(vtkUnstructuredGrid* grid, const Geometry::Options&
 void BoundaryModel::TakeSurface(vtkPolyData* surface, const Geometry::Options& options,
   const std::string& geometryKey, State& next, morph::Monitor& monitor)
 {
+  next.Inner = {};
   morph::BoundaryFaces faces = polygons(surface);
   requireExtracted(surface, Surface::IdName, 1);
   morph::Points rest =

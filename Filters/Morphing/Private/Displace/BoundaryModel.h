@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Mesh/Topology.h"
+#include "Mesh/InnerFaces.h"
 #include "Private/Data/Geometry.h"
 #include "Private/Data/NamedSets.h"
 
@@ -40,10 +40,15 @@ public:
   {
     return this->Kept.Mesh.numberOfCells() > 0 ? this->Kept.Mesh.points : this->Kept.Rest;
   }
-  /// The outer faces, then those of baffles; see baffleFaces().
+  /// The outer faces, then those of baffles, then those of sheets; see innerFaces().
   const morph::BoundaryFaces& Faces() const { return this->Kept.Faces; }
-  /// Whether all of these faces are those of baffles.
+  /// Whether all of these faces lie inside of the mesh.
   bool AreInner(const std::vector<morph::Index>& faces) const;
+  /// Whether all of these faces are those of sheets, which go along with the interior unless they
+  /// are named.
+  bool AreSheets(const std::vector<morph::Index>& faces) const;
+  /// #nodes: 0 for those that are on sheets alone.
+  std::vector<std::uint8_t> OffSheets() const;
   /// The geometry; that of a surface is found at its RestPosition.
   const morph::Classification& Geometry() const { return this->Kept.Geometry; }
   /// What the mesh's file names on the boundary; see FindNamedSets().
@@ -77,9 +82,10 @@ private:
   {
     morph::Mesh Mesh; ///< of a surface: no cells
     morph::BoundaryFaces Faces;
-    std::vector<std::pair<morph::Index, int>> Baffles; ///< the last ones of Faces
-    std::vector<std::int8_t> Orientation;              ///< #faces
-    morph::Points Rest; ///< of a surface: where its geometry was found
+    std::vector<std::uint8_t> IsNamed;    ///< #cells: those of named sets
+    morph::InnerFaces Inner;              ///< the last ones of Faces
+    std::vector<std::int8_t> Orientation; ///< #faces
+    morph::Points Rest;                   ///< of a surface: where its geometry was found
     std::vector<morph::Index> BodyOfNode;
     std::string GeometryKey;
     morph::Classification Geometry;
@@ -97,8 +103,9 @@ private:
     const std::string& geometryKey, const WholeSurface* whole, State& next,
     morph::Monitor& monitor);
   static void FindFaces(vtkUnstructuredGrid* grid, State& next, morph::Monitor& monitor);
-  /// Adds the faces of baffles.
-  static void AddBaffles(vtkUnstructuredGrid* grid, State& next, morph::Monitor& monitor);
+  /// Adds the faces of baffles and sheets.
+  static void AddInner(State& next, morph::Monitor& monitor);
+  bool AreLast(const std::vector<morph::Index>& faces, std::size_t number) const;
   static void TakeFaces(const WholeSurface& whole, State& next);
   void TakeSurface(vtkPolyData* surface, const Geometry::Options& options,
     const std::string& geometryKey, State& next, morph::Monitor& monitor);

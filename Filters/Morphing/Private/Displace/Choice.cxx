@@ -162,6 +162,15 @@ Result Choose(vtkPointSet* input, const BoundaryModel& model, const Options& opt
       part.HasNode.assign(model.Points().rows(), 1);
       break;
   }
+  if (options.How != By::Surfaces)
+  {
+    // Sheets inside move by their names alone.
+    const std::vector<std::uint8_t> isOff = model.OffSheets();
+    for (std::size_t n = 0; n < isOff.size(); ++n)
+    {
+      part.HasNode[n] &= isOff[n];
+    }
+  }
   addNodesBetween(faces, part.HasNode);
   const Part held = Patches::Find(model, options.FixedSurfaces, "FixedSurfaces");
   Result result;

@@ -9,6 +9,7 @@
 #include "Private/Displace/Patches.h"
 #include "Private/Displace/Selection.h"
 #include "Private/Displace/Unmet.h"
+#include "Private/Displace/Zones.h"
 #include "Private/Options.h"
 #include "Private/Pipeline/Input.h"
 #include "Private/Pipeline/Ranks.h"
@@ -86,7 +87,28 @@ void vtkBoundaryDisplacement::vtkInternals::Classify(
     const auto &low = size.Box.min(), &high = size.Box.max();
     this->SurfaceBounds->InsertNextTuple6(low[0], high[0], low[1], high[1], low[2], high[2]);
   }
+  auto* grid = vtkUnstructuredGrid::SafeDownCast(input);
+  if (grid && !this->Whole)
+  {
+    this->ListZones(grid, this->Model.Mesh());
+  }
   this->ListedVersion = this->Model.InputVersion();
+}
+
+void vtkBoundaryDisplacement::vtkInternals::ListZones(
+  vtkUnstructuredGrid* grid, const morph::Mesh& mesh)
+{
+  const filters::MergedBlocks* blocks =
+    this->OuterBlocks ? this->OuterBlocks : this->Blocks.Merged();
+  for (const filters::Zones::Listed& zone : filters::Zones::List(grid, mesh, blocks))
+  {
+    this->ZoneList->AddArray(zone.Name.c_str(), false);
+    this->ZoneSizes->InsertNextValue(zone.Name);
+    for (const morph::Index count : { zone.Cells, zone.Nodes })
+    {
+      this->ZoneSizes->InsertNextValue(count > 0 ? std::to_string(count) : "");
+    }
+  }
 }
 
 void vtkBoundaryDisplacement::Choose(vtkPointSet* input, vtkSelection* selection)
@@ -326,6 +348,17 @@ bool vtkBoundaryDisplacement::vtkInternals::Prepare(vtkBoundaryDisplacement* fil
   rest.Follow.unattached = static_cast<morph::UnattachedMotion>(filter->Options->UnattachedMotion);
   rest.Free =
     filters::Patches::Surfaces(this->Model, filter->Options->FreeSurfaces, "FreeSurfaces");
+  const auto& surfaces = this->Model.Geometry().surfaces;
+  for (std::size_t s = 0; s < surfaces.size(); ++s)
+  {
+    const auto number = static_cast<morph::Index>(s);
+    if (this->Model.AreSheets(surfaces[s].faces) &&
+        std::count(rest.Sliding.begin(), rest.Sliding.end(), number) == 0)
+    {
+      rest.Free.push_back(number); // twice does no harm
+    }
+  }
+  std::sort(rest.Free.begin(), rest.Free.end());
   rest.Radius = filter->Options->FalloffRadius * this->Model.Size();
   return true;
 }

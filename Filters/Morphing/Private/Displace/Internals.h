@@ -39,6 +39,8 @@ struct vtkBoundaryDisplacement::vtkInternals : vtkDisplacementAlgorithm::vtkShar
   vtkNew<vtkDataArraySelection> SurfaceList;
   vtkNew<vtkStringArray> SurfaceSizes;
   vtkNew<vtkDoubleArray> SurfaceBounds;
+  vtkNew<vtkDataArraySelection> ZoneList;
+  vtkNew<vtkStringArray> ZoneSizes;
   vtkIdType ListedVersion = -1; ///< of Model
 
   morph::filters::Blocks Blocks;
@@ -62,18 +64,22 @@ struct vtkBoundaryDisplacement::vtkInternals : vtkDisplacementAlgorithm::vtkShar
   std::vector<std::uint8_t> IsSelected; ///< #nodes of Whole, of MOVING_SELECTION
   vtkNew<vtkPolyData> WholeOutput;      ///< of which the output has a part
 
-  /// Forgets the names of the patches.
+  /// Forgets the names of patches and zones.
   void ClearList()
   {
     this->SurfaceList->RemoveAllArrays();
     this->SurfaceSizes->Initialize();
     this->SurfaceBounds->Initialize();
     this->SurfaceBounds->SetNumberOfComponents(6);
+    this->ZoneList->RemoveAllArrays();
+    this->ZoneSizes->Initialize();
     this->ListedVersion = -1;
   }
-  /// Finds the boundary and its geometry, and its patches' names.
+  /// Finds the boundary and its geometry, and the names of patches and zones.
   void Classify(
     const vtkBoundaryDisplacement* filter, vtkPointSet* input, morph::filters::Monitor& monitor);
+  /// Lists the zones of a mesh, or of this process's piece of it.
+  void ListZones(vtkUnstructuredGrid* grid, const morph::Mesh& mesh);
   /// What the optional ports hold; each may be null.
   struct Extras
   {

@@ -61,8 +61,8 @@ void requireNone(
     if (missing.count(set.Name) > 0)
     {
       throw morph::Error(std::string(property) + " names '" + set.Name +
-                         "', which lies inside of the mesh. Surfaces on the boundary and baffles "
-                         "can move; a zone holds or moves the nodes of '" +
+                         "', which lies inside of the mesh. Surfaces on the boundary and sets of "
+                         "faces can move; a zone holds or moves the nodes of '" +
                          set.Name + "'.");
     }
   }

@@ -23,7 +23,7 @@ struct Size
   std::string Name;
   morph::Index Count = 0; ///< of faces; of a curve: of edges
   double Measure = 0;     ///< area; of a curve: length
-  bool IsInner = false;   ///< all faces are those of baffles
+  bool IsInner = false;   ///< all faces lie inside of the mesh
   Eigen::AlignedBox3d Box;
 };
 /// Undeformed, in the order of Names(). Cost: a pass over the faces for each name of the file, and

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Private/Displace/Zones.h"
 
+#include "Mesh/CellShape.h"
 #include "Private/Blocks/MergedBlocks.h"
+#include "Private/Data/NamedSets.h"
 #include "Private/Displace/Choice.h"
 #include "Private/Displace/Selection.h"
 #include "Private/Distributed/WholeVolume.h"
@@ -89,16 +91,78 @@ bool takeBlock(const morph::Mesh& mesh, const MergedBlocks* blocks, Part& part)
   return found;
 }
 
-[[noreturn]] void throwUnknown(const Part& part, const MergedBlocks* blocks)
+/// The last part of the path of a block, as isNamed() takes it.
+std::string shortName(const std::string& block)
 {
-  std::string names;
+  const std::size_t end = block.rfind('\'');
+  const std::size_t begin = block.find_last_of("/'", end == 0 ? 0 : end - 1);
+  return end == std::string::npos || begin == std::string::npos
+           ? block
+           : block.substr(begin + 1, end - begin - 1);
+}
+
+bool isMarks(vtkDataArray* array, vtkIdType size)
+{
+  return array && array->GetNumberOfComponents() == 1 && array->GetNumberOfTuples() == size &&
+         array->GetDataTypeSize() == 1;
+}
+
+/// The names that may be a zone's, in the order of the list.
+std::vector<std::string> candidates(vtkUnstructuredGrid* grid, const MergedBlocks* blocks)
+{
+  std::vector<std::string> names = NamesOfSets(grid);
+  const auto addMarks = [&](vtkDataSetAttributes* data, vtkIdType size)
+  {
+    for (int i = 0; i < data->GetNumberOfArrays(); ++i)
+    {
+      vtkDataArray* array = data->GetArray(i); // null for texts
+      if (isMarks(array, size) && array->GetName() &&
+          array->GetName() != std::string(vtkDataSetAttributes::GhostArrayName()))
+      {
+        names.emplace_back(array->GetName());
+      }
+    }
+  };
+  addMarks(grid->GetCellData(), grid->GetNumberOfCells());
+  addMarks(grid->GetPointData(), grid->GetNumberOfPoints());
   for (std::size_t b = 0; blocks && b < blocks->All.size(); ++b)
   {
-    names += blocks->All[b].IsMesh ? (names.empty() ? "" : ", ") + blocks->All[b].Name : "";
+    if (blocks->All[b].IsMesh)
+    {
+      names.push_back(shortName(blocks->All[b].Name));
+    }
   }
+  std::vector<std::string> once;
+  for (const std::string& name : names)
+  {
+    if (std::find(once.begin(), once.end(), name) == once.end())
+    {
+      once.push_back(name);
+    }
+  }
+  return once;
+}
+
+/// The first names of the list, for a message.
+std::string listed(vtkUnstructuredGrid* grid, const morph::Mesh& mesh, const MergedBlocks* blocks)
+{
+  constexpr std::size_t Most = 10;
+  const std::vector<Zones::Listed> zones = Zones::List(grid, mesh, blocks);
+  std::string names;
+  for (std::size_t i = 0; i < std::min(zones.size(), Most); ++i)
+  {
+    names += (i > 0 ? ", " : "") + zones[i].Name;
+  }
+  return zones.size() > Most ? names + ", ..." : names;
+}
+
+[[noreturn]] void throwUnknown(
+  vtkUnstructuredGrid* grid, const morph::Mesh& mesh, const MergedBlocks* blocks, const Part& part)
+{
+  const std::string names = listed(grid, mesh, blocks);
   throw Error("The zone '" + part.Name +
-              "' is neither a point array, a cell array nor a block of the input" +
-              (names.empty() ? "" : ", whose blocks are " + names) +
+              "' is neither a set, a point or cell array nor a block of the input" +
+              (names.empty() ? "" : "; it has " + names) +
               ". A zone is where an array is not zero, or a block.");
 }
 
@@ -125,7 +189,7 @@ void takeNamed(vtkUnstructuredGrid* grid, const morph::Mesh& mesh, const MergedB
   {
     if (!isPart || !blocks)
     {
-      throwUnknown(part, blocks);
+      throwUnknown(grid, mesh, blocks, part);
     }
     part.IsKnown = false;
     takeCells(mesh, Flags(mesh.numberOfCells(), 0), part);
@@ -159,6 +223,45 @@ bool isNowhere(const Part& part)
 
 namespace Zones
 {
+std::vector<Listed> List(
+  vtkUnstructuredGrid* grid, const morph::Mesh& mesh, const MergedBlocks* blocks)
+{
+  std::vector<Listed> zones;
+  for (const std::string& name : candidates(grid, blocks))
+  {
+    Listed zone{ name, 0, 0 };
+    const auto count = [&](const auto& isIn)
+    {
+      for (Index c = 0; c < mesh.numberOfCells(); ++c)
+      {
+        const morph::CellShape* shape = morph::cellShape(mesh.types[c]);
+        zone.Cells += shape && shape->dimension == 3 && isIn(c);
+      }
+    };
+    vtkDataArray* ofCells = grid->GetCellData()->GetArray(name.c_str());
+    vtkDataArray* ofPoints = grid->GetPointData()->GetArray(name.c_str());
+    if (ofCells && ofCells->GetNumberOfTuples() == mesh.numberOfCells())
+    {
+      const Flags marks = Choice::Marked(ofCells);
+      count([&](Index c) { return marks[c] != 0; });
+    }
+    else if (ofPoints && ofPoints->GetNumberOfTuples() == mesh.numberOfNodes())
+    {
+      const Flags marks = Choice::Marked(ofPoints);
+      zone.Nodes = std::count(marks.begin(), marks.end(), 1);
+    }
+    else if (blocks)
+    {
+      count([&](Index c) { return isNamed(blocks->All[blocks->BlockOfCell[c]].Name, name); });
+    }
+    if (zone.Cells + zone.Nodes > 0)
+    {
+      zones.push_back(zone);
+    }
+  }
+  return zones;
+}
+
 std::vector<Part> Find(Kind kind, vtkUnstructuredGrid* grid, const morph::Mesh& mesh,
   const MergedBlocks* blocks, const Options& options)
 {
@@ -222,7 +325,7 @@ std::vector<Part> FindOnRanks(Kind kind, vtkUnstructuredGrid* grid, const WholeV
   {
     if (Ranks::Count(part.IsKnown) == 0)
     {
-      Ranks::Together([&] { throwUnknown(part, blocks); });
+      Ranks::Together([&] { throwUnknown(grid, volume.Piece(), blocks, part); });
     }
     Flags isNode = volume.AnyFlags(part.IsNode);
     if (Ranks::Count(!isNowhere(part)) == 0)

@@ -61,6 +61,18 @@ struct Part
   bool IsKnown = true;              ///< whether this process has an array or a block of the name
 };
 
+/// A zone that can be named, and its size: cells, or nodes where it is a set of nodes.
+struct Listed
+{
+  std::string Name;
+  morph::Index Cells = 0, Nodes = 0;
+};
+/// What the file names, for users to choose from: the sets that the field data SurfaceNames lists,
+/// with volume cells or nodes, other arrays of marks (8 bits), and the blocks. Each once, in this
+/// order. Cost: a pass over the marks of each.
+std::vector<Listed> List(
+  vtkUnstructuredGrid* grid, const morph::Mesh& mesh, const MergedBlocks* blocks);
+
 /// Finds the zones of that kind, in the order of their names, then those of region and selection.
 /// An array marks by values other than 0. `mesh`: of `grid`; `blocks`: that it was merged from, or
 /// null. Throws morph::Error for a name that is neither array nor block, a region or selection that

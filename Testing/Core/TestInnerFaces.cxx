@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Mesh/BaffleFaces.h"
 #include "Mesh/FaceTable.h"
+#include "Mesh/InnerFaces.h"
 #include "Meshes.h"
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ void addWall(Mesh& mesh, std::vector<Index> corners)
   meshes::add(mesh, corners.size() == 3 ? 5 : 9, corners); // VTK_TRIANGLE, VTK_QUAD
 }
 
-TEST(BaffleFaces, AreThoseInsideUnderTwoWalls)
+TEST(InnerFaces, AreThoseInsideUnderOneWallOrTwo)
 {
   std::mt19937 random(meshes::seed());
   for (const auto& [name, solid] : meshes::all(3, 3, 3))
@@ -27,7 +27,7 @@ TEST(BaffleFaces, AreThoseInsideUnderTwoWalls)
     meshes::ThreadedMonitor monitor;
     const morph::FaceTable table = morph::faceTable(solid, monitor);
     Mesh mesh = solid;
-    std::vector<std::pair<Index, int>> wanted;
+    morph::InnerFaces wanted;
     for (Index cell = 0; cell < solid.numberOfCells(); ++cell)
     {
       for (Index f = table.start[cell]; f < table.start[cell + 1]; ++f)
@@ -38,16 +38,20 @@ TEST(BaffleFaces, AreThoseInsideUnderTwoWalls)
         {
           addWall(mesh, { table.corners.begin(f), table.corners.end(f) });
         }
-        if (walls >= 2 && table.uses[f] == 2)
+        if (walls >= 1 && table.uses[f] == 2)
         {
-          wanted.emplace_back(cell, static_cast<int>(f - table.start[cell]));
+          auto& places = walls >= 2 ? wanted.baffles : wanted.sheets;
+          places.emplace_back(cell, static_cast<int>(f - table.start[cell]));
         }
       }
     }
     const std::vector<std::uint8_t> all(mesh.numberOfCells(), 1), none(mesh.numberOfCells(), 0);
-    EXPECT_FALSE(wanted.empty()) << name;
-    EXPECT_EQ(morph::baffleFaces(mesh, all, monitor), wanted) << name;
-    EXPECT_TRUE(morph::baffleFaces(mesh, none, monitor).empty()) << name;
+    EXPECT_FALSE(wanted.baffles.empty() || wanted.sheets.empty()) << name;
+    const morph::BoundaryFaces outer = morph::boundaryFaces(mesh, monitor);
+    const morph::InnerFaces found = morph::innerFaces(mesh, outer, all, monitor);
+    EXPECT_EQ(found.baffles, wanted.baffles) << name;
+    EXPECT_EQ(found.sheets, wanted.sheets) << name;
+    EXPECT_TRUE(morph::innerFaces(mesh, outer, none, monitor).baffles.empty()) << name;
   }
 }
 }

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Mesh/Mesh.h"
+#include "Mesh/Topology.h"
+#include "Support/Monitor.h"
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace morph
+{
+/// Faces inside of a mesh on which two-dimensional cells lie. Each is the lower of its cells with
+/// the face's number, as in BoundaryFaces::sides, ascending.
+struct InnerFaces
+{
+  using Places = std::vector<std::pair<Index, int>>;
+  Places baffles; ///< under two cells or more, one for each side
+  Places sheets;  ///< under one
+};
+
+/// Returns those under the cells that `isMarked`, #cells; two-dimensional ones alone count.
+/// `outer`: the mesh's boundaryFaces(). Cost: n log n for n marked cells and outer faces and, if
+/// some lie inside, that of faceTable().
+InnerFaces innerFaces(const Mesh& mesh, const BoundaryFaces& outer,
+  const std::vector<std::uint8_t>& isMarked, Monitor& monitor);
+}
