@@ -250,21 +250,16 @@ void addPolygon(vtkPolyData* boundary, vtkIdList* corners, SurfaceSums& sums)
   }
 }
 
-/// What --fix-zone, --rigid and --soft can name.
+/// What --fix-zone, --rigid and --soft can name: "zone rotor: 64 cells".
 void printZones(vtkBoundaryDisplacement* filter)
 {
   vtkStringArray* sizes = filter->GetZoneSizes();
-  if (sizes->GetNumberOfValues() > 0)
-  {
-    std::cout << "\n"
-              << std::left << std::setw(14) << "zone" << std::right << std::setw(10) << "cells"
-              << std::setw(14) << "nodes"
-              << "\n";
-  }
   for (vtkIdType i = 0; i + 2 < sizes->GetNumberOfValues(); i += 3)
   {
-    std::cout << std::left << std::setw(14) << sizes->GetValue(i) << std::right << std::setw(10)
-              << sizes->GetValue(i + 1) << std::setw(14) << sizes->GetValue(i + 2) << "\n";
+    const bool isOfCells = !sizes->GetValue(i + 1).empty();
+    std::cout << "zone " << sizes->GetValue(i) << ": "
+              << (isOfCells ? sizes->GetValue(i + 1) + " cells" : sizes->GetValue(i + 2) + " nodes")
+              << "\n";
   }
 }
 

@@ -277,7 +277,7 @@ TEST(Zones, AreListedByTheirNamesWithTheirSizes)
   ghosts->SetNumberOfValues(grid->GetNumberOfCells());
   ghosts->FillValue(0);
   grid->GetCellData()->AddArray(ghosts);
-  name(grid, { "Cells", "Nodes", "Nowhere" });
+  name(grid, { "Cells", "Nowhere" });
   vtkNew<vtkMorphMesh> mesh;
   mesh->SetInputData(grid);
   mesh->UpdateInformation();

@@ -51,8 +51,8 @@ def printed(filter_proxy, name):
 #: Limits of memory, which have no end, and tolerances, which span decades.
 WITHOUT_SLIDER = ("StepMemoryLimit", "MemoryLimit", "Tolerance", "HandleRadius")
 #: What widgets of the panel are made from; not among its results.
-FOR_WIDGETS = ("SurfaceList", "SurfaceSizes", "SurfaceBounds", "SurfaceBounds", "PickedSurfaces",
-               "ValidWeights", "Advice")
+FOR_WIDGETS = ("SurfaceList", "SurfaceSizes", "SurfaceBounds", "ZoneList", "ZoneSizes",
+               "PickedSurfaces", "ValidWeights", "Advice")
 
 
 def results(*sections):
@@ -107,9 +107,11 @@ class Properties(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         wavelet = simple.Wavelet(WholeExtent=[0, 4, 0, 4, 0, 4])
-        # Some properties choose among cell arrays, and among point vectors.
+        # Some properties choose among cell arrays, point vectors and zones.
         numbered = number_points(Input=simple.AppendDatasets(Input=[wavelet]))
-        grid = simple.Calculator(Input=numbered, Function="jHat*coordsX", ResultArrayName="Vectors")
+        marked = simple.Calculator(Input=numbered, Function="if(coordsX > 2, 1, 0)",
+                                   ResultArrayName="Marked")
+        grid = simple.Calculator(Input=marked, Function="jHat*coordsX", ResultArrayName="Vectors")
         boundary = simple.Calculator(Input=ExtractMorphBoundary(Input=grid),
                                      Function="iHat*coordsX*0.1", ResultArrayName="Shift")
         boundary.UpdatePipeline()

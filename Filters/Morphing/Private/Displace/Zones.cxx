@@ -101,46 +101,51 @@ std::string shortName(const std::string& block)
            : block.substr(begin + 1, end - begin - 1);
 }
 
+/// Whether the array marks some of its tuples, and others not: an array of ids has one zero.
 bool isMarks(vtkDataArray* array, vtkIdType size)
 {
-  return array && array->GetNumberOfComponents() == 1 && array->GetNumberOfTuples() == size &&
-         array->GetDataTypeSize() == 1;
+  if (!array || array->GetNumberOfComponents() != 1 || array->GetNumberOfTuples() != size ||
+      array->GetName() == std::string(vtkDataSetAttributes::GhostArrayName()))
+  {
+    return false;
+  }
+  const Flags marks = Choice::Marked(array);
+  const auto count = std::count(marks.begin(), marks.end(), 1);
+  return count > 0 && count + 1 < size;
 }
 
 /// The names that may be a zone's, in the order of the list.
 std::vector<std::string> candidates(vtkUnstructuredGrid* grid, const MergedBlocks* blocks)
 {
   std::vector<std::string> names = NamesOfSets(grid);
+  const auto add = [&](const std::string& name)
+  {
+    if (std::find(names.begin(), names.end(), name) == names.end())
+    {
+      names.push_back(name);
+    }
+  };
+  for (std::size_t b = 0; blocks && b < blocks->All.size(); ++b)
+  {
+    if (blocks->All[b].IsMesh)
+    {
+      add(shortName(blocks->All[b].Name));
+    }
+  }
   const auto addMarks = [&](vtkDataSetAttributes* data, vtkIdType size)
   {
     for (int i = 0; i < data->GetNumberOfArrays(); ++i)
     {
       vtkDataArray* array = data->GetArray(i); // null for texts
-      if (isMarks(array, size) && array->GetName() &&
-          array->GetName() != std::string(vtkDataSetAttributes::GhostArrayName()))
+      if (array && array->GetName() && isMarks(array, size))
       {
-        names.emplace_back(array->GetName());
+        add(array->GetName());
       }
     }
   };
   addMarks(grid->GetCellData(), grid->GetNumberOfCells());
   addMarks(grid->GetPointData(), grid->GetNumberOfPoints());
-  for (std::size_t b = 0; blocks && b < blocks->All.size(); ++b)
-  {
-    if (blocks->All[b].IsMesh)
-    {
-      names.push_back(shortName(blocks->All[b].Name));
-    }
-  }
-  std::vector<std::string> once;
-  for (const std::string& name : names)
-  {
-    if (std::find(once.begin(), once.end(), name) == once.end())
-    {
-      once.push_back(name);
-    }
-  }
-  return once;
+  return names;
 }
 
 /// The first names of the list, for a message.

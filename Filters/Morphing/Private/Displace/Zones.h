@@ -67,9 +67,9 @@ struct Listed
   std::string Name;
   morph::Index Cells = 0, Nodes = 0;
 };
-/// What the file names, for users to choose from: the sets that the field data SurfaceNames lists,
-/// with volume cells or nodes, other arrays of marks (8 bits), and the blocks. Each once, in this
-/// order. Cost: a pass over the marks of each.
+/// What can be named, for users to choose from: the sets that the field data SurfaceNames lists,
+/// with volume cells or nodes, the blocks, and other arrays of one component that are zero at some
+/// places and not at others. Each once, in this order. Cost: a pass over each.
 std::vector<Listed> List(
   vtkUnstructuredGrid* grid, const morph::Mesh& mesh, const MergedBlocks* blocks);
 
