@@ -299,6 +299,10 @@ bool setMotion(Choices& choices, const RandomGrid& grid, vtkDisplacementAlgorith
     addSurface(
       filter, i == 0 ? 0 : random.below(4), hostile && random.happens(0.3) ? "Surface x" : name);
   }
+  if (grid.hasWalls && choices.chance("with.wallsByName", 0.7))
+  {
+    addSurface(filter, choices.stream("walls by name").below(4), "Walls");
+  }
   const int zone = choices.pick("with.zones",
     { "none", "frozen array", "rigid array", "both", "region", "selection" },
     { 20, 1, 1, 1, 1, 1 });

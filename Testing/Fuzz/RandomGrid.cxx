@@ -3,6 +3,7 @@
 
 #include "Mesh/CellShape.h"
 #include "Mesh/CollapsedCells.h"
+#include "Mesh/FaceTable.h"
 #include "PolyhedralMeshes.h"
 #include "RandomMesh.h"
 
@@ -10,6 +11,7 @@
 #include <vtkCellData.h>
 #include <vtkDoubleArray.h>
 #include <vtkExtractCells.h>
+#include <vtkFieldData.h>
 #include <vtkIdList.h>
 #include <vtkIdTypeArray.h>
 #include <vtkImageData.h>
@@ -20,6 +22,7 @@
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkSignedCharArray.h>
+#include <vtkStringArray.h>
 #include <vtkTable.h>
 #include <vtkTypeInt64Array.h>
 #include <vtkUnsignedCharArray.h>
@@ -136,6 +139,45 @@ void addMarks(Choices& choices, vtkUnstructuredGrid* grid)
   grid->GetPointData()->AddArray(vectors);
   grid->GetPointData()->AddArray(points);
   grid->GetCellData()->AddArray(cells);
+}
+
+/// Adds two-dimensional cells on faces inside of the mesh: one of a sheet, two of a baffle.
+void addWalls(Choices& choices, morph::Mesh& mesh)
+{
+  Random random = choices.stream("walls");
+  morph::Monitor monitor;
+  const morph::FaceTable table = morph::faceTable(mesh, monitor);
+  const double share = random.unit();
+  for (Index f = 0; f < table.start.back(); ++f)
+  {
+    const Index size = table.size(f);
+    if (table.first[f] == f && table.uses[f] == 2 && (size == 3 || size == 4) &&
+        random.happens(share))
+    {
+      const std::vector<Index> corners(table.corners.begin(f), table.corners.end(f));
+      const int sides = random.happens(0.5) ? 1 : 2;
+      for (int side = 0; side < sides; ++side)
+      {
+        meshes::add(mesh, size == 3 ? morph::Triangle : morph::Quad, corners);
+      }
+    }
+  }
+}
+
+/// Names the cells from this one on "Walls".
+void nameWalls(vtkIdType first, vtkUnstructuredGrid* grid)
+{
+  vtkNew<vtkUnsignedCharArray> marks;
+  marks->SetName("Walls");
+  for (vtkIdType c = 0; c < grid->GetNumberOfCells(); ++c)
+  {
+    marks->InsertNextValue(c >= first);
+  }
+  grid->GetCellData()->AddArray(marks);
+  vtkNew<vtkStringArray> names;
+  names->SetName("SurfaceNames");
+  names->InsertNextValue("Walls");
+  grid->GetFieldData()->AddArray(names);
 }
 
 /// Node ids that do not exist, cells with too few nodes, lists that are too short.
@@ -301,6 +343,12 @@ RandomGrid randomGrid(Choices& choices)
 {
   RandomGrid result;
   result.mesh = randomMesh(choices);
+  result.hasWalls = choices.chance("with.walls", 0.06);
+  const Index firstWall = result.mesh.numberOfCells();
+  if (result.hasWalls)
+  {
+    addWalls(choices, result.mesh);
+  }
   const bool hostile = choices.chance("hostile.grid", 0.1);
   const double polyhedra = choices.number("with.polyhedra", 0,
     [](Random& random) { return random.happens(0.05) ? random.between(0.3, 1.5) : 0; });
@@ -325,6 +373,10 @@ RandomGrid randomGrid(Choices& choices)
   {
     addForeignCells(choices, grid);
     result.isAsMesh = false;
+  }
+  if (result.hasWalls)
+  {
+    nameWalls(firstWall, grid);
   }
   if (choices.chance("with.marks", 0.2))
   {

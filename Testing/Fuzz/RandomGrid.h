@@ -22,6 +22,7 @@ struct RandomGrid
   double size = 0;                     ///< of `mesh`
   /// false: `data` is no grid, or its cells, ids or points are not those of `mesh`
   bool isAsMesh = true;
+  bool hasWalls = false; ///< the set "Walls" of two-dimensional cells inside
   bool hasGhosts = false;
   bool hasOddArrays = false; ///< arrays that are too short, too long or of unexpected types
 
