@@ -54,7 +54,10 @@ bool isFloat(vtkPointSet* data)
 /// What coordinates lose, in their unit.
 double rounding(const morph::Points& x, bool isSingle)
 {
-  return x.size() == 0 ? 0 : (isSingle ? 1.2e-7 : 4.5e-16) * x.cwiseAbs().maxCoeff();
+  // Floats below 1e-38 are multiples of one number, however small they are.
+  const double subnormal = isSingle ? 2 * std::numeric_limits<float>::denorm_min() : 0;
+  const double unit = isSingle ? 1.2e-7 : 4.5e-16;
+  return x.size() == 0 ? 0 : unit * x.cwiseAbs().maxCoeff() + subnormal;
 }
 
 /// By how much a case moves the boundary, at most, in sizes of the mesh; infinite if that is not
