@@ -45,7 +45,7 @@ public:
   std::vector<double> extend(const std::vector<double>& values) const;
 
 private:
-  using Means = Eigen::SparseMatrix<double, Eigen::RowMajor, Index>;
+  using Means = Eigen::SparseMatrix<double, Eigen::RowMajor, int>;
 
   Piece ownPieces(const PolyhedronPieces& cut);
   void takeMeans(const PolyhedronPieces& cut, const std::vector<Index>& centers);

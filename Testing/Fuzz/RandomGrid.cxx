@@ -147,7 +147,7 @@ void addWalls(Choices& choices, morph::Mesh& mesh)
   Random random = choices.stream("walls");
   morph::Monitor monitor;
   const morph::FaceTable table = morph::faceTable(mesh, monitor);
-  const double share = random.unit();
+  const double share = 0.3 * random.unit();
   for (Index f = 0; f < table.start.back(); ++f)
   {
     const Index size = table.size(f);

@@ -79,7 +79,7 @@ void HigherOrderNodes::prepare(const Mesh& rest, const NodePartition& partition)
     row[this->ids_[i]] = static_cast<Index>(i);
   }
 
-  std::vector<Eigen::Triplet<double, Index>> entries;
+  std::vector<Eigen::Triplet<double, int>> entries;
   std::vector<int> cells(this->ids_.size(), 0);
   for (Index c = 0; c < rest.numberOfCells(); ++c)
   {
@@ -111,7 +111,7 @@ void HigherOrderNodes::prepare(const Mesh& rest, const NodePartition& partition)
       {
         if (N[a] != 0)
         {
-          entries.emplace_back(r, rest.cell(c)[a], N[a]);
+          entries.emplace_back(static_cast<int>(r), static_cast<int>(rest.cell(c)[a]), N[a]);
         }
       }
     }

@@ -30,6 +30,6 @@ public:
 
 private:
   std::vector<Index> ids_;
-  Eigen::SparseMatrix<double, Eigen::RowMajor, Index> weights_; ///< #higherOrderNodes x #nodes
+  Eigen::SparseMatrix<double, Eigen::RowMajor, int> weights_; ///< #higherOrderNodes x #nodes
 };
 }

@@ -2,6 +2,7 @@
 #include "Mesh/PolyhedronPieces.h"
 
 #include "Mesh/FaceTable.h"
+#include "Mesh/IndexLimits.h"
 #include "Mesh/Polyhedra.h"
 #include "Mesh/SimplicialDecomposition.h"
 
@@ -88,10 +89,10 @@ struct Means
       [](const auto& a, const auto& b) { return a.first < b.first; });
     this->offsets.push_back(static_cast<Index>(this->weights.size()));
   }
-  Eigen::SparseMatrix<double, Eigen::RowMajor, Index> matrix(Index nodes) const
+  Eigen::SparseMatrix<double, Eigen::RowMajor, int> matrix(Index nodes) const
   {
     const auto rows = static_cast<Index>(this->offsets.size()) - 1;
-    Eigen::SparseMatrix<double, Eigen::RowMajor, Index> result(rows, nodes);
+    Eigen::SparseMatrix<double, Eigen::RowMajor, int> result(rows, nodes);
     result.reserve(static_cast<Index>(this->weights.size()));
     for (Index row = 0; row < rows; ++row)
     {
@@ -266,6 +267,7 @@ void append(const Cells& cells, Mesh& mesh)
 PolyhedronPieces::PolyhedronPieces(const Mesh& mesh, Monitor& monitor, bool cutsAll)
   : nodes_(mesh.numberOfNodes())
 {
+  requireIndexable(mesh); // the weights of centers are numbered by ints
   const FaceTable table = faceTable(mesh, monitor);
   const std::vector<Index> centers = numberCenters(mesh, table, this->faceCenters_);
   Means means;

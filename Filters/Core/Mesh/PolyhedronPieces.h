@@ -49,7 +49,7 @@ public:
   ///@{
   Index cellOf(Index piece) const;
   Index faceCenters() const { return this->faceCenters_; }
-  const Eigen::SparseMatrix<double, Eigen::RowMajor, Index>& means() const { return this->means_; }
+  const Eigen::SparseMatrix<double, Eigen::RowMajor, int>& means() const { return this->means_; }
   ///@}
 
 private:
@@ -57,6 +57,6 @@ private:
   std::vector<Index> cellOfOther_; ///< the cell of each piece beyond the mesh's cells
   Index nodes_ = 0;                ///< without centers
   Index faceCenters_ = 0;
-  Eigen::SparseMatrix<double, Eigen::RowMajor, Index> means_; ///< #centers x #nodes
+  Eigen::SparseMatrix<double, Eigen::RowMajor, int> means_; ///< #centers x #nodes
 };
 }

@@ -60,9 +60,10 @@ Precision Precision::Of(vtkPoints* points, const morph::Points& coordinates)
 
 double Precision::SingleStep() const
 {
-  return this->IsSingle && this->Largest > 0
-           ? std::ldexp(1, std::ilogb(this->Largest) + 1 - std::numeric_limits<float>::digits)
-           : 0;
+  using Single = std::numeric_limits<float>;
+  // Below 1e-38 floats are multiples of one number.
+  const int exponent = std::max(std::ilogb(this->Largest) + 1, Single::min_exponent);
+  return this->IsSingle && this->Largest > 0 ? std::ldexp(1, exponent - Single::digits) : 0;
 }
 
 double Precision::DecimalStep() const
@@ -75,7 +76,7 @@ double Precision::DecimalStep() const
 bool Precision::IsRounded(double x, double y) const
 {
   // Six digits change no number by more than that, so that a motion is seldom looked at closely.
-  if (std::abs(x - y) > 1e-5 * std::abs(y))
+  if (std::abs(x - y) > std::max(1e-5 * std::abs(y), this->Step()))
   {
     return false;
   }
