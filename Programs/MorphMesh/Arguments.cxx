@@ -47,7 +47,7 @@ const Command Commands[] = {
     Files },
   { "repair", Arguments::Task::Repair, "untangle inverted cells; the boundary stays",
     "[options] <grid> <output>",
-    "repair tangled.vtu valid.vtu\nrepair --free WALL tangled.inp valid.inp\n"
+    "repair tangled.vtu valid.vtu\nrepair --free-surfaces WALL tangled.inp valid.inp\n"
     "repair --effort thorough --method inversion-free tangled.vtu better.vtu",
     nullptr },
   { "extract", Arguments::Task::ExtractBoundary, "write the boundary, to be moved elsewhere",

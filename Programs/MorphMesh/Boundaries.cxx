@@ -250,7 +250,7 @@ void addPolygon(vtkPolyData* boundary, vtkIdList* corners, SurfaceSums& sums)
   }
 }
 
-/// What --fix-zone, --rigid and --soft can name: "zone rotor: 64 cells".
+/// What --fixed-zones, --rigid-zones and --soft-zones can name: "zone rotor: 64 cells".
 void printZones(vtkBoundaryDisplacement* filter)
 {
   vtkStringArray* sizes = filter->GetZoneSizes();

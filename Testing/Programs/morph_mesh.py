@@ -104,7 +104,7 @@ class MorphMesh(unittest.TestCase):
                  BORE, moved),
                 (2, "remove one of them", "--move", "Surface 1", "--scale", "2", "--target",
                  "x.stl", BORE, moved),
-                (2, "Nothing says what moves", "--free", "Surface 1", BORE, moved),
+                (2, "Nothing says what moves", "--free-surfaces", "Surface 1", BORE, moved),
                 (2, "--scale needs Displacement Translate, rotate, scale, and --align", "--move",
                  "Surface 1", "--scale", "2", "--align",
                  BORE, moved),
@@ -302,13 +302,13 @@ class MorphMesh(unittest.TestCase):
     def test_a_free_surface_is_solved_with_the_interior(self):
         options = ("--move", "Surface 1", "--translate", "0,0,0.2", BORE, self.folder / "out.vtu")
         prescribed = []
-        for free in ((), ("--free", "Surface 0"), ("--free", "Surface 1")):
+        for free in ((), ("--free-surfaces", "Surface 0"), ("--free-surfaces", "Surface 1")):
             result = run(*free, *options)
             self.assertEqual(result.returncode, 0, result.stderr)
             prescribed.append(int(re.search(r"(\d+) of them prescribed", result.stdout).group(1)))
         self.assertLess(prescribed[1], prescribed[0])
         self.assertEqual(prescribed[2], prescribed[0])  # what moves is not free
-        self.fails(1, "FreeSurfaces names 'Wall'", "--free", "Wall", *options)
+        self.fails(1, "FreeSurfaces names 'Wall'", "--free-surfaces", "Wall", *options)
 
     def test_what_slides_is_iterated_with_the_volume(self):
         options = ("--move", "Surface 1", "--translate", "0,0,0.2", BORE, self.folder / "out.vtu")
@@ -336,7 +336,8 @@ class MorphMesh(unittest.TestCase):
     def test_zones_and_layers_are_prescribed(self):
         options = ("--move", "Surface 1", "--translate", "0,0,0.2", BORE, self.folder / "out.vtu")
         prescribed = []
-        for more in ((), ("--fix-zone", "GeometryDimension"), ("--rigid", "GeometryDimension"),
+        for more in ((), ("--fixed-zones", "GeometryDimension"),
+                     ("--rigid-zones", "GeometryDimension"),
                      ("--keep-layers", "1")):
             result = run(*more, *options)
             self.assertEqual(result.returncode, 0, result.stderr)
@@ -344,8 +345,8 @@ class MorphMesh(unittest.TestCase):
         self.assertGreater(prescribed[1], prescribed[0])  # all but vertices, inner nodes too
         self.assertEqual(prescribed[2], prescribed[1])
         self.assertGreater(prescribed[3], prescribed[0])
-        self.fails(1, "The zone 'Bolt' is neither", "--fix-zone", "Bolt", *options)
-        self.fails(2, "--fix-zone has no effect", "--fix-zone",
+        self.fails(1, "The zone 'Bolt' is neither", "--fixed-zones", "Bolt", *options)
+        self.fails(2, "--fixed-zones has no effect", "--fixed-zones",
                    "Bolt", BORE, self.boundary,
                    self.folder / "out.vtu")
         self.fails(2, "--keep-layers needs a whole number", "--keep-layers", "0.5", *options)
@@ -362,7 +363,7 @@ class MorphMesh(unittest.TestCase):
             encoding="utf-8")
         for options in (("--handles", handles), ("--lattice", lattice, "--lattice-size", "2,2,2"),
                         ("--lattice", lattice, "--lattice-size=2,2,2", "--lattice-basis=b-spline",
-                         "--lattice-box=-99,99,-99,99,-99,99")):
+                         "--lattice-bounds=-99,99,-99,99,-99,99")):
             with self.subTest(options=options):  # everything is translated
                 result = run(*options, BORE, moved)
                 self.assertEqual((result.returncode, result.stderr), (0, ""))
@@ -569,6 +570,7 @@ class MorphMesh(unittest.TestCase):
 
         self.assertIn("--translate", completed("--tr"))
         self.assertIn("Surface\\ 1", completed(str(BORE), "--move", "Surf"))
+        self.assertIn("GeometryDimension", completed(str(BORE), "--fixed-zones", "Geo"))
 
     def test_output_that_cannot_be_written_fails(self):
         with open("/dev/full", "w", encoding="utf-8") as full:

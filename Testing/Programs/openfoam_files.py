@@ -65,7 +65,7 @@ class OpenFoam(solver_files.SolverFiles):
         self.assertRegex(listed, r"disk +1 +\S+ .*  inner")
         once, twice = self.folder / "once.vtk", self.folder / "twice.vtk"
         for out, way in ((once, "0.01,0,0"), (twice, "0.02,0,0")):
-            result = run("--move", "wall", "--translate", way, "--fix-zone", "rotor", case, out)
+            result = run("--move", "wall", "--translate", way, "--fixed-zones", "rotor", case, out)
             self.assertEqual(result.returncode, 0, result.stderr)
         a, b = points_of(once), points_of(twice)
         place = {node: i for i, node in enumerate(foam.model.order)}
@@ -75,7 +75,7 @@ class OpenFoam(solver_files.SolverFiles):
                 self.assertEqual(a[3 * i:3 * i + 3], b[3 * i:3 * i + 3])
         self.assertNotEqual(a, b)
         self.refuse("The zone 'rotr' is neither .*; it has rotor", "--move", "wall", "--translate",
-                    "1,0,0", "--rigid", "rotr", case, once)
+                    "1,0,0", "--rigid-zones", "rotr", case, once)
         foam.write_zones(mesh, [10 ** 6], [0])
         self.refuse("zone rotor of cellZones has the entry 1000000", "list", case)
 
