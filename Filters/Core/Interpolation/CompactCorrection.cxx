@@ -15,7 +15,9 @@ namespace
 {
 constexpr Index BlockLength = 256;
 constexpr double Reach = 2.5; // radius over the distance of a level's sites
-constexpr double Ratio = 0.5; // of a level's distance to that of the level before
+// Of a level's distance to that of the level before: a half, and what rounding makes of it on a
+// structured boundary.
+constexpr double Ratio = 0.5 * (1 + 1e-5);
 
 /// A target within a kernel's radius.
 struct Entry

@@ -81,14 +81,17 @@ MORPH_SIMD_INLINE T greatest(const T& a, const T& b)
   return select(a < b, b, a);
 }
 
+/// In two steps: libc++'s std::hypot of three numbers squares them.
 MORPH_SIMD_INLINE double lengthWithoutUnderflow(const Vector3<double>& v)
 {
-  return std::hypot(v.x, v.y, v.z);
+  return std::hypot(std::hypot(v.x, v.y), v.z);
 }
 
 MORPH_SIMD_INLINE SimdDouble4 lengthWithoutUnderflow(const Vector3<SimdDouble4>& v)
 {
-  const auto lane = [&v](int i) { return std::hypot(v.x[i], v.y[i], v.z[i]); };
+  const auto lane = [&v](int i) {
+    return lengthWithoutUnderflow(Vector3<double>{ v.x[i], v.y[i], v.z[i] });
+  };
   return SimdDouble4{ lane(0), lane(1), lane(2), lane(3) };
 }
 
