@@ -3,6 +3,7 @@
 
 #include "Geometry/NearestNodes.h"
 #include "Interpolation/RadialKernel.h"
+#include "Solvers/ConjugateGradients.h"
 #include "Support/Error.h"
 
 #include <algorithm>
@@ -101,27 +102,28 @@ WeightMatrix kernelsAt(const Points& targets, const Points& sites, double radius
 /// of many motions, and could not be interrupted.
 Points solved(const WeightMatrix& matrix, const Points& b, Monitor& monitor)
 {
-  constexpr double Squared = 1e-31; // of the tolerance
+  constexpr double Tolerance = 1e-14;
   constexpr int MostIterations = 10000;
-  Points x = Points::Zero(b.rows(), 3), r = b, p = b, q;
-  Eigen::Array3d rr = r.colwise().squaredNorm();
-  const Eigen::Array3d goal = Squared * rr;
-  for (int i = 0; !(rr <= goal).all(); ++i)
+  Points x = Points::Zero(b.rows(), 3);
+  PointsSystem system{ [&](const Points& from, Points& to) { matrix.multiply(from, to, monitor); },
+    [](const Points& from, Points& to) { to = from; },
+    [](const Points& p, const Points& q) { return p.cwiseProduct(q).sum(); }, b, x, monitor };
+  Sums norm2 = system.residual();
+  SolverGoal goal = solverGoal(norm2, norm2, Tolerance, MostIterations);
+  goal.atStart = 0; // it is one solution of several
+  try
   {
-    if (i == MostIterations || !rr.allFinite())
+    conjugateGradients(system, norm2, goal, monitor);
+  }
+  catch (const Error& error)
+  {
+    if (error.kind() != Error::Kind::NoConvergence)
     {
-      throw Error(Error::Kind::NoConvergence,
-        "Compact kernels at " + std::to_string(b.rows()) +
-          " prescribed places were not solved for: merge prescribed nodes that nearly coincide.");
+      throw;
     }
-    monitor.check();
-    matrix.multiply(p, q, monitor);
-    const Eigen::Array3d pq = p.cwiseProduct(q).colwise().sum(), before = rr;
-    const Eigen::Array3d step = (rr > goal).select(rr / pq, 0.);
-    x += p * step.matrix().asDiagonal();
-    r -= q * step.matrix().asDiagonal();
-    rr = r.colwise().squaredNorm();
-    p = r + p * (before > goal).select(rr / before, 0.).matrix().asDiagonal();
+    throw Error(error.kind(),
+      "Compact kernels at " + std::to_string(b.rows()) +
+        " prescribed places were not solved for: merge prescribed nodes that nearly coincide.");
   }
   return x;
 }
