@@ -170,8 +170,8 @@ TEST(RankBlockChoices, AZoneThatNoRankHasIsOneError)
   EXPECT_EQ(ranks.sum(static_cast<morph::Index>(listener.Errors.size())), 1);
   for (const std::string& error : listener.Errors)
   {
-    EXPECT_NE(
-      error.find("'Nowhere' is neither a point array, a cell array nor a block"), std::string::npos)
+    EXPECT_NE(error.find("'Nowhere' is neither a set, a point or cell array nor a block"),
+      std::string::npos)
       << error;
   }
   EXPECT_STREQ(filter->GetMorphStatus(), "Failed");
