@@ -142,7 +142,7 @@ public:
   ///@{
   /**
    * Names of zones, as GetSurfaceList() has those of surfaces: sets of cells or nodes, blocks, and
-   * other arrays that are zero at some places and not at others. The size of each: its name, how
+   * other arrays of two values, one of them 0. The size of each: its name, how
    * many volume cells it has and, of a set of nodes, how many nodes, three strings each. Of a mesh
    * on several MPI ranks these are empty.
    */

@@ -570,7 +570,12 @@ class MorphMesh(unittest.TestCase):
 
         self.assertIn("--translate", completed("--tr"))
         self.assertIn("Surface\\ 1", completed(str(BORE), "--move", "Surf"))
-        self.assertIn("GeometryDimension", completed(str(BORE), "--fixed-zones", "Geo"))
+        marked = self.folder / "marked.vtk"
+        marked.write_text("# vtk DataFile Version 3.0\nmarks\nASCII\nDATASET UNSTRUCTURED_GRID\n"
+                          "POINTS 4 double\n0 0 0 1 0 0 0 1 0 0 0 1\nCELLS 1 5\n4 0 1 2 3\n"
+                          "CELL_TYPES 1\n10\nPOINT_DATA 4\nSCALARS Clamp int\n"
+                          "LOOKUP_TABLE default\n1 0 1 0\n")
+        self.assertEqual(["Clamp"], completed(str(marked), "--fixed-zones", "C"))
 
     def test_output_that_cannot_be_written_fails(self):
         with open("/dev/full", "w", encoding="utf-8") as full:

@@ -101,7 +101,7 @@ std::string shortName(const std::string& block)
            : block.substr(begin + 1, end - begin - 1);
 }
 
-/// Whether the array marks some of its tuples, and others not: an array of ids has one zero.
+/// Whether the array has two values, one of them 0.
 bool isMarks(vtkDataArray* array, vtkIdType size)
 {
   if (!array || array->GetNumberOfComponents() != 1 || array->GetNumberOfTuples() != size ||
@@ -109,9 +109,20 @@ bool isMarks(vtkDataArray* array, vtkIdType size)
   {
     return false;
   }
-  const Flags marks = Choice::Marked(array);
-  const auto count = std::count(marks.begin(), marks.end(), 1);
-  return count > 0 && count + 1 < size;
+  double mark = 0;
+  bool anyZero = false;
+  for (vtkIdType i = 0; i < size; ++i)
+  {
+    const double value = array->GetComponent(i, 0);
+    const bool isZero = value == 0;
+    anyZero = anyZero || isZero;
+    mark = isZero || mark != 0 ? mark : value;
+    if (!isZero && value != mark) // NaN, too
+    {
+      return false;
+    }
+  }
+  return anyZero && mark != 0;
 }
 
 /// The names that may be a zone's, in the order of the list.

@@ -68,8 +68,8 @@ struct Listed
   morph::Index Cells = 0, Nodes = 0;
 };
 /// What can be named, for users to choose from: the sets that the field data SurfaceNames lists,
-/// with volume cells or nodes, the blocks, and other arrays of one component that are zero at some
-/// places and not at others. Each once, in this order. Cost: a pass over each.
+/// with volume cells or nodes, the blocks, and other arrays of two values, one of them 0. Each
+/// once, in this order. Cost: a pass over each.
 std::vector<Listed> List(
   vtkUnstructuredGrid* grid, const morph::Mesh& mesh, const MergedBlocks* blocks);
 
