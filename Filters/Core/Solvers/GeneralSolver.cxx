@@ -177,7 +177,8 @@ SolveReport GeneralSolver::solve(const RightHandSide& b, MultiVector& x, double 
 {
   constexpr double Rounding = 1e-14;
   const Parts& parts = *this->parts_;
-  Workspace work = parts.workspace();
+  const auto kept = parts.workspace();
+  Workspace& work = *kept;
   const auto squares = [&](const auto& vectors)
   {
     return parts.components.sumsOfRows(

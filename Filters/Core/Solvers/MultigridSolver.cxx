@@ -61,7 +61,8 @@ void MultigridSolver::product(const Points& from, Points& to, Monitor& monitor) 
 void MultigridSolver::precondition(const Points& from, Points& to, Monitor& monitor) const
 {
   const Index n = from.rows();
-  Workspace work = this->parts_->workspace();
+  const auto kept = this->parts_->workspace();
+  Workspace& work = *kept;
   // Single precision: scales the numbers to the preconditioner's size.
   const double norm2 = dot(from, from, monitor);
   const double unscale =
@@ -73,6 +74,24 @@ void MultigridSolver::precondition(const Points& from, Points& to, Monitor& moni
   to.resize(n, 3);
   parallel(
     n, monitor, [&](Index i) { to.row(i) = factor * work.step[i].head<3>().cast<double>(); });
+}
+
+std::shared_ptr<MultigridSolver::Workspace> MultigridSolver::Parts::workspace() const
+{
+  std::unique_ptr<Workspace> work;
+  {
+    const std::lock_guard<std::mutex> lock(this->mutex);
+    work.swap(this->spare);
+  }
+  if (!work)
+  {
+    work = std::make_unique<Workspace>(this->A.rows(), this->multigrid);
+  }
+  return { work.release(), [this](Workspace* used)
+    {
+      const std::lock_guard<std::mutex> lock(this->mutex);
+      this->spare.reset(used);
+    } };
 }
 
 Sums MultigridSolver::Parts::residual(

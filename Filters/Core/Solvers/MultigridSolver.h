@@ -10,6 +10,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <mutex>
 
 namespace morph
 {
@@ -67,8 +68,12 @@ protected:
     CsrMatrix A;
     RowComponents components;
     Multigrid multigrid;
+    mutable std::mutex mutex; ///< of `spare`
+    mutable std::unique_ptr<Workspace> spare;
 
-    Workspace workspace() const { return { this->A.rows(), this->multigrid }; }
+    /// The vectors of the last solve, or others while it runs. New memory would cost as much as
+    /// the iterations of a solve where pages are dear, as in virtual machines.
+    std::shared_ptr<Workspace> workspace() const;
     /// Sets r to b - A x; returns the squared norms.
     Sums residual(
       const RightHandSide& b, const MultiVector& x, MultiVector& r, Monitor& monitor) const;

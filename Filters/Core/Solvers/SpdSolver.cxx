@@ -95,7 +95,8 @@ SolveReport SpdSolver::solve(const RightHandSide& b, MultiVector& x, double tole
   int maxIterations, Monitor& monitor) const
 {
   const Parts& parts = *this->parts_;
-  Workspace work = parts.workspace();
+  const auto kept = parts.workspace();
+  Workspace& work = *kept;
   Iteration iteration = { parts, b, x, work, monitor };
   const Sums bNorm2 = parts.components.sumsOfRows(
     b.rows(), monitor, [&](Index i, int) { return MultiVectorRow(b[i].cwiseAbs2()); });
