@@ -344,11 +344,14 @@ class OpenFoam:
     def write_zones(self, mesh, cells, faces):
         """Into polyMesh: the zones `rotor` of cells and `disk` of faces, by their numbers."""
         zone = "{}\n{{\n    type {}Zone;\n{}Labels      List<label> \n{};\n{}}}\n".format
+        # As binary files have an empty list.
+        none = "nothing\n{{\n    type {0}Zone;\n{0}Labels      0;\n{1}}}\n".format
         flips = f"    flipMap         List<bool> {len(faces)}{{0}};\n"
         for kind, text in (("cell", zone("rotor", "cell", "cell", self.labels(cells), "")),
                            ("face", zone("disk", "face", "face", self.labels(faces), flips))):
             (mesh / f"{kind}Zones").write_text(
-                foam_header("regIOobject", f"{kind}Zones") + f"1\n(\n{text})\n")
+                foam_header("regIOobject", f"{kind}Zones") +
+                f"2\n(\n{text}{none(kind, '    flipMap 0;' if kind == 'face' else '')})\n")
 
     def write_binary(self, folder, label=4, scalar=8):
         """As write(), but binary; returns the folder, and points before and after the numbers."""

@@ -183,6 +183,10 @@ std::vector<Index> FoamList::labels()
 {
   std::vector<Index> result(
     static_cast<std::size_t>(this->count(this->isBinary_ ? this->bytesOfLabel_ : 2)));
+  if (result.empty() && this->peek() != '(')
+  {
+    return result; // as binary files have it
+  }
   this->expect('(');
   if (!this->isBinary_)
   {
@@ -340,33 +344,39 @@ void FoamList::readDictionary(Take take)
   this->expect('}');
 }
 
-std::vector<FoamList::Patch> FoamList::patches()
+template <typename Entry, typename Take>
+std::vector<Entry> FoamList::namedEntries(Take take)
 {
-  std::vector<Patch> result(static_cast<std::size_t>(this->count(4)));
+  std::vector<Entry> result(static_cast<std::size_t>(this->count(4)));
   this->expect('(');
-  for (Patch& patch : result)
+  for (Entry& entry : result)
   {
-    patch.name = std::string(this->word().of(this->content_));
-    this->readDictionary(
-      [&](const std::string& key, bool)
-      {
-        if (key == "type")
-        {
-          patch.type = std::string(this->word().of(this->content_));
-        }
-        else if (key == "nFaces" || key == "startFace")
-        {
-          (key == "nFaces" ? patch.count : patch.first) = this->integer();
-        }
-        else
-        {
-          return false;
-        }
-        this->expect(';');
-        return true;
-      });
+    entry.name = std::string(this->word().of(this->content_));
+    this->readDictionary([&](const std::string& key, bool) { return take(entry, key); });
   }
   return result;
+}
+
+std::vector<FoamList::Patch> FoamList::patches()
+{
+  return this->namedEntries<Patch>(
+    [this](Patch& patch, const std::string& key)
+    {
+      if (key == "type")
+      {
+        patch.type = std::string(this->word().of(this->content_));
+      }
+      else if (key == "nFaces" || key == "startFace")
+      {
+        (key == "nFaces" ? patch.count : patch.first) = this->integer();
+      }
+      else
+      {
+        return false;
+      }
+      this->expect(';');
+      return true;
+    });
 }
 
 /// "List<label>" before a list.
@@ -379,13 +389,13 @@ void FoamList::skipListType()
   }
 }
 
-/// "flipMap List<bool> 3(0 1 0);", "3{0};" or, of a binary file, bytes.
+/// "flipMap List<bool> 3(0 1 0);", "3{0};" or, of a binary file, bytes or "0;".
 void FoamList::skipFlips()
 {
   this->skipListType();
   const auto flips = static_cast<std::size_t>(std::max<Index>(this->integer(), 0));
   const bool areAlike = this->peek() == '{';
-  if (areAlike || this->isBinary_)
+  if (flips > 0 && (areAlike || this->isBinary_))
   {
     ++this->at_;
     this->bytes(areAlike ? 1 : flips);
@@ -396,30 +406,23 @@ void FoamList::skipFlips()
 
 std::vector<FoamList::Zone> FoamList::zones()
 {
-  std::vector<Zone> result(static_cast<std::size_t>(this->count(4)));
-  this->expect('(');
-  for (Zone& zone : result)
-  {
-    zone.name = std::string(this->word().of(this->content_));
-    this->readDictionary(
-      [&](const std::string& key, bool)
+  return this->namedEntries<Zone>(
+    [this](Zone& zone, const std::string& key)
+    {
+      if (key == "flipMap")
       {
-        if (key == "flipMap")
-        {
-          this->skipFlips();
-          return true;
-        }
-        if (key != "cellLabels" && key != "faceLabels" && key != "pointLabels")
-        {
-          return false;
-        }
-        this->skipListType();
-        zone.members = this->labels();
-        this->expect(';');
+        this->skipFlips();
         return true;
-      });
-  }
-  return result;
+      }
+      if (key != "cellLabels" && key != "faceLabels" && key != "pointLabels")
+      {
+        return false;
+      }
+      this->skipListType();
+      zone.members = this->labels();
+      this->expect(';');
+      return true;
+    });
 }
 
 /// "uniform (x y z);" or "nonuniform List<vector> N(...);"

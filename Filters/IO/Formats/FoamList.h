@@ -71,6 +71,9 @@ private:
   /// or returns false to have it skipped.
   template <typename Take>
   void readDictionary(Take take);
+  /// A list of dictionaries, each with its name. `take`: as of readDictionary(), with the entry.
+  template <typename Entry, typename Take>
+  std::vector<Entry> namedEntries(Take take);
   void skipEntry();
   void skipListType();
   void skipFlips();
