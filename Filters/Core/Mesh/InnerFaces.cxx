@@ -5,24 +5,17 @@
 #include "Mesh/FaceTable.h"
 
 #include <algorithm>
-#include <map>
 
 namespace morph
 {
-namespace
-{
-using Corners = std::vector<Index>; ///< ascending
-
-Corners sorted(const Index* begin, const Index* end)
+Corners sortedCorners(const Index* begin, const Index* end)
 {
   Corners corners(begin, end);
   std::sort(corners.begin(), corners.end());
   return corners;
 }
 
-/// How many of the cells have these corners; none that are those of an outer face.
-std::map<Corners, int> cellsInside(
-  const Mesh& mesh, const BoundaryFaces& outer, const std::vector<std::uint8_t>& isMarked)
+std::map<Corners, int> flatCells(const Mesh& mesh, const std::vector<std::uint8_t>& isMarked)
 {
   std::map<Corners, int> cells;
   for (Index c = 0; c < mesh.numberOfCells(); ++c)
@@ -31,22 +24,21 @@ std::map<Corners, int> cellsInside(
     if (shape && shape->dimension == 2)
     {
       const Index size = shape->numberOfCorners > 0 ? shape->numberOfCorners : mesh.cellSize(c);
-      ++cells[sorted(mesh.cell(c), mesh.cell(c) + size)];
+      ++cells[sortedCorners(mesh.cell(c), mesh.cell(c) + size)];
     }
   }
-  const Index* all = outer.connectivity.data();
-  for (std::size_t f = 0; f + 1 < outer.offsets.size() && !cells.empty(); ++f)
-  {
-    cells.erase(sorted(all + outer.offsets[f], all + outer.offsets[f + 1]));
-  }
   return cells;
-}
 }
 
 InnerFaces innerFaces(const Mesh& mesh, const BoundaryFaces& outer,
   const std::vector<std::uint8_t>& isMarked, Monitor& monitor)
 {
-  const std::map<Corners, int> cells = cellsInside(mesh, outer, isMarked);
+  std::map<Corners, int> cells = flatCells(mesh, isMarked);
+  const Index* all = outer.connectivity.data();
+  for (std::size_t f = 0; f + 1 < outer.offsets.size() && !cells.empty(); ++f)
+  {
+    cells.erase(sortedCorners(all + outer.offsets[f], all + outer.offsets[f + 1]));
+  }
   InnerFaces result;
   if (cells.empty())
   {
@@ -61,7 +53,7 @@ InnerFaces innerFaces(const Mesh& mesh, const BoundaryFaces& outer,
       {
         continue;
       }
-      const auto found = cells.find(sorted(table.corners.begin(f), table.corners.end(f)));
+      const auto found = cells.find(sortedCorners(table.corners.begin(f), table.corners.end(f)));
       if (found != cells.end())
       {
         InnerFaces::Places& places = found->second > 1 ? result.baffles : result.sheets;

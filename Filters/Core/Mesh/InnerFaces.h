@@ -5,7 +5,9 @@
 #include "Mesh/Topology.h"
 #include "Support/Monitor.h"
 
+#include <cstddef>
 #include <cstdint>
+#include <map>
 #include <utility>
 #include <vector>
 
@@ -18,7 +20,16 @@ struct InnerFaces
   using Places = std::vector<std::pair<Index, int>>;
   Places baffles; ///< under two cells or more, one for each side
   Places sheets;  ///< under one
+
+  std::size_t size() const { return this->baffles.size() + this->sheets.size(); }
 };
+
+using Corners = std::vector<Index>; ///< ascending
+
+Corners sortedCorners(const Index* begin, const Index* end);
+
+/// How many of the two-dimensional cells that are marked have these corners. `isMarked`: #cells.
+std::map<Corners, int> flatCells(const Mesh& mesh, const std::vector<std::uint8_t>& isMarked);
 
 /// Returns those under the cells that `isMarked`, #cells; two-dimensional ones alone count.
 /// `outer`: the mesh's boundaryFaces(). Cost: n log n for n marked cells and outer faces and, if

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Private/Data/NamedSets.h"
 
-#include "Mesh/CellShape.h"
+#include "Mesh/InnerFaces.h"
 
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
@@ -14,8 +14,8 @@
 #include <vtkUnsignedCharArray.h>
 
 #include <algorithm>
+#include <map>
 #include <optional>
-#include <set>
 #include <utility>
 
 namespace morph::filters
@@ -41,51 +41,21 @@ std::vector<std::uint8_t> marks(vtkDataSetAttributes* data, const char* name, vt
   return result;
 }
 
-std::vector<Index> sortedCorners(const Index* begin, const Index* end)
-{
-  std::vector<Index> corners(begin, end);
-  std::sort(corners.begin(), corners.end());
-  return corners;
-}
-
-std::vector<Index> cornersOf(const morph::BoundaryFaces& faces, std::size_t face)
-{
-  const Index* all = faces.connectivity.data();
-  return sortedCorners(all + faces.offsets[face], all + faces.offsets[face + 1]);
-}
-
-/// The corners of the two-dimensional cells that are marked.
-std::set<std::vector<Index>> markedFlatCells(
-  const morph::Mesh& mesh, const std::vector<std::uint8_t>& isMarked)
-{
-  std::set<std::vector<Index>> result;
-  for (Index c = 0; c < mesh.numberOfCells(); ++c)
-  {
-    const morph::CellShape* shape =
-      isMarked[static_cast<std::size_t>(c)] ? morph::cellShape(mesh.types[c]) : nullptr;
-    if (shape && shape->dimension == 2)
-    {
-      const int known = shape->numberOfCorners;
-      const Index size = known > 0 ? known : mesh.cellSize(c);
-      result.insert(sortedCorners(mesh.cell(c), mesh.cell(c) + size));
-    }
-  }
-  return result;
-}
-
 /// A volume cell has faces on the boundary alone, of which the last `inside` faces are not.
 void addFacesOfCells(const morph::Mesh& mesh, const morph::BoundaryFaces& faces, Index firstPolygon,
   std::size_t inside, const std::vector<std::uint8_t>& isMarked, std::vector<Index>& result)
 {
   const bool isGrid = mesh.numberOfCells() > 0;
-  const std::set<std::vector<Index>> flat =
-    isGrid ? markedFlatCells(mesh, isMarked) : std::set<std::vector<Index>>();
+  const std::map<morph::Corners, int> flat =
+    isGrid ? morph::flatCells(mesh, isMarked) : std::map<morph::Corners, int>();
+  const Index* all = faces.connectivity.data();
   const std::size_t count = faces.offsets.size() - 1;
   for (std::size_t f = 0; f < (flat.empty() ? count - inside : count); ++f)
   {
     const Index behind = isGrid ? faces.cells[f] : firstPolygon + static_cast<Index>(f);
     if (flat.empty() ? isMarked[static_cast<std::size_t>(behind)] != 0
-                     : flat.count(cornersOf(faces, f)) > 0)
+                     : flat.count(morph::sortedCorners(
+                         all + faces.offsets[f], all + faces.offsets[f + 1])) > 0)
     {
       result.push_back(static_cast<Index>(f));
     }

@@ -76,7 +76,8 @@ double Precision::DecimalStep() const
 bool Precision::IsRounded(double x, double y) const
 {
   // Six digits change no number by more than that, so that a motion is seldom looked at closely.
-  if (std::abs(x - y) > std::max(1e-5 * std::abs(y), this->Step()))
+  if (std::abs(x - y) >
+      std::max<double>(1e-5 * std::abs(y), std::numeric_limits<float>::denorm_min()))
   {
     return false;
   }

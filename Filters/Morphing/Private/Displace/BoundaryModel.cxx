@@ -180,8 +180,7 @@ void BoundaryModel::Update(vtkPointSet* input, const Geometry::Options& options,
     this->TakeSurface(vtkPolyData::SafeDownCast(input), options, key, next, monitor);
   }
   const Index firstPolygon = next.Surface->GetNumberOfVerts() + next.Surface->GetNumberOfLines();
-  next.NamedSets = FindNamedSets(input, next.Mesh, next.Faces, firstPolygon,
-    next.Inner.baffles.size() + next.Inner.sheets.size());
+  next.NamedSets = FindNamedSets(input, next.Mesh, next.Faces, firstPolygon, next.Inner.size());
   const auto outer = std::stable_partition(next.NamedSets.begin(), next.NamedSets.end(),
     [](const NamedSet& set) { return !set.Nodes.empty(); });
   next.SetsInside.assign(outer, next.NamedSets.end());
@@ -215,7 +214,7 @@ void BoundaryModel::FindFaces(vtkUnstructuredGrid* grid, State& next, morph::Mon
 void BoundaryModel::AddInner(State& next, morph::Monitor& monitor)
 {
   next.Inner = morph::innerFaces(next.Mesh, next.Faces, next.IsNamed, monitor);
-  if (next.Inner.baffles.empty() && next.Inner.sheets.empty())
+  if (next.Inner.size() == 0)
   {
     return;
   }
@@ -240,26 +239,41 @@ bool BoundaryModel::AreLast(const std::vector<Index>& faces, std::size_t number)
 
 bool BoundaryModel::AreInner(const std::vector<Index>& faces) const
 {
-  return this->AreLast(faces, this->Kept.Inner.baffles.size() + this->Kept.Inner.sheets.size());
+  return this->AreLast(faces, this->Kept.Inner.size());
 }
 
-bool BoundaryModel::AreSheets(const std::vector<Index>& faces) const
+std::vector<Index> BoundaryModel::Sheets() const
 {
-  return this->AreLast(faces, this->Kept.Inner.sheets.size());
-}
-
-std::vector<std::uint8_t> BoundaryModel::OffSheets() const
-{
-  std::vector<std::uint8_t> result(this->Kept.Mesh.points.rows(), 1);
-  for (const bool sheets : { true, false }) // other surfaces win
+  std::vector<Index> result;
+  for (std::size_t s = 0; s < this->Kept.Geometry.surfaces.size(); ++s)
   {
-    for (const morph::GeometrySurface& surface : this->Kept.Geometry.surfaces)
+    if (this->AreLast(this->Kept.Geometry.surfaces[s].faces, this->Kept.Inner.sheets.size()))
     {
-      const bool counts = this->AreSheets(surface.faces) == sheets;
-      for (std::size_t i = 0; counts && i < surface.nodes.size(); ++i)
-      {
-        result[surface.nodes[i]] = !sheets;
-      }
+      result.push_back(static_cast<Index>(s));
+    }
+  }
+  return result;
+}
+
+std::vector<std::uint8_t> BoundaryModel::NodesOnlyOn(const std::vector<Index>& surfaces) const
+{
+  std::vector<std::uint8_t> result(this->Points().rows(), 0);
+  const auto mark = [&](Index surface, std::uint8_t value)
+  {
+    for (const Index node : this->Kept.Geometry.surfaces[surface].nodes)
+    {
+      result[node] = value;
+    }
+  };
+  for (const Index s : surfaces)
+  {
+    mark(s, 1);
+  }
+  for (std::size_t s = 0; s < this->Kept.Geometry.surfaces.size(); ++s)
+  {
+    if (!std::binary_search(surfaces.begin(), surfaces.end(), static_cast<Index>(s)))
+    {
+      mark(static_cast<Index>(s), 0);
     }
   }
   return result;
@@ -303,10 +317,9 @@ void BoundaryModel::TakeGrid(vtkUnstructuredGrid* grid, const Geometry::Options&
   next.FaceOfPolygon = Surface::Write(
     grid, next.Mesh, next.Faces, next.Surface, whole ? &whole->Orientation() : nullptr);
   next.NodeOfPoint = next.Faces.nodes;
-  const std::size_t inner = next.Inner.baffles.size() + next.Inner.sheets.size();
-  if (inner > 0)
+  if (next.Inner.size() > 0)
   {
-    const auto first = static_cast<Index>(next.Faces.cells.size() - inner);
+    const auto first = static_cast<Index>(next.Faces.cells.size() - next.Inner.size());
     vtkNew<vtkUnsignedCharArray> isInner;
     isInner->SetName("Inner");
     for (const Index face : next.FaceOfPolygon)

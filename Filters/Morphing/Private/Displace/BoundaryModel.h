@@ -44,11 +44,11 @@ public:
   const morph::BoundaryFaces& Faces() const { return this->Kept.Faces; }
   /// Whether all of these faces lie inside of the mesh.
   bool AreInner(const std::vector<morph::Index>& faces) const;
-  /// Whether all of these faces are those of sheets, which go along with the interior unless they
-  /// are named.
-  bool AreSheets(const std::vector<morph::Index>& faces) const;
-  /// #nodes: 0 for those that are on sheets alone.
-  std::vector<std::uint8_t> OffSheets() const;
+  /// The numbers of the surfaces that are sheets, ascending. They go along with the interior unless
+  /// they are named.
+  std::vector<morph::Index> Sheets() const;
+  /// #nodes: whether a node is on some of these surfaces, ascending, and on no other.
+  std::vector<std::uint8_t> NodesOnlyOn(const std::vector<morph::Index>& surfaces) const;
   /// The geometry; that of a surface is found at its RestPosition.
   const morph::Classification& Geometry() const { return this->Kept.Geometry; }
   /// What the mesh's file names on the boundary; see FindNamedSets().

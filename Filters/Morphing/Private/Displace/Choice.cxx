@@ -165,10 +165,10 @@ Result Choose(vtkPointSet* input, const BoundaryModel& model, const Options& opt
   if (options.How != By::Surfaces)
   {
     // Sheets inside move by their names alone.
-    const std::vector<std::uint8_t> isOff = model.OffSheets();
-    for (std::size_t n = 0; n < isOff.size(); ++n)
+    const std::vector<std::uint8_t> isOnSheet = model.NodesOnlyOn(model.Sheets());
+    for (std::size_t n = 0; n < isOnSheet.size(); ++n)
     {
-      part.HasNode[n] &= isOff[n];
+      part.HasNode[n] = part.HasNode[n] && !isOnSheet[n];
     }
   }
   addNodesBetween(faces, part.HasNode);

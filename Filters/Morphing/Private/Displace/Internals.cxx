@@ -348,14 +348,11 @@ bool vtkBoundaryDisplacement::vtkInternals::Prepare(vtkBoundaryDisplacement* fil
   rest.Follow.unattached = static_cast<morph::UnattachedMotion>(filter->Options->UnattachedMotion);
   rest.Free =
     filters::Patches::Surfaces(this->Model, filter->Options->FreeSurfaces, "FreeSurfaces");
-  const auto& surfaces = this->Model.Geometry().surfaces;
-  for (std::size_t s = 0; s < surfaces.size(); ++s)
+  for (const morph::Index sheet : this->Model.Sheets())
   {
-    const auto number = static_cast<morph::Index>(s);
-    if (this->Model.AreSheets(surfaces[s].faces) &&
-        std::count(rest.Sliding.begin(), rest.Sliding.end(), number) == 0)
+    if (std::count(rest.Sliding.begin(), rest.Sliding.end(), sheet) == 0)
     {
-      rest.Free.push_back(number); // twice does no harm
+      rest.Free.push_back(sheet); // twice does no harm
     }
   }
   std::sort(rest.Free.begin(), rest.Free.end());

@@ -166,7 +166,7 @@ void leaveFree(const BoundaryModel& model, const std::vector<Index>& held,
   {
     return;
   }
-  std::vector<std::uint8_t> isFree(model.Points().rows(), 0);
+  std::vector<std::uint8_t> isFree = model.NodesOnlyOn(surfaces);
   const auto mark = [&](const std::vector<Index>& nodes, std::uint8_t value)
   {
     for (const Index node : nodes)
@@ -174,17 +174,6 @@ void leaveFree(const BoundaryModel& model, const std::vector<Index>& held,
       isFree[node] = value;
     }
   };
-  for (const Index s : surfaces)
-  {
-    mark(model.Geometry().surfaces[s].nodes, 1);
-  }
-  for (std::size_t s = 0; s < model.Geometry().surfaces.size(); ++s)
-  {
-    if (!std::binary_search(surfaces.begin(), surfaces.end(), static_cast<Index>(s)))
-    {
-      mark(model.Geometry().surfaces[s].nodes, 0);
-    }
-  }
   mark(nodes, 1);
   mark(held, 0);
   for (const Index node : model.Faces().nodes)

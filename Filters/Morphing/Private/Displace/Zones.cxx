@@ -18,6 +18,8 @@
 #include <vtkUnstructuredGrid.h>
 
 #include <algorithm>
+#include <optional>
+#include <utility>
 
 namespace morph::filters
 {
@@ -63,32 +65,42 @@ bool isNamed(const std::string& block, const std::string& name)
            block.compare(block.size() - end.size(), end.size(), end) == 0);
 }
 
-/// Fills `part` from the block of that name. Returns false where there is none.
-bool takeBlock(const morph::Mesh& mesh, const MergedBlocks* blocks, Part& part)
+/// What a name marks.
+struct Marked
 {
-  if (!blocks)
+  bool AreNodes = false;
+  std::vector<std::uint8_t> Flags; ///< #nodes or #cells
+};
+
+/// What a cell array, a point array or else a block of that name marks.
+std::optional<Marked> findNamed(vtkUnstructuredGrid* grid, const morph::Mesh& mesh,
+  const MergedBlocks* blocks, const std::string& name)
+{
+  vtkDataArray* ofPoints = grid->GetPointData()->GetArray(name.c_str());
+  vtkDataArray* ofCells = grid->GetCellData()->GetArray(name.c_str());
+  if (ofCells && ofCells->GetNumberOfTuples() == mesh.numberOfCells())
   {
-    return false;
+    return Marked{ false, Choice::Marked(ofCells) };
   }
-  Flags isCell(mesh.numberOfCells(), 0);
+  if (ofPoints && ofPoints->GetNumberOfTuples() == mesh.numberOfNodes())
+  {
+    return Marked{ true, Choice::Marked(ofPoints) };
+  }
+  Marked cells{ false, std::vector<std::uint8_t>(mesh.numberOfCells(), 0) };
   bool found = false;
-  for (std::size_t b = 0; b < blocks->All.size(); ++b)
+  for (std::size_t b = 0; blocks && b < blocks->All.size(); ++b)
   {
     const MergedBlocks::Block& block = blocks->All[b];
-    if (block.IsMesh && isNamed(block.Name, part.Name))
+    if (block.IsMesh && isNamed(block.Name, name))
     {
       found = true;
       for (Index c = 0; c < mesh.numberOfCells(); ++c)
       {
-        isCell[c] = isCell[c] || blocks->BlockOfCell[c] == static_cast<Index>(b);
+        cells.Flags[c] = cells.Flags[c] || blocks->BlockOfCell[c] == static_cast<Index>(b);
       }
     }
   }
-  if (found)
-  {
-    takeCells(mesh, std::move(isCell), part);
-  }
-  return found;
+  return found ? std::optional(std::move(cells)) : std::nullopt;
 }
 
 /// The last part of the path of a block, as isNamed() takes it.
@@ -186,30 +198,19 @@ std::string listed(vtkUnstructuredGrid* grid, const morph::Mesh& mesh, const Mer
 void takeNamed(vtkUnstructuredGrid* grid, const morph::Mesh& mesh, const MergedBlocks* blocks,
   bool isPart, Part& part)
 {
-  vtkDataArray* ofPoints = grid->GetPointData()->GetArray(part.Name.c_str());
-  vtkDataArray* ofCells = grid->GetCellData()->GetArray(part.Name.c_str());
-  if (isPart && mesh.numberOfCells() == 0)
+  const bool isEmpty = isPart && mesh.numberOfCells() == 0;
+  std::optional<Marked> marked = isEmpty ? std::nullopt : findNamed(grid, mesh, blocks, part.Name);
+  if (!marked)
   {
-    part.IsKnown = false;
-    takeCells(mesh, Flags(), part);
-  }
-  else if (ofCells && ofCells->GetNumberOfTuples() == mesh.numberOfCells())
-  {
-    takeCells(mesh, Choice::Marked(ofCells), part);
-  }
-  else if (ofPoints && ofPoints->GetNumberOfTuples() == mesh.numberOfNodes())
-  {
-    takeNodes(mesh, Choice::Marked(ofPoints), part);
-  }
-  else if (!takeBlock(mesh, blocks, part))
-  {
-    if (!isPart || !blocks)
+    if (!isEmpty && (!isPart || !blocks))
     {
       throwUnknown(grid, mesh, blocks, part);
     }
     part.IsKnown = false;
-    takeCells(mesh, Flags(mesh.numberOfCells(), 0), part);
+    marked = Marked{ false, Flags(mesh.numberOfCells(), 0) };
   }
+  marked->AreNodes ? takeNodes(mesh, std::move(marked->Flags), part)
+                   : takeCells(mesh, std::move(marked->Flags), part);
 }
 
 void takeRegion(const morph::Mesh& mesh, vtkImplicitFunction* region, Part& part)
@@ -246,29 +247,12 @@ std::vector<Listed> List(
   for (const std::string& name : candidates(grid, blocks))
   {
     Listed zone{ name, 0, 0 };
-    const auto count = [&](const auto& isIn)
+    const std::optional<Marked> marked = findNamed(grid, mesh, blocks, name);
+    for (std::size_t i = 0; marked && i < marked->Flags.size(); ++i)
     {
-      for (Index c = 0; c < mesh.numberOfCells(); ++c)
-      {
-        const morph::CellShape* shape = morph::cellShape(mesh.types[c]);
-        zone.Cells += shape && shape->dimension == 3 && isIn(c);
-      }
-    };
-    vtkDataArray* ofCells = grid->GetCellData()->GetArray(name.c_str());
-    vtkDataArray* ofPoints = grid->GetPointData()->GetArray(name.c_str());
-    if (ofCells && ofCells->GetNumberOfTuples() == mesh.numberOfCells())
-    {
-      const Flags marks = Choice::Marked(ofCells);
-      count([&](Index c) { return marks[c] != 0; });
-    }
-    else if (ofPoints && ofPoints->GetNumberOfTuples() == mesh.numberOfNodes())
-    {
-      const Flags marks = Choice::Marked(ofPoints);
-      zone.Nodes = std::count(marks.begin(), marks.end(), 1);
-    }
-    else if (blocks)
-    {
-      count([&](Index c) { return isNamed(blocks->All[blocks->BlockOfCell[c]].Name, name); });
+      const morph::CellShape* shape = marked->AreNodes ? nullptr : morph::cellShape(mesh.types[i]);
+      zone.Nodes += marked->AreNodes && marked->Flags[i];
+      zone.Cells += shape && shape->dimension == 3 && marked->Flags[i];
     }
     if (zone.Cells + zone.Nodes > 0)
     {

@@ -94,7 +94,7 @@ bool ShapeModes::SetGrid(vtkUnstructuredGrid* grid, RankGroup::Of processes, con
   const bool isTaken = this->Solver->Take(grid, options.CreateMorpher, monitor);
   if (isTaken)
   {
-    this->IsPrepared = false;
+    this->Settings.reset();
     this->Modes.clear();
   }
   return isTaken;
@@ -200,19 +200,18 @@ void ShapeModes::Prepare(const std::vector<Index>& prescribed, const Options& op
   Effort& effort, morph::Monitor& monitor)
 {
   std::unique_ptr<const morph::LinearMorpher> settings = options.CreateMorpher();
-  const bool isSame = this->IsPrepared && this->Settings->preparesLike(*settings) &&
+  const bool isSame = this->Settings && this->Settings->preparesLike(*settings) &&
                       this->Settings->tolerance() == settings->tolerance() &&
                       this->PreparedFor == prescribed;
   if (!this->Processes.Any(!isSame))
   {
     return;
   }
-  this->IsPrepared = false;
+  this->Settings.reset();
   this->Modes.clear();
   this->Solver->Prepare(options.CreateMorpher(), prescribed, monitor);
   this->PreparedFor = prescribed;
   this->Settings = std::move(settings);
-  this->IsPrepared = true;
   ++effort.Preparations;
 }
 

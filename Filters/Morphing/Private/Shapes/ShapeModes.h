@@ -121,11 +121,10 @@ private:
 
   RankGroup Processes{ RankGroup::Of::One };
   std::unique_ptr<ModeSolver> Solver;
-  bool IsPrepared = false; ///< Solver, for the nodes PreparedFor under Settings
-  std::vector<morph::Index> PreparedFor;
-  std::unique_ptr<const morph::LinearMorpher> Settings;
-  std::vector<Mode> Modes;    ///< of Solver
-  std::vector<Solved> Shapes; ///< of the last Solve()
+  std::vector<morph::Index> PreparedFor;                ///< the nodes, of Solver
+  std::unique_ptr<const morph::LinearMorpher> Settings; ///< of Solver; null: it is not prepared
+  std::vector<Mode> Modes;                              ///< of Solver
+  std::vector<Solved> Shapes;                           ///< of the last Solve()
   std::vector<std::string> Warnings;
 };
 }
