@@ -156,7 +156,7 @@ int vtkBoundaryDisplacement::GetClassifyCount() const
 
 int vtkBoundaryDisplacement::GetPrepareCount() const
 {
-  return this->Internals->Spread.PrepareCount();
+  return this->Internals->Spread.prepareCount();
 }
 
 int vtkBoundaryDisplacement::RequestInformation(

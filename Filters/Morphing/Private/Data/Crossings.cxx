@@ -109,17 +109,17 @@ std::map<Index, std::string> NamesOf(const std::vector<Index>& some, const morph
   }
   std::vector<NamedSet> sets = FindNamedSets(grid, mesh, faces, 0);
   // A set of everything, as the elements of the only body, distinguishes nothing.
-  const auto isWhole = [&](const NamedSet& set) { return set.Faces.size() == faces.cells.size(); };
+  const auto isWhole = [&](const NamedSet& set) { return set.faces.size() == faces.cells.size(); };
   sets.erase(std::remove_if(sets.begin(), sets.end(), isWhole), sets.end());
   std::stable_sort(sets.begin(), sets.end(),
-    [](const NamedSet& a, const NamedSet& b) { return a.Faces.size() > b.Faces.size(); });
+    [](const NamedSet& a, const NamedSet& b) { return a.faces.size() > b.faces.size(); });
   for (const NamedSet& set : sets)
   {
     for (auto& [face, name] : names)
     {
-      if (std::binary_search(set.Faces.begin(), set.Faces.end(), face))
+      if (std::binary_search(set.faces.begin(), set.faces.end(), face))
       {
-        name = set.Name;
+        name = set.name;
       }
     }
   }

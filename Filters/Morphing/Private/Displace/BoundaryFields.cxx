@@ -13,52 +13,52 @@ namespace
 {
 bool follows(const Surroundings::Options& rest, const Surroundings::Result& result)
 {
-  return (rest.How == Surroundings::Kind::Follow || rest.How == Surroundings::Kind::FollowAll) &&
-         std::count(result.Roles.begin(), result.Roles.end(), Surroundings::Follows) > 0;
+  return (rest.how == Surroundings::Kind::Follow || rest.how == Surroundings::Kind::FollowAll) &&
+         std::count(result.roles.begin(), result.roles.end(), Surroundings::Follows) > 0;
 }
 }
 
-void BoundaryFields::Write(const BoundaryModel& model, const Choice::Result& choice,
+void BoundaryFields::Write(const InputBoundary& model, const Choice& choice,
   const Motion::Options& motion, const Surroundings::Options& rest,
   const Surroundings::Result& result, Surroundings& spread, vtkPolyData* output,
   morph::Monitor& monitor)
 {
   AffineArrays::Remove(output);
   Surroundings::Options linear = rest;
-  linear.Sliding.clear(); // has no effect on what is linear
-  linear.Follow.linear = true;
+  linear.sliding.clear(); // has no effect on what is linear
+  linear.follow.linear = true;
   if (!follows(rest, result))
   {
-    linear.How = rest.How == Surroundings::Kind::Fade ? rest.How : Surroundings::Kind::Stay;
+    linear.how = rest.how == Surroundings::Kind::Fade ? rest.how : Surroundings::Kind::Stay;
   }
-  else if (rest.Follow.method != morph::SurfaceMorphOptions::Method::WeightedResidual)
+  else if (rest.follow.method != morph::SurfaceMorphOptions::Method::WeightedResidual)
   {
     return;
   }
-  if (!this->Fields || this->MotionVersion != model.MotionVersion() || !(this->Rest == linear) ||
+  if (!this->Fields || this->MotionVersion != model.motionVersion || !(this->Rest == linear) ||
       !(this->Chosen == choice))
   {
     this->Fields = nullptr; // in case it throws
     this->Compute(model, choice, linear, spread, monitor);
-    this->MotionVersion = model.MotionVersion();
+    this->MotionVersion = model.motionVersion;
     this->Rest = linear;
     this->Chosen = choice;
   }
   const auto affine = Motion::Affine(model, choice, motion, this->Center);
-  if (affine && this->Give(*affine, model, result.Moved))
+  if (affine && this->Give(*affine, model, result.moved))
   {
     AffineArrays::Write(this->Fields, *affine, output);
   }
 }
 
 bool BoundaryFields::Give(
-  const morph::AffineMotion& motion, const BoundaryModel& model, const morph::Points& moved) const
+  const morph::AffineMotion& motion, const InputBoundary& model, const morph::Points& moved) const
 {
   const std::vector<morph::Index>& nodes = model.NodeOfPoint();
   double before = 0, after = 0;
   for (const morph::Index node : nodes)
   {
-    before = std::max(before, model.Points().row(node).cwiseAbs().maxCoeff());
+    before = std::max(before, model.points().row(node).cwiseAbs().maxCoeff());
     after = std::max(after, moved.row(node).cwiseAbs().maxCoeff());
   }
   const double tolerance = AffineArrays::Rounding(before + after, false);
@@ -68,7 +68,7 @@ bool BoundaryFields::Give(
     Eigen::Matrix<double, 1, 4> fields(0, 0, 0, 0); // GCC 14 does not see that it is filled
     this->Fields->GetTypedTuple(static_cast<vtkIdType>(i), fields.data());
     const Eigen::RowVector3d place =
-      model.Points().row(node) + morph::affineDisplacement(motion, fields);
+      model.points().row(node) + morph::affineDisplacement(motion, fields);
     if (!((place - moved.row(node)).cwiseAbs().maxCoeff() <= tolerance)) // NaN, too
     {
       return false;
@@ -77,19 +77,19 @@ bool BoundaryFields::Give(
   return true;
 }
 
-void BoundaryFields::Compute(const BoundaryModel& model, const Choice::Result& choice,
+void BoundaryFields::Compute(const InputBoundary& model, const Choice& choice,
   const Surroundings::Options& options, Surroundings& spread, morph::Monitor& monitor)
 {
   // The answers to p = x - center, and to a shift along x by the model's size, which keeps the
   // digits of w.
-  this->Center = Motion::Center(model, choice);
-  const morph::Points from = model.Points()(choice.Moving, morph::allColumns);
-  const Eigen::RowVector3d shift(model.Size() > 0 ? model.Size() : 1, 0, 0);
+  this->Center = morph::centerOfMoving(model, choice);
+  const morph::Points from = model.points()(choice.moving, morph::allColumns);
+  const Eigen::RowVector3d shift(model.size > 0 ? model.size : 1, 0, 0);
   const morph::Points place =
-    spread.Spread(model, choice, (2 * from).rowwise() - this->Center, options, monitor).Moved -
-    model.Points();
+    spread.spread(model, choice, (2 * from).rowwise() - this->Center, options, monitor).moved -
+    model.points();
   const morph::Points weight =
-    spread.Spread(model, choice, from.rowwise() + shift, options, monitor).Moved - model.Points();
+    spread.spread(model, choice, from.rowwise() + shift, options, monitor).moved - model.points();
 
   this->Fields = vtkSmartPointer<vtkDoubleArray>::New();
   this->Fields->SetName(AffineArrays::FieldsName);

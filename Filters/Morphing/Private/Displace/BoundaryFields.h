@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Private/Displace/BoundaryModel.h"
-#include "Private/Displace/Choice.h"
+#include "BoundaryMover/Surroundings.h"
+#include "Private/Displace/InputBoundary.h"
 #include "Private/Displace/Motion.h"
-#include "Private/Displace/Surroundings.h"
 
 #include <vtkDoubleArray.h>
 #include <vtkSmartPointer.h>
@@ -26,16 +25,15 @@ public:
   /// without leaving a plane. They do not, for instance, where nodes slide along a surface that the
   /// motion leaves, or turn about a cylinder's axis. `result`: of `spread`. Cost: one pass; where
   /// something else moves than before, spreading twice.
-  void Write(const BoundaryModel& model, const Choice::Result& choice,
-    const Motion::Options& motion, const Surroundings::Options& rest,
-    const Surroundings::Result& result, Surroundings& spread, vtkPolyData* output,
-    morph::Monitor& monitor);
+  void Write(const InputBoundary& model, const Choice& choice, const Motion::Options& motion,
+    const Surroundings::Options& rest, const Surroundings::Result& result, Surroundings& spread,
+    vtkPolyData* output, morph::Monitor& monitor);
 
 private:
   /// Whether the fields with this motion take all points to `moved`, up to rounding.
-  bool Give(const morph::AffineMotion& motion, const BoundaryModel& model,
+  bool Give(const morph::AffineMotion& motion, const InputBoundary& model,
     const morph::Points& moved) const;
-  void Compute(const BoundaryModel& model, const Choice::Result& choice,
+  void Compute(const InputBoundary& model, const Choice& choice,
     const Surroundings::Options& options, Surroundings& spread, morph::Monitor& monitor);
 
   vtkSmartPointer<vtkDoubleArray> Fields; ///< for the motions of what follows, or null
@@ -43,7 +41,7 @@ private:
   ///@{
   vtkIdType MotionVersion = -1;
   Surroundings::Options Rest;
-  Choice::Result Chosen;
+  Choice Chosen;
   ///@}
   Eigen::RowVector3d Center; ///< of what moves
 };

@@ -5,6 +5,7 @@
 #include "Private/Data/GridMesh.h"
 #include "Private/Data/Output.h"
 #include "Private/Data/Surface.h"
+#include "Private/Displace/InputBoundary.h"
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
@@ -127,19 +128,19 @@ void writeFree(
 
 namespace DisplacedSurface
 {
-void Write(const BoundaryModel& model, const Surroundings::Result& result, vtkPointSet* input,
+void Write(const InputBoundary& model, const Surroundings::Result& result, vtkPointSet* input,
   int precision, vtkPolyData* output)
 {
   const bool isFloat = Output::IsFloat(input, precision);
-  const morph::Points moved = result.Moved(model.NodeOfPoint(), morph::allColumns);
+  const morph::Points moved = result.moved(model.NodeOfPoint(), morph::allColumns);
   const morph::Points rest =
     GridMesh::FromVectors(model.Surface()->GetPointData()->GetArray(Surface::RestName));
   Output::RequireWritable(rest, moved, isFloat, "the boundary's nodes", &model.NodeOfPoint());
   output->ShallowCopy(model.Surface());
   (isFloat ? writePoints<vtkFloatArray, float> : writePoints<vtkDoubleArray, double>)(rest, moved,
     output);
-  writeRoles(model.NodeOfPoint(), result.Roles, output);
-  writeFree(model.NodeOfPoint(), result.Roles, output);
+  writeRoles(model.NodeOfPoint(), result.roles, output);
+  writeFree(model.NodeOfPoint(), result.roles, output);
 }
 }
 }

@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Private/Displace/Surroundings.h"
+#include "BoundaryMover/Surroundings.h"
 
 class vtkPointSet;
 class vtkPolyData;
+
+namespace morph::filters
+{
+class InputBoundary;
+}
 
 /// Writes a boundary at its new positions, the output of vtkBoundaryDisplacement.
 namespace morph::filters::DisplacedSurface
@@ -13,6 +18,6 @@ namespace morph::filters::DisplacedSurface
 /// BoundaryDisplacement, and the cell array Role. `input`: the data that `model` was made from;
 /// with `precision`, vtkAlgorithm::SINGLE_PRECISION and so on, it determines the type of the
 /// points.
-void Write(const BoundaryModel& model, const Surroundings::Result& result, vtkPointSet* input,
+void Write(const InputBoundary& model, const Surroundings::Result& result, vtkPointSet* input,
   int precision, vtkPolyData* output);
 }

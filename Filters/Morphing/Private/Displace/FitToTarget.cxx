@@ -76,23 +76,23 @@ private:
 };
 
 /// The boundary's polygons, those that move where `choice` is given.
-vtkSmartPointer<vtkPolyData> polygonsOf(const BoundaryModel& model, const Choice::Result* choice)
+vtkSmartPointer<vtkPolyData> polygonsOf(const BoundaryModel& model, const Choice* choice)
 {
-  const morph::BoundaryFaces& faces = model.Faces();
+  const morph::BoundaryFaces& faces = model.faces;
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
-  points->SetNumberOfPoints(model.Points().rows());
-  for (Index i = 0; i < model.Points().rows(); ++i)
+  points->SetNumberOfPoints(model.points().rows());
+  for (Index i = 0; i < model.points().rows(); ++i)
   {
-    points->SetPoint(i, model.Points().row(i).data());
+    points->SetPoint(i, model.points().row(i).data());
   }
   const bool any =
-    choice && std::count(choice->IsMovingFace.begin(), choice->IsMovingFace.end(), 1) > 0;
+    choice && std::count(choice->isMovingFace.begin(), choice->isMovingFace.end(), 1) > 0;
   vtkNew<vtkCellArray> polygons;
   vtkNew<vtkIdList> corners;
   for (std::size_t f = 0; f + 1 < faces.offsets.size(); ++f)
   {
-    if (!any || choice->IsMovingFace[f])
+    if (!any || choice->isMovingFace[f])
     {
       corners->Reset();
       for (Index k = faces.offsets[f]; k < faces.offsets[f + 1]; ++k)
@@ -112,11 +112,11 @@ vtkSmartPointer<vtkPolyData> polygonsOf(const BoundaryModel& model, const Choice
 BoundaryMotion allHeld(const BoundaryModel& model)
 {
   BoundaryMotion motion;
-  motion.rest = model.Points();
+  motion.rest = model.points();
   motion.displacement = Points::Zero(motion.rest.rows(), 3);
   motion.state.assign(motion.rest.rows(), BoundaryMotion::Unknown);
-  motion.bodyOfNode = model.BodyOfNode();
-  for (const Index node : model.Faces().nodes)
+  motion.bodyOfNode = model.bodyOfNode;
+  for (const Index node : model.faces.nodes)
   {
     motion.state[node] = BoundaryMotion::Held;
   }
@@ -125,12 +125,12 @@ BoundaryMotion allHeld(const BoundaryModel& model)
 
 /// The motion's start: what does not move is given, and vertices that move are, where they find a
 /// place. `missed`: those that find none.
-BoundaryMotion begin(const BoundaryModel& model, const Choice::Result& choice,
-  const WithCurves& place, std::vector<Index>& missed)
+BoundaryMotion begin(const BoundaryModel& model, const Choice& choice, const WithCurves& place,
+  std::vector<Index>& missed)
 {
-  const morph::Classification& geometry = model.Geometry();
+  const morph::Classification& geometry = model.geometry;
   BoundaryMotion motion = allHeld(model);
-  for (const Index node : choice.Moving)
+  for (const Index node : choice.moving)
   {
     motion.state[node] = BoundaryMotion::Unknown;
     Row y;
@@ -151,10 +151,10 @@ BoundaryMotion begin(const BoundaryModel& model, const Choice::Result& choice,
 }
 
 /// Nodes of closed curves or surfaces, about which nothing is known, wait where they are.
-void await(const Choice::Result& choice, const morph::Classification& geometry, int dimension,
+void await(const Choice& choice, const morph::Classification& geometry, int dimension,
   BoundaryMotion::State state, BoundaryMotion& motion)
 {
-  for (const Index node : choice.Moving)
+  for (const Index node : choice.moving)
   {
     if (motion.state[node] == BoundaryMotion::Unknown && geometry.dimension[node] == dimension)
     {
@@ -164,12 +164,12 @@ void await(const Choice::Result& choice, const morph::Classification& geometry, 
 }
 }
 
-void FitToTarget::Update(vtkPolyData* target, const BoundaryModel& model,
-  const Choice::Result* choice, const Options& options, morph::Monitor& monitor)
+void FitToTarget::Update(vtkPolyData* target, const BoundaryModel& model, const Choice* choice,
+  const Options& options, morph::Monitor& monitor)
 {
-  const std::vector<Index> onto = options.Align && choice ? choice->Moving : std::vector<Index>();
+  const std::vector<Index> onto = options.Align && choice ? choice->moving : std::vector<Index>();
   if (this->Place && this->Input == target && this->InputTime == target->GetMTime() &&
-      this->MotionVersion == model.MotionVersion() && this->AlignedOnto == onto &&
+      this->MotionVersion == model.motionVersion && this->AlignedOnto == onto &&
       this->Made.Align == options.Align && this->Made.FeatureAngle == options.FeatureAngle &&
       this->Made.Angle == options.Angle && this->Made.Reach == options.Reach)
   {
@@ -181,7 +181,7 @@ void FitToTarget::Update(vtkPolyData* target, const BoundaryModel& model,
   {
     morph::ProgressRange part(monitor, from, from + 0.05);
     return std::make_unique<Target>(
-      surface, model.Points(), options.FeatureAngle, options.Angle, options.Reach, part);
+      surface, model.points(), options.FeatureAngle, options.Angle, options.Reach, part);
   };
   auto place = make(target, 0);
   if (options.Align)
@@ -194,7 +194,7 @@ void FitToTarget::Update(vtkPolyData* target, const BoundaryModel& model,
   }
   this->Input = target;
   this->InputTime = target->GetMTime();
-  this->MotionVersion = model.MotionVersion();
+  this->MotionVersion = model.motionVersion;
   this->AlignedOnto = onto;
   this->Made = options;
   this->Place = std::move(place);
@@ -202,13 +202,13 @@ void FitToTarget::Update(vtkPolyData* target, const BoundaryModel& model,
 
 std::set<std::string> FitToTarget::NearestSurfaces(const BoundaryModel& model) const
 {
-  const morph::Classification& geometry = model.Geometry();
+  const morph::Classification& geometry = model.geometry;
   const vtkSmartPointer<vtkPolyData> boundary = polygonsOf(model, nullptr);
   vtkNew<vtkStaticCellLocator> locator;
   locator->SetDataSet(boundary);
   locator->BuildLocator();
   std::vector<double> votes(geometry.surfaces.size(), 0), own(geometry.surfaces.size(), 0);
-  const Points areas = morph::faceAreas(model.Points(), model.Faces());
+  const Points areas = morph::faceAreas(model.points(), model.faces);
   for (Index f = 0; f < areas.rows(); ++f)
   {
     own[geometry.surfaceOfFace[f]] += areas.row(f).norm();
@@ -257,19 +257,19 @@ std::set<std::string> FitToTarget::NearestSurfaces(const BoundaryModel& model) c
   return names;
 }
 
-FitToTarget::Rim::Rim(const BoundaryModel& model, const Choice::Result& choice,
+FitToTarget::Rim::Rim(const BoundaryModel& model, const Choice& choice,
   const std::vector<Index>& sliding, Surroundings& surroundings)
   : Model(model)
   , Surfaces(surroundings)
 {
-  const std::vector<morph::GeometrySurface>& surfaces = model.Geometry().surfaces;
+  const std::vector<morph::GeometrySurface>& surfaces = model.geometry.surfaces;
   for (const Index s : sliding)
   {
-    surroundings.ShapeOf(model, s); // before several threads ask for it
+    surroundings.shapeOf(model, s); // before several threads ask for it
     for (const Index node : surfaces[s].nodes)
     {
-      if (model.Geometry().dimension[node] < 2 &&
-          std::binary_search(choice.Moving.begin(), choice.Moving.end(), node))
+      if (model.geometry.dimension[node] < 2 &&
+          std::binary_search(choice.moving.begin(), choice.moving.end(), node))
       {
         this->Nodes[node].Sliding.push_back(s);
       }
@@ -278,7 +278,7 @@ FitToTarget::Rim::Rim(const BoundaryModel& model, const Choice::Result& choice,
   for (const morph::GeometrySurface& surface : surfaces)
   {
     const bool moves = std::any_of(surface.faces.begin(), surface.faces.end(),
-      [&](Index face) { return choice.IsMovingFace[face] != 0; });
+      [&](Index face) { return choice.isMovingFace[face] != 0; });
     for (const Index node : surface.nodes)
     {
       const auto found = this->Nodes.find(node);
@@ -299,8 +299,8 @@ Eigen::RowVector3d FitToTarget::Rim::Along(Index node, const Row& direction) con
     std::vector<Row> normals; // orthonormal
     for (const Index s : found->second.Sliding)
     {
-      const Row x = this->Model.Points().row(node);
-      Row normal = this->Surfaces.ShapeOf(this->Model, s).Normal(x);
+      const Row x = this->Model.points().row(node);
+      Row normal = this->Surfaces.shapeOf(this->Model, s).normal(x);
       for (const Row& other : normals)
       {
         normal -= normal.dot(other) * other;
@@ -315,27 +315,27 @@ Eigen::RowVector3d FitToTarget::Rim::Along(Index node, const Row& direction) con
   return along.norm() > 1e-6 ? Row(along.normalized()) : direction;
 }
 
-void FitToTarget::MoveAlong(const BoundaryModel& model, const Choice::Result& choice,
-  const Rim& rim, BoundaryMotion& motion, std::vector<Index>& missed)
+void FitToTarget::MoveAlong(const BoundaryModel& model, const Choice& choice, const Rim& rim,
+  BoundaryMotion& motion, std::vector<Index>& missed)
 {
   const Options& how = this->Made;
   Points directions =
-    how.Direction.normalized().replicate(static_cast<Index>(choice.Moving.size()), 1);
+    how.Direction.normalized().replicate(static_cast<Index>(choice.moving.size()), 1);
   if (how.Direction.isZero(0))
   {
     directions = morph::nodeNormals(
-      model.OutwardAreas(model.Points()), model.Faces(), choice.IsMovingFace, choice.Moving);
+      model.outwardAreas(model.points()), model.faces, choice.isMovingFace, choice.moving);
   }
   const Points normals =
-    morph::surfaceNodeNormals(model.Points(), model.Points(), model.Faces(), model.Geometry());
-  this->Place->Orient(model.Points(), normals);
-  for (std::size_t i = 0; i < choice.Moving.size(); ++i)
+    morph::surfaceNodeNormals(model.points(), model.points(), model.faces, model.geometry);
+  this->Place->Orient(model.points(), normals);
+  for (std::size_t i = 0; i < choice.moving.size(); ++i)
   {
-    const Index node = choice.Moving[i];
+    const Index node = choice.moving[i];
     const Row direction = rim.Along(node, directions.row(static_cast<Index>(i)));
     const auto find = [&](const Row& at, Row& to)
     { return this->Place->ClosestAlong(at, direction, normals.row(node), to); };
-    const Row x = model.Points().row(node);
+    const Row x = model.points().row(node);
     Row y;
     if (rim.Has(node) ? rim.Meet(node, x, find, y) : find(x, y))
     {
@@ -345,17 +345,17 @@ void FitToTarget::MoveAlong(const BoundaryModel& model, const Choice::Result& ch
     {
       // A vertex has nothing to follow.
       motion.state[node] =
-        model.Geometry().dimension[node] == 0 ? BoundaryMotion::Held : BoundaryMotion::Unknown;
+        model.geometry.dimension[node] == 0 ? BoundaryMotion::Held : BoundaryMotion::Unknown;
       missed.push_back(node);
     }
   }
 }
 
-Points FitToTarget::Targets(const BoundaryModel& model, const Choice::Result& choice,
+Points FitToTarget::Targets(const BoundaryModel& model, const Choice& choice,
   const std::vector<Index>& sliding, Surroundings& surroundings, morph::Monitor& monitor)
 {
-  const morph::Classification& geometry = model.Geometry();
-  this->Place->WarnOfRounding(model.Size(), monitor);
+  const morph::Classification& geometry = model.geometry;
+  this->Place->WarnOfRounding(model.size, monitor);
   const Rim rim(model, choice, sliding, surroundings);
   const WithCurves place(*this->Place, rim);
   const bool isAlong = this->Made.How == Project::Along;
@@ -386,19 +386,19 @@ Points FitToTarget::Targets(const BoundaryModel& model, const Choice::Result& ch
   {
     add(morph::projectCurves(geometry, place, motion, monitor));
   }
-  morph::morphSurfaces(model.Faces(), geometry, how, motion, onSurfaces);
+  morph::morphSurfaces(model.faces, geometry, how, motion, onSurfaces);
   await(choice, geometry, 2, BoundaryMotion::OnSurface, motion);
   if (!isAlong)
   {
     const Points moved = motion.moved();
     this->Place->Assign(geometry, moved);
     this->Place->Orient(
-      moved, morph::surfaceNodeNormals(model.Points(), moved, model.Faces(), geometry));
-    add(morph::projectSurfaces(model.Faces(), geometry, place, motion, monitor));
+      moved, morph::surfaceNodeNormals(model.points(), moved, model.faces, geometry));
+    add(morph::projectSurfaces(model.faces, geometry, place, motion, monitor));
   }
   std::sort(missed.begin(), missed.end());
   const std::string along = isAlong ? " along the direction" : "";
-  if (missed.size() == choice.Moving.size())
+  if (missed.size() == choice.moving.size())
   {
     throw morph::Error("No node that moves reaches the target: it has no place within "
                        "TargetReach" +
@@ -412,6 +412,6 @@ Points FitToTarget::Targets(const BoundaryModel& model, const Choice::Result& ch
                  " whose normal is within TargetAngle, or faces would fold there: point ids " +
                  morph::listIds(missed) + " of the input.");
   }
-  return motion.moved()(choice.Moving, morph::allColumns);
+  return motion.moved()(choice.moving, morph::allColumns);
 }
 }

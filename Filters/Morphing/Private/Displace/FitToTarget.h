@@ -2,10 +2,10 @@
 #pragma once
 
 #include "BoundaryMorphing/BoundaryMotion.h"
-#include "Private/Displace/BoundaryModel.h"
-#include "Private/Displace/Choice.h"
-#include "Private/Displace/Surroundings.h"
+#include "BoundaryMover/Surroundings.h"
 #include "Private/Project/Target.h"
+
+#include <vtkType.h>
 
 #include <map>
 #include <memory>
@@ -44,8 +44,8 @@ public:
   {
   public:
     using Row = Eigen::RowVector3d;
-    Rim(const BoundaryModel& model, const Choice::Result& choice,
-      const std::vector<morph::Index>& sliding, Surroundings& surroundings);
+    Rim(const BoundaryModel& model, const Choice& choice, const std::vector<morph::Index>& sliding,
+      Surroundings& surroundings);
 
     bool Has(morph::Index node) const { return this->Nodes.count(node) > 0; }
     /// Whether surfaces that move meet there.
@@ -68,8 +68,8 @@ public:
         {
           return false;
         }
-        y = this->Surfaces.Slid(this->Model, this->Nodes.at(node).Sliding, node, there);
-        if ((y - there).norm() <= 1e-14 * this->Model.Size())
+        y = this->Surfaces.slid(this->Model, this->Nodes.at(node).Sliding, node, there);
+        if ((y - there).norm() <= 1e-14 * this->Model.size)
         {
           break;
         }
@@ -90,28 +90,28 @@ public:
 
   /// Takes the target. `choice`: what moves, onto which it is aligned; null for the whole boundary.
   /// Throws morph::Error as Target does.
-  void Update(vtkPolyData* target, const BoundaryModel& model, const Choice::Result* choice,
+  void Update(vtkPolyData* target, const BoundaryModel& model, const Choice* choice,
     const Options& options, morph::Monitor& monitor);
 
   /// Names of the surfaces that the target belongs to. Each is the nearest one for an area of the
   /// target of at least half its own. Throws morph::Error where there is none.
   std::set<std::string> NearestSurfaces(const BoundaryModel& model) const;
 
-  /// The positions of choice.Moving on the target, #Moving x 3. Closest: vertices go to vertices of
+  /// The positions of choice.moving on the target, #Moving x 3. Closest: vertices go to vertices of
   /// the target, then curves to its feature edges, then surfaces follow and go to the target, as in
   /// vtkMorphBoundary. What has no such place within reach goes to the nearest place of the target.
   /// Along: each node goes to the nearest place of the target along the direction; what has none
   /// follows the others, but for vertices, which stay. Nodes on surfaces that slide, by their
   /// numbers in `sliding`, go to places that are on both. A warning names nodes that do not reach
   /// the target. Throws morph::Error where none does.
-  morph::Points Targets(const BoundaryModel& model, const Choice::Result& choice,
+  morph::Points Targets(const BoundaryModel& model, const Choice& choice,
     const std::vector<morph::Index>& sliding, Surroundings& surroundings, morph::Monitor& monitor);
 
   /// The triangles that nodes go to: the target as aligned.
   vtkPolyData* Surface() const { return this->Place ? this->Place->Surface() : nullptr; }
 
 private:
-  void MoveAlong(const BoundaryModel& model, const Choice::Result& choice, const Rim& rim,
+  void MoveAlong(const BoundaryModel& model, const Choice& choice, const Rim& rim,
     morph::BoundaryMotion& motion, std::vector<morph::Index>& missed);
 
   const vtkPolyData* Input = nullptr; ///< compared, never used

@@ -8,6 +8,7 @@
 #include "Mesh/Polyhedra.h"
 #include "Morpher/PolyhedralMorpher.h"
 #include "Private/Data/Surface.h"
+#include "Private/Displace/Chosen.h"
 #include "Private/Displace/InnerPoints.h"
 #include "Private/Pipeline/Ranks.h"
 #include "Support/Error.h"
@@ -75,7 +76,7 @@ std::vector<std::uint8_t> layerCells(vtkUnstructuredGrid* grid, const std::strin
   {
     throw Error("LayersArray names '" + name + "', which is no cell array of the input.");
   }
-  return Choice::Marked(array);
+  return Chosen::Marked(array);
 }
 
 [[noreturn]] void throwNoLayers(const std::string& array)
@@ -90,24 +91,24 @@ std::vector<std::uint8_t> layerCells(vtkUnstructuredGrid* grid, const std::strin
 /// Where nodes move, in the order of their ids.
 using PlaceOfNode = std::map<Index, Eigen::RowVector3d>;
 
-PlaceOfNode placesOf(const Choice::Result& choice, const Points& targets)
+PlaceOfNode placesOf(const Choice& choice, const Points& targets)
 {
   PlaceOfNode places;
-  for (std::size_t i = 0; i < choice.Moving.size(); ++i)
+  for (std::size_t i = 0; i < choice.moving.size(); ++i)
   {
-    places[choice.Moving[i]] = targets.row(static_cast<Index>(i));
+    places[choice.moving[i]] = targets.row(static_cast<Index>(i));
   }
   return places;
 }
 
-void setMoving(const PlaceOfNode& places, Choice::Result& choice, Points& targets)
+void setMoving(const PlaceOfNode& places, Choice& choice, Points& targets)
 {
-  choice.Moving.clear();
+  choice.moving.clear();
   targets.resize(static_cast<Index>(places.size()), 3);
   for (const auto& [node, to] : places)
   {
-    targets.row(static_cast<Index>(choice.Moving.size())) = to;
-    choice.Moving.push_back(node);
+    targets.row(static_cast<Index>(choice.moving.size())) = to;
+    choice.moving.push_back(node);
   }
 }
 }
@@ -130,7 +131,7 @@ void InnerNodes::Find(vtkUnstructuredGrid* grid, const BoundaryModel& model,
     this->FindOnRanks(grid, model, blocks, options);
     return;
   }
-  const morph::Mesh& mesh = model.Mesh();
+  const morph::Mesh& mesh = model.mesh;
   std::vector<std::uint8_t> isTaken(mesh.numberOfNodes(), 0);
   for (const Zones::Part& part : Zones::Find(Zones::Fixed, grid, mesh, blocks, options.Zones))
   {
@@ -194,7 +195,7 @@ std::vector<Index> InnerNodes::NodesOf(
 {
   std::vector<Index> nodes = flagged(this->Whole->AnyFlags(ofPiece));
   // The gathered cells have inner nodes, too.
-  const std::vector<Index>& outer = model.Faces().nodes;
+  const std::vector<Index>& outer = model.faces.nodes;
   nodes.erase(std::remove_if(nodes.begin(), nodes.end(),
                 [&](Index node) { return !std::binary_search(outer.begin(), outer.end(), node); }),
     nodes.end());
@@ -216,23 +217,23 @@ std::vector<Index> InnerNodes::AddPoints(
     {
       this->PointOf.push_back(point);
     }
-    numbers.push_back(model.Points().rows() + found->second);
+    numbers.push_back(model.points().rows() + found->second);
   }
   return numbers;
 }
 
 Eigen::RowVector3d InnerNodes::RestOf(const BoundaryModel& model, Index node) const
 {
-  const Index beyond = node - model.Points().rows();
-  return beyond < 0 ? model.Points().row(node)
+  const Index beyond = node - model.points().rows();
+  return beyond < 0 ? model.points().row(node)
                     : WholeVolume(*this->Whole).Piece().points.row(this->PointOf[beyond]);
 }
 
 Points InnerNodes::Rest(const BoundaryModel& model) const
 {
-  const Index before = model.Rest().rows();
+  const Index before = model.rest().rows();
   Points rest(before + static_cast<Index>(this->PointOf.size()), 3);
-  rest.topRows(before) = model.Rest();
+  rest.topRows(before) = model.rest();
   for (Index node = before; node < rest.rows(); ++node)
   {
     rest.row(node) = this->RestOf(model, node);
@@ -241,12 +242,12 @@ Points InnerNodes::Rest(const BoundaryModel& model) const
 }
 
 void InnerNodes::Constrain(
-  const BoundaryModel& model, const Options& options, Choice::Result& choice, Points& targets) const
+  const BoundaryModel& model, const Options& options, Choice& choice, Points& targets) const
 {
   PlaceOfNode moving = placesOf(choice, targets);
-  std::vector<Index> held = choice.Held;
+  std::vector<Index> held = choice.held;
   const auto isOuter = [&](Index node)
-  { return std::binary_search(model.Faces().nodes.begin(), model.Faces().nodes.end(), node); };
+  { return std::binary_search(model.faces.nodes.begin(), model.faces.nodes.end(), node); };
   for (const Index node : this->FixedNodes)
   {
     if (isOuter(node))
@@ -262,24 +263,23 @@ void InnerNodes::Constrain(
       if (options.RigidTransform && isOuter(node))
       {
         moving[node] =
-          transformed(options.RigidTransform, options.ScaleFactor, model.Points().row(node));
+          transformed(options.RigidTransform, options.ScaleFactor, model.points().row(node));
       }
     }
   }
   setMoving(moving, choice, targets);
   std::sort(held.begin(), held.end());
   held.erase(std::unique(held.begin(), held.end()), held.end());
-  choice.Held.clear();
-  std::copy_if(held.begin(), held.end(), std::back_inserter(choice.Held),
+  choice.held.clear();
+  std::copy_if(held.begin(), held.end(), std::back_inserter(choice.held),
     [&](Index node) { return moving.count(node) == 0; });
 }
 
-void InnerNodes::Place(vtkUnstructuredGrid* grid, const BoundaryModel& model,
-  const Choice::Result& choice, const Options& options, Surroundings::Result& result,
-  morph::Monitor& monitor)
+void InnerNodes::Place(vtkUnstructuredGrid* grid, const BoundaryModel& model, const Choice& choice,
+  const Options& options, Surroundings::Result& result, morph::Monitor& monitor)
 {
-  const std::vector<Index>& outer = model.Faces().nodes;
-  const Points before = result.Moved(outer, morph::allColumns);
+  const std::vector<Index>& outer = model.faces.nodes;
+  const Points before = result.moved(outer, morph::allColumns);
   if (options.KeepLayers > 0)
   {
     this->KeepLayers(grid, model, choice, options, result);
@@ -287,8 +287,8 @@ void InnerNodes::Place(vtkUnstructuredGrid* grid, const BoundaryModel& model,
   this->Extend(model, result);
   const auto set = [&](Index node, const Eigen::RowVector3d& to)
   {
-    result.Moved.row(node) = to;
-    result.Roles[node] = Surroundings::IsZone;
+    result.moved.row(node) = to;
+    result.roles[node] = Surroundings::IsZone;
   };
   for (const Index node : this->FixedNodes)
   {
@@ -312,10 +312,10 @@ void InnerNodes::Place(vtkUnstructuredGrid* grid, const BoundaryModel& model,
       this->MoveRigidly(zone, model, result, monitor);
     }
   }
-  this->HasMovedOuter = before != result.Moved(outer, morph::allColumns);
+  this->HasMovedOuter = before != result.moved(outer, morph::allColumns);
 }
 
-void InnerNodes::SpreadAround(const BoundaryModel& model, const Choice::Result& choice,
+void InnerNodes::SpreadAround(const BoundaryModel& model, const Choice& choice,
   const Points& targets, const Surroundings::Options& options, Surroundings::Result& result,
   morph::Monitor& monitor)
 {
@@ -325,15 +325,15 @@ void InnerNodes::SpreadAround(const BoundaryModel& model, const Choice::Result& 
   }
   const auto isPlaced = [&result](Index node)
   {
-    return result.Roles[node] == Surroundings::IsZone ||
-           result.Roles[node] == Surroundings::IsLayer;
+    return result.roles[node] == Surroundings::IsZone ||
+           result.roles[node] == Surroundings::IsLayer;
   };
   PlaceOfNode moving;
-  for (const Index node : model.Faces().nodes)
+  for (const Index node : model.faces.nodes)
   {
-    if (isPlaced(node) && !std::binary_search(choice.Held.begin(), choice.Held.end(), node))
+    if (isPlaced(node) && !std::binary_search(choice.held.begin(), choice.held.end(), node))
     {
-      moving[node] = result.Moved.row(node);
+      moving[node] = result.moved.row(node);
     }
   }
   if (moving.empty())
@@ -344,22 +344,22 @@ void InnerNodes::SpreadAround(const BoundaryModel& model, const Choice::Result& 
   {
     moving[node] = to;
   }
-  Choice::Result all = choice;
+  Choice all = choice;
   Points places;
   setMoving(moving, all, places);
-  const Surroundings::Result around = this->Around.Spread(model, all, places, options, monitor);
-  for (const Index node : model.Faces().nodes)
+  const Surroundings::Result around = this->Around.spread(model, all, places, options, monitor);
+  for (const Index node : model.faces.nodes)
   {
     if (!isPlaced(node))
     {
-      result.Moved.row(node) = around.Moved.row(node);
-      result.Roles[node] = around.Roles[node];
+      result.moved.row(node) = around.moved.row(node);
+      result.roles[node] = around.roles[node];
     }
   }
 }
 
 void InnerNodes::KeepLayers(vtkUnstructuredGrid* grid, const BoundaryModel& model,
-  const Choice::Result& choice, const Options& options, Surroundings::Result& result)
+  const Choice& choice, const Options& options, Surroundings::Result& result)
 {
   if (this->Whole)
   {
@@ -370,35 +370,35 @@ void InnerNodes::KeepLayers(vtkUnstructuredGrid* grid, const BoundaryModel& mode
     return;
   }
   const std::vector<std::uint8_t> isLayer = layerCells(grid, options.LayersArray);
-  std::string key = std::to_string(model.InputVersion()) + " " +
-                    std::to_string(options.KeepLayers) + " " + options.LayersArray;
-  if (key != this->LayersKey || this->LayersWall != choice.IsMovingFace)
+  std::string key = std::to_string(model.inputVersion) + " " + std::to_string(options.KeepLayers) +
+                    " " + options.LayersArray;
+  if (key != this->LayersKey || this->LayersWall != choice.isMovingFace)
   {
     this->LayersKey.clear();
     this->Layers = morph::findWallLayers(
-      model.Mesh(), model.Faces(), choice.IsMovingFace, options.KeepLayers, isLayer);
-    this->LayersWall = choice.IsMovingFace;
+      model.mesh, model.faces, choice.isMovingFace, options.KeepLayers, isLayer);
+    this->LayersWall = choice.isMovingFace;
     this->LayersKey = std::move(key);
   }
   if (this->Layers.columns.values.empty())
   {
     throwNoLayers(options.LayersArray);
   }
-  this->MoveLayers(model.Points(), model, choice, result);
+  this->MoveLayers(model.points(), model, choice, result);
 }
 
-void InnerNodes::MoveLayers(const Points& rest, const BoundaryModel& model,
-  const Choice::Result& choice, Surroundings::Result& result) const
+void InnerNodes::MoveLayers(const Points& rest, const BoundaryModel& model, const Choice& choice,
+  Surroundings::Result& result) const
 {
-  morph::moveLayers(rest, model.Faces(), choice.IsMovingFace, this->Layers, result.Moved);
+  morph::moveLayers(rest, model.faces, choice.isMovingFace, this->Layers, result.moved);
   for (const Index node : this->Layers.columns.values)
   {
-    result.Roles[node] = Surroundings::IsLayer;
+    result.roles[node] = Surroundings::IsLayer;
   }
 }
 
 morph::WallLayers InnerNodes::LayersOnRanks(vtkUnstructuredGrid* grid, const BoundaryModel& model,
-  const Choice::Result& choice, const Options& options)
+  const Choice& choice, const Options& options)
 {
   const WholeVolume volume(*this->Whole);
   std::vector<std::uint8_t> isLayer;
@@ -411,18 +411,18 @@ morph::WallLayers InnerNodes::LayersOnRanks(vtkUnstructuredGrid* grid, const Bou
       }
     });
   const WholeVolume::Columns found =
-    volume.FindLayers(choice.IsMovingFace, options.KeepLayers, isLayer);
+    volume.FindLayers(choice.isMovingFace, options.KeepLayers, isLayer);
   if (Ranks::Count(!found.Nodes.empty() || !found.Points.empty()) == 0)
   {
     throwNoLayers(options.LayersArray);
   }
   std::map<Index, std::vector<Index>> columnOf;
-  for (std::size_t f = 0; f < choice.IsMovingFace.size(); ++f)
+  for (std::size_t f = 0; f < choice.isMovingFace.size(); ++f)
   {
-    const std::vector<Index>& offsets = model.Faces().offsets;
-    for (Index k = offsets[f]; choice.IsMovingFace[f] && k < offsets[f + 1]; ++k)
+    const std::vector<Index>& offsets = model.faces.offsets;
+    for (Index k = offsets[f]; choice.isMovingFace[f] && k < offsets[f + 1]; ++k)
     {
-      columnOf[model.Faces().connectivity[k]];
+      columnOf[model.faces.connectivity[k]];
     }
   }
   for (const auto& [node, wall] : found.Nodes)
@@ -446,13 +446,13 @@ morph::WallLayers InnerNodes::LayersOnRanks(vtkUnstructuredGrid* grid, const Bou
 
 void InnerNodes::Extend(const BoundaryModel& model, Surroundings::Result& result) const
 {
-  const Index before = result.Moved.rows(),
-              all = model.Points().rows() + static_cast<Index>(this->PointOf.size());
-  result.Moved.conservativeResize(all, 3);
-  result.Roles.resize(all, Surroundings::Stays);
+  const Index before = result.moved.rows(),
+              all = model.points().rows() + static_cast<Index>(this->PointOf.size());
+  result.moved.conservativeResize(all, 3);
+  result.roles.resize(all, Surroundings::Stays);
   for (Index node = before; node < all; ++node)
   {
-    result.Moved.row(node) = this->RestOf(model, node);
+    result.moved.row(node) = this->RestOf(model, node);
   }
 }
 
@@ -473,27 +473,27 @@ void InnerNodes::MoveRigidly(const Zone& zone, const BoundaryModel& model,
     std::copy_if(zone.Nodes.begin(), zone.Nodes.end(), std::back_inserter(outer),
       [&](Index node)
       {
-        return tells(result.Roles[node]) &&
-               std::binary_search(model.Faces().nodes.begin(), model.Faces().nodes.end(), node);
+        return tells(result.roles[node]) &&
+               std::binary_search(model.faces.nodes.begin(), model.faces.nodes.end(), node);
       });
     isTold =
-      morph::AffineLeastSquares(model.Points()(outer, morph::allColumns)).directions().rank() >= 2;
+      morph::AffineLeastSquares(model.points()(outer, morph::allColumns)).directions().rank() >= 2;
     if (isTold)
     {
       break;
     }
   }
   const WholeVolume::Moved by = isTold
-                                  ? WholeVolume::Moved{ model.Points()(outer, morph::allColumns),
-                                      result.Moved(outer, morph::allColumns) }
+                                  ? WholeVolume::Moved{ model.points()(outer, morph::allColumns),
+                                      result.moved(outer, morph::allColumns) }
                                   : this->Guess(zone, model, result, monitor);
   const morph::RigidMotion motion = morph::fitRigidMotion(by.From, by.To);
   const bool stays = (by.To - by.From).isZero(0);
   for (const Index node : zone.Nodes)
   {
     const Eigen::RowVector3d x = this->RestOf(model, node);
-    result.Moved.row(node) = stays ? x : motion(x);
-    result.Roles[node] = Surroundings::IsZone;
+    result.moved.row(node) = stays ? x : motion(x);
+    result.roles[node] = Surroundings::IsZone;
   }
 }
 
@@ -501,11 +501,10 @@ std::vector<Index> InnerNodes::Prescribed(
   const BoundaryModel& model, const Surroundings::Result& result)
 {
   std::vector<Index> prescribed;
-  for (Index n = 0; n < model.Points().rows(); ++n)
+  for (Index n = 0; n < model.points().rows(); ++n)
   {
-    const bool isOuter =
-      std::binary_search(model.Faces().nodes.begin(), model.Faces().nodes.end(), n);
-    if (isOuter ? result.Roles[n] != Surroundings::IsFree : result.Roles[n] != Surroundings::Stays)
+    const bool isOuter = std::binary_search(model.faces.nodes.begin(), model.faces.nodes.end(), n);
+    if (isOuter ? result.roles[n] != Surroundings::IsFree : result.roles[n] != Surroundings::Stays)
     {
       prescribed.push_back(n);
     }
@@ -517,9 +516,9 @@ WholeVolume::Prescribed InnerNodes::PrescribedOnRanks(const BoundaryModel& model
   const Surroundings::Result& result, const std::vector<Index>& others) const
 {
   WholeVolume::Prescribed given;
-  for (const Index node : model.Faces().nodes)
+  for (const Index node : model.faces.nodes)
   {
-    if (result.Roles[node] != Surroundings::IsFree &&
+    if (result.roles[node] != Surroundings::IsFree &&
         !std::binary_search(others.begin(), others.end(), node))
     {
       given.Nodes.push_back(node);
@@ -528,15 +527,15 @@ WholeVolume::Prescribed InnerNodes::PrescribedOnRanks(const BoundaryModel& model
   std::vector<Index> inner;
   for (std::size_t i = 0; i < this->PointOf.size(); ++i)
   {
-    const Index node = model.Points().rows() + static_cast<Index>(i);
-    if (result.Roles[node] != Surroundings::Stays)
+    const Index node = model.points().rows() + static_cast<Index>(i);
+    if (result.roles[node] != Surroundings::Stays)
     {
       given.Points.push_back(this->PointOf[i]);
       inner.push_back(node);
     }
   }
-  given.NodePlaces = result.Moved(given.Nodes, morph::allColumns);
-  given.PointPlaces = result.Moved(inner, morph::allColumns);
+  given.NodePlaces = result.moved(given.Nodes, morph::allColumns);
+  given.PointPlaces = result.moved(inner, morph::allColumns);
   return given;
 }
 
@@ -552,9 +551,9 @@ WholeVolume::Moved InnerNodes::Guess(const Zone& zone, const BoundaryModel& mode
     return volume.Warp(
       this->PrescribedOnRanks(model, result, {}), hasEdge ? zone.IsEdge : zone.IsNode, monitor);
   }
-  const morph::Mesh& mesh = model.Mesh();
+  const morph::Mesh& mesh = model.mesh;
   const std::vector<Index> prescribed = Prescribed(model, result);
-  if (!this->Method || this->MethodVersion != model.InputVersion() ||
+  if (!this->Method || this->MethodVersion != model.inputVersion ||
       this->Method->partition().prescribed != prescribed)
   {
     std::unique_ptr<morph::Morpher> method = std::make_unique<morph::FemWarp>();
@@ -565,12 +564,12 @@ WholeVolume::Moved InnerNodes::Guess(const Zone& zone, const BoundaryModel& mode
     }
     method->prepare(mesh, morph::partitionNodes(mesh, prescribed), monitor);
     this->Method = std::move(method);
-    this->MethodVersion = model.InputVersion();
+    this->MethodVersion = model.inputVersion;
   }
   Points moved;
-  this->Method->evaluate(result.Moved(prescribed, morph::allColumns), moved, monitor);
+  this->Method->evaluate(result.moved(prescribed, morph::allColumns), moved, monitor);
   const std::vector<Index>& by = zone.Edge.empty() ? zone.Nodes : zone.Edge;
-  return { model.Points()(by, morph::allColumns), moved(by, morph::allColumns) };
+  return { model.points()(by, morph::allColumns), moved(by, morph::allColumns) };
 }
 
 void InnerNodes::Append(vtkUnstructuredGrid* grid, const BoundaryModel& model,
@@ -578,18 +577,18 @@ void InnerNodes::Append(vtkUnstructuredGrid* grid, const BoundaryModel& model,
 {
   std::vector<Index> nodes, points;
   std::vector<signed char> roles;
-  for (Index n = 0; n < static_cast<Index>(result.Roles.size()); ++n)
+  for (Index n = 0; n < static_cast<Index>(result.roles.size()); ++n)
   {
-    if ((result.Roles[n] == Surroundings::IsZone || result.Roles[n] == Surroundings::IsLayer) &&
-        !std::binary_search(model.Faces().nodes.begin(), model.Faces().nodes.end(), n))
+    if ((result.roles[n] == Surroundings::IsZone || result.roles[n] == Surroundings::IsLayer) &&
+        !std::binary_search(model.faces.nodes.begin(), model.faces.nodes.end(), n))
     {
       nodes.push_back(n);
-      points.push_back(this->Whole ? this->PointOf[n - model.Points().rows()] : n);
-      roles.push_back(result.Roles[n]);
+      points.push_back(this->Whole ? this->PointOf[n - model.points().rows()] : n);
+      roles.push_back(result.roles[n]);
     }
   }
   InnerPoints::Append(grid, points, this->Rest(model)(nodes, morph::allColumns),
-    result.Moved(nodes, morph::allColumns), roles, output);
+    result.moved(nodes, morph::allColumns), roles, output);
   if (this->Whole)
   {
     this->Whole->MakeIdsGlobal(output, static_cast<vtkIdType>(nodes.size()));

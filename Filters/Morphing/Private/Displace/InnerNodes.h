@@ -2,8 +2,8 @@
 #pragma once
 
 #include "Boundary/WallLayers.h"
+#include "BoundaryMover/Surroundings.h"
 #include "Morpher/Morpher.h"
-#include "Private/Displace/Surroundings.h"
 #include "Private/Displace/Zones.h"
 #include "Private/Distributed/WholeSurface.h"
 #include "Private/Distributed/WholeVolume.h"
@@ -45,19 +45,18 @@ public:
   void Clear();
   /// Takes the boundary nodes of zones with a known motion out of `choice`, or puts them in:
   /// fixed ones are held, and those with a transform move. So surfaces around them follow.
-  /// `targets`: of choice.Moving.
-  void Constrain(const BoundaryModel& model, const Options& options, Choice::Result& choice,
+  /// `targets`: of choice.moving.
+  void Constrain(const BoundaryModel& model, const Options& options, Choice& choice,
     morph::Points& targets) const;
   /// Sets the positions and roles of layers and zones in `result`, of all nodes. `choice`: as
   /// constrained.
-  void Place(vtkUnstructuredGrid* grid, const BoundaryModel& model, const Choice::Result& choice,
+  void Place(vtkUnstructuredGrid* grid, const BoundaryModel& model, const Choice& choice,
     const Options& options, Surroundings::Result& result, morph::Monitor& monitor);
   /// Moves the rest of the boundary again where Place() has put outer nodes elsewhere than the
   /// first time: surfaces around layers and zones follow them, too. After Place(), which made
-  /// `result`. `targets`: of choice.Moving. Cost: nothing where no outer node was put elsewhere.
-  void SpreadAround(const BoundaryModel& model, const Choice::Result& choice,
-    const morph::Points& targets, const Surroundings::Options& options,
-    Surroundings::Result& result, morph::Monitor& monitor);
+  /// `result`. `targets`: of choice.moving. Cost: nothing where no outer node was put elsewhere.
+  void SpreadAround(const BoundaryModel& model, const Choice& choice, const morph::Points& targets,
+    const Surroundings::Options& options, Surroundings::Result& result, morph::Monitor& monitor);
   /// Adds the inner nodes to the output, points without cells, with all arrays. `output`: the
   /// displaced boundary; `input`: the grid.
   void Append(vtkUnstructuredGrid* grid, const BoundaryModel& model,
@@ -89,11 +88,11 @@ private:
   std::vector<morph::Index> AddPoints(
     const BoundaryModel& model, const std::vector<morph::Index>& ofPiece);
   morph::WallLayers LayersOnRanks(vtkUnstructuredGrid* grid, const BoundaryModel& model,
-    const Choice::Result& choice, const Options& options);
-  void KeepLayers(vtkUnstructuredGrid* grid, const BoundaryModel& model,
-    const Choice::Result& choice, const Options& options, Surroundings::Result& result);
-  void MoveLayers(const morph::Points& rest, const BoundaryModel& model,
-    const Choice::Result& choice, Surroundings::Result& result) const;
+    const Choice& choice, const Options& options);
+  void KeepLayers(vtkUnstructuredGrid* grid, const BoundaryModel& model, const Choice& choice,
+    const Options& options, Surroundings::Result& result);
+  void MoveLayers(const morph::Points& rest, const BoundaryModel& model, const Choice& choice,
+    Surroundings::Result& result) const;
   /// Makes room for the points that were added, undeformed.
   void Extend(const BoundaryModel& model, Surroundings::Result& result) const;
   void MoveRigidly(const Zone& zone, const BoundaryModel& model, Surroundings::Result& result,

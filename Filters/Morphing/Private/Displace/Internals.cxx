@@ -2,13 +2,13 @@
 #include "Private/Displace/Internals.h"
 
 #include "BoundaryMorphing/LatticeMotion.h"
+#include "BoundaryMover/Patches.h"
+#include "BoundaryMover/Unmet.h"
 #include "Private/Data/AffineArrays.h"
 #include "Private/Data/Output.h"
 #include "Private/Data/Surface.h"
 #include "Private/Displace/DisplacedSurface.h"
-#include "Private/Displace/Patches.h"
 #include "Private/Displace/Selection.h"
-#include "Private/Displace/Unmet.h"
 #include "Private/Displace/Zones.h"
 #include "Private/Options.h"
 #include "Private/Pipeline/Input.h"
@@ -72,27 +72,27 @@ void vtkBoundaryDisplacement::vtkInternals::Classify(
   {
     this->Warnings = monitor.TakeWarnings();
   }
-  if (this->ListedVersion == this->Model.InputVersion())
+  if (this->ListedVersion == this->Model.inputVersion)
   {
     return;
   }
   this->ClearList();
-  for (const filters::Patches::Size& size : filters::Patches::Sizes(this->Model))
+  for (const morph::PatchSize& size : morph::patchSizes(this->Model))
   {
-    this->SurfaceList->AddArray(size.Name.c_str(), false);
-    this->SurfaceSizes->InsertNextValue(size.Name);
+    this->SurfaceList->AddArray(size.name.c_str(), false);
+    this->SurfaceSizes->InsertNextValue(size.name);
     this->SurfaceSizes->InsertNextValue(
-      std::to_string(size.Count) + (size.IsInner ? " inner" : ""));
-    this->SurfaceSizes->InsertNextValue(vtkVariant(size.Measure).ToString());
-    const auto &low = size.Box.min(), &high = size.Box.max();
+      std::to_string(size.count) + (size.isInner ? " inner" : ""));
+    this->SurfaceSizes->InsertNextValue(vtkVariant(size.measure).ToString());
+    const auto &low = size.box.min(), &high = size.box.max();
     this->SurfaceBounds->InsertNextTuple6(low[0], high[0], low[1], high[1], low[2], high[2]);
   }
   auto* grid = vtkUnstructuredGrid::SafeDownCast(input);
   if (grid && !this->Whole)
   {
-    this->ListZones(grid, this->Model.Mesh());
+    this->ListZones(grid, this->Model.mesh);
   }
-  this->ListedVersion = this->Model.InputVersion();
+  this->ListedVersion = this->Model.inputVersion;
 }
 
 void vtkBoundaryDisplacement::vtkInternals::ListZones(
@@ -114,8 +114,8 @@ void vtkBoundaryDisplacement::vtkInternals::ListZones(
 void vtkBoundaryDisplacement::Choose(vtkPointSet* input, vtkSelection* selection)
 {
   vtkInternals& own = *this->Internals;
-  filters::Choice::Options options;
-  options.How = static_cast<filters::Choice::By>(this->Options->Moving);
+  filters::Chosen::Options options;
+  options.How = static_cast<filters::Chosen::By>(this->Options->Moving);
   options.FixedSurfaces = this->Options->FixedSurfaces;
   if (this->Options->Moving == MOVING_SELECTION)
   {
@@ -140,11 +140,11 @@ void vtkBoundaryDisplacement::Choose(vtkPointSet* input, vtkSelection* selection
   {
     options.ArrayName = filters::Input::ArrayName(this->Options->MovingArray);
   }
-  if (own.ChosenVersion != own.Model.InputVersion() || !(own.ChosenBy == options))
+  if (own.ChosenVersion != own.Model.inputVersion || !(own.ChosenBy == options))
   {
     own.ChosenVersion = -1; // in case the choice throws
-    own.Choice = filters::Choice::Choose(input, own.Model, options);
-    own.ChosenVersion = own.Model.InputVersion();
+    own.Choice = filters::Chosen::Choose(input, own.Model, options);
+    own.ChosenVersion = own.Model.inputVersion;
     own.ChosenBy = options;
     ++this->ChooseCount;
   }
@@ -158,7 +158,7 @@ morph::Points vtkBoundaryDisplacement::vtkInternals::Fitted(vtkBoundaryDisplacem
   options.Align = filter->Options->AlignTarget;
   options.FeatureAngle = filter->Options->FeatureAngle;
   options.Angle = filter->Options->TargetAngle;
-  options.Reach = filter->Options->TargetReach * this->Model.Size();
+  options.Reach = filter->Options->TargetReach * this->Model.size;
   if (filter->Options->ProjectAlong != PROJECT_ALONG_CLOSEST_POINT)
   {
     options.How = filters::FitToTarget::Project::Along;
@@ -187,13 +187,13 @@ std::vector<morph::Handle> vtkBoundaryDisplacement::vtkInternals::SelectedHandle
     isSelected = filters::Selection::Points(input, selection, this->Extractor);
   }
   std::vector<morph::Handle> handles;
-  for (const morph::Index node : this->Model.Faces().nodes)
+  for (const morph::Index node : this->Model.faces.nodes)
   {
     if (isSelected[node])
     {
       const auto& v = filter->Options->Vector;
       handles.push_back(
-        { this->Model.Points().row(node), { v[0], v[1], v[2] }, filter->Options->HandleRadius });
+        { this->Model.points().row(node), { v[0], v[1], v[2] }, filter->Options->HandleRadius });
     }
   }
   return handles;
@@ -203,7 +203,7 @@ morph::Points vtkBoundaryDisplacement::vtkInternals::ByControlPoints(
   const vtkBoundaryDisplacement* filter, vtkPointSet* input, vtkSelection* selection,
   vtkDataObject* points, filters::Monitor& monitor)
 {
-  const morph::Points from = this->Model.Points()(this->Choice.Moving, morph::allColumns);
+  const morph::Points from = this->Model.points()(this->Choice.moving, morph::allColumns);
   if (filter->Options->Displacement == DISPLACEMENT_HANDLES)
   {
     std::vector<morph::Handle> handles = filters::ControlPoints::Handles(points, this->Handles);
@@ -260,20 +260,20 @@ filters::InnerNodes::Options vtkBoundaryDisplacement::vtkInternals::InnerOptions
 }
 
 void vtkBoundaryDisplacement::vtkInternals::WriteDistances(
-  const filters::Surroundings::Result& result, vtkPolyData* output)
+  const morph::Surroundings::Result& result, vtkPolyData* output)
 {
   std::vector<morph::Index> points, nodes;
   for (std::size_t i = 0; i < this->Model.NodeOfPoint().size(); ++i)
   {
     const morph::Index node = this->Model.NodeOfPoint()[i];
-    if (result.Roles[node] == filters::Surroundings::Moves)
+    if (result.roles[node] == morph::Surroundings::Moves)
     {
       points.push_back(static_cast<morph::Index>(i));
       nodes.push_back(node);
     }
   }
   filters::TargetDistance::Write(this->Fit.Surface(), points,
-    this->Model.Points()(nodes, morph::allColumns), result.Moved(nodes, morph::allColumns), output);
+    this->Model.points()(nodes, morph::allColumns), result.moved(nodes, morph::allColumns), output);
 }
 
 bool vtkBoundaryDisplacement::vtkInternals::Prepare(vtkBoundaryDisplacement* filter,
@@ -294,19 +294,19 @@ bool vtkBoundaryDisplacement::vtkInternals::Prepare(vtkBoundaryDisplacement* fil
     monitor.warn(warning);
   }
   this->Warnings.clear();
-  filters::Surface::WarnOfNone(this->Model.Faces(), monitor);
-  if (this->Model.Faces().nodes.empty())
+  filters::Surface::WarnOfNone(this->Model.faces, monitor);
+  if (this->Model.faces.nodes.empty())
   {
     return false;
   }
-  filters::Surroundings::Options& rest = moves.Rest;
-  rest.Sliding =
-    filters::Patches::Surfaces(this->Model, filter->Options->SlidingSurfaces, "SlidingSurfaces");
+  morph::Surroundings::Options& rest = moves.Rest;
+  rest.sliding =
+    morph::surfacesNamed(this->Model, filter->Options->SlidingSurfaces, "SlidingSurfaces");
   if (extras.Target)
   {
     monitor.SetRange(0.5, 0.7);
     moves.Given =
-      this->Fitted(filter, input, extras.Selection, extras.Target, rest.Sliding, monitor);
+      this->Fitted(filter, input, extras.Selection, extras.Target, rest.sliding, monitor);
   }
   else
   {
@@ -314,7 +314,7 @@ bool vtkBoundaryDisplacement::vtkInternals::Prepare(vtkBoundaryDisplacement* fil
   }
   const bool byPoints = filter->Options->Displacement == DISPLACEMENT_HANDLES ||
                         filter->Options->Displacement == DISPLACEMENT_LATTICE;
-  if (byPoints && !this->Choice.Moving.empty())
+  if (byPoints && !this->Choice.moving.empty())
   {
     moves.Given =
       this->ByControlPoints(filter, input, extras.Selection, extras.ControlPoints, monitor);
@@ -324,17 +324,17 @@ bool vtkBoundaryDisplacement::vtkInternals::Prepare(vtkBoundaryDisplacement* fil
   filters::Motion::Options& motion = moves.Motion;
   motion = { *filter->Options, this->Transform, &moves.Given };
   moves.Choice = this->Choice;
-  moves.Rest.FreeNodes = filters::Motion::TakeMissing(input, motion, moves.Choice, monitor);
+  moves.Rest.freeNodes = filters::Motion::TakeMissing(input, motion, moves.Choice, monitor);
   moves.Targets = filters::Motion::Targets(input, this->Model, moves.Choice, motion);
   if (motion.Displacement == DISPLACEMENT_ALONG_NORMALS)
   {
     // In a plane of symmetry the facets on its other side count, too.
-    const filters::FitToTarget::Rim rim(this->Model, moves.Choice, rest.Sliding, this->Spread);
-    for (std::size_t i = 0; i < moves.Choice.Moving.size(); ++i)
+    const filters::FitToTarget::Rim rim(this->Model, moves.Choice, rest.sliding, this->Spread);
+    for (std::size_t i = 0; i < moves.Choice.moving.size(); ++i)
     {
-      const morph::Index node = moves.Choice.Moving[i];
+      const morph::Index node = moves.Choice.moving[i];
       auto target = moves.Targets.row(static_cast<morph::Index>(i));
-      const Eigen::RowVector3d from = this->Model.Points().row(node), step = target - from;
+      const Eigen::RowVector3d from = this->Model.points().row(node), step = target - from;
       if (rim.Has(node) && step.norm() > 0)
       {
         target = from + step.norm() * rim.Along(node, step.normalized());
@@ -342,21 +342,20 @@ bool vtkBoundaryDisplacement::vtkInternals::Prepare(vtkBoundaryDisplacement* fil
     }
   }
 
-  rest.How = static_cast<filters::Surroundings::Kind>(filter->Options->Surroundings);
-  rest.Follow.method =
+  rest.how = static_cast<morph::Surroundings::Kind>(filter->Options->Surroundings);
+  rest.follow.method =
     static_cast<morph::SurfaceMorphOptions::Method>(filter->Options->SurfaceMethod);
-  rest.Follow.unattached = static_cast<morph::UnattachedMotion>(filter->Options->UnattachedMotion);
-  rest.Free =
-    filters::Patches::Surfaces(this->Model, filter->Options->FreeSurfaces, "FreeSurfaces");
-  for (const morph::Index sheet : this->Model.Sheets())
+  rest.follow.unattached = static_cast<morph::UnattachedMotion>(filter->Options->UnattachedMotion);
+  rest.free = morph::surfacesNamed(this->Model, filter->Options->FreeSurfaces, "FreeSurfaces");
+  for (const morph::Index sheet : this->Model.sheets())
   {
-    if (std::count(rest.Sliding.begin(), rest.Sliding.end(), sheet) == 0)
+    if (std::count(rest.sliding.begin(), rest.sliding.end(), sheet) == 0)
     {
-      rest.Free.push_back(sheet); // twice does no harm
+      rest.free.push_back(sheet); // twice does no harm
     }
   }
-  std::sort(rest.Free.begin(), rest.Free.end());
-  rest.Radius = filter->Options->FalloffRadius * this->Model.Size();
+  std::sort(rest.free.begin(), rest.free.end());
+  rest.radius = filter->Options->FalloffRadius * this->Model.size;
   return true;
 }
 
@@ -382,7 +381,7 @@ void vtkBoundaryDisplacement::vtkInternals::Displace(vtkBoundaryDisplacement* fi
     return;
   }
   const bool hasInner = inner.Any() && filter->Options->Moving != MOVING_NOTHING;
-  const bool isConstrained = hasInner || !moves.Rest.Sliding.empty();
+  const bool isConstrained = hasInner || !moves.Rest.sliding.empty();
   const morph::Points asked = isConstrained ? moves.Targets : morph::Points();
   this->Inner.Clear();
   if (hasInner)
@@ -396,7 +395,7 @@ void vtkBoundaryDisplacement::vtkInternals::Displace(vtkBoundaryDisplacement* fi
       this->OuterBlocks ? this->OuterBlocks : this->Blocks.Merged(), inner, whole);
   }
   monitor.SetRange(extras.Target ? 0.7 : 0.5, 0.9);
-  filters::Surroundings::Result& result = this->Displaced;
+  morph::Surroundings::Result& result = this->Displaced;
   alike(
     [&]
     {
@@ -405,12 +404,12 @@ void vtkBoundaryDisplacement::vtkInternals::Displace(vtkBoundaryDisplacement* fi
         this->Inner.Constrain(this->Model, inner, moves.Choice, moves.Targets);
       }
       // Nothing is left of it where this throws.
-      result = this->Spread.Spread(this->Model, moves.Choice, moves.Targets, moves.Rest, monitor,
-        std::exchange(this->Displaced, filters::Surroundings::Result()));
+      result = this->Spread.spread(this->Model, moves.Choice, moves.Targets, moves.Rest, monitor,
+        std::exchange(this->Displaced, morph::Surroundings::Result()));
     });
   if (hasInner)
   {
-    result.MotionVersion = -1; // inner nodes move, too
+    result.motionVersion = -1; // inner nodes move, too
     this->Inner.Place(grid, this->Model, moves.Choice, inner, result, monitor);
     alike(
       [&]
@@ -424,7 +423,7 @@ void vtkBoundaryDisplacement::vtkInternals::Displace(vtkBoundaryDisplacement* fi
   if (hasRounds)
   {
     monitor.SetRange(0.9, 1);
-    this->Slide.Run(this->Model, moves.Choice.Held, moves.Rest.Sliding,
+    this->Slide.Run(this->Model, moves.Choice.held, moves.Rest.sliding,
       filter->Options->SlideRounds, this->Spread, whole, this->Inner, result, monitor);
   }
   alike(
@@ -432,8 +431,8 @@ void vtkBoundaryDisplacement::vtkInternals::Displace(vtkBoundaryDisplacement* fi
     {
       if (isConstrained)
       {
-        filters::Unmet::Warn(
-          this->Model, this->Choice, asked, moves.Rest.Sliding, result, this->Spread, monitor);
+        morph::warnOfUnmet(
+          this->Model, this->Choice, asked, moves.Rest.sliding, result, this->Spread, monitor);
       }
     });
   alike([&] { this->Write(filter, input, extras, moves, hasInner, hasRounds, output, monitor); });
@@ -448,9 +447,17 @@ void vtkBoundaryDisplacement::vtkInternals::Write(vtkBoundaryDisplacement* filte
   vtkPointSet* input, const Extras& extras, const Moves& moves, bool hasInner, bool hasRounds,
   vtkPolyData* output, filters::Monitor& monitor)
 {
-  const filters::Surroundings::Result& result = this->Displaced;
-  const std::vector<morph::Index> collapsed =
-    filters::Motion::Collapsed(this->Model, moves.Choice, result.Moved);
+  const morph::Surroundings::Result& result = this->Displaced;
+  const std::vector<morph::Index> faces =
+    morph::collapsedFaces(this->Model, moves.Choice, result.moved);
+  std::vector<morph::Index> collapsed; // cells of the output
+  for (std::size_t p = 0; p < this->Model.FaceOfPolygon().size(); ++p)
+  {
+    if (std::binary_search(faces.begin(), faces.end(), this->Model.FaceOfPolygon()[p]))
+    {
+      collapsed.push_back(this->Model.FirstPolygon() + static_cast<morph::Index>(p));
+    }
+  }
   if (!collapsed.empty())
   {
     monitor.warn(
@@ -460,15 +467,15 @@ void vtkBoundaryDisplacement::vtkInternals::Write(vtkBoundaryDisplacement* filte
   }
   if (hasInner)
   {
-    filters::Output::RequireWritable(this->Inner.Rest(this->Model), result.Moved,
+    filters::Output::RequireWritable(this->Inner.Rest(this->Model), result.moved,
       filters::Output::IsFloat(input, filter->Options->OutputPointsPrecision), "nodes");
   }
   filters::DisplacedSurface::Write(
     this->Model, result, input, filter->Options->OutputPointsPrecision, output);
   if (hasRounds)
   {
-    this->Slide.Write(this->Model.Size(), output->GetFieldData());
-    this->SlideReport = this->Slide.Report(this->Model.Size());
+    this->Slide.Write(this->Model.size, output->GetFieldData());
+    this->SlideReport = this->Slide.Report(this->Model.size);
   }
   if (hasInner || hasRounds)
   {
@@ -493,18 +500,18 @@ void vtkBoundaryDisplacement::vtkInternals::Write(vtkBoundaryDisplacement* filte
 void vtkBoundaryDisplacement::vtkInternals::Count(
   vtkBoundaryDisplacement* filter, bool hasInner) const
 {
-  using filters::Surroundings;
-  const std::vector<signed char>& roles = this->Displaced.Roles;
+  using morph::Surroundings;
+  const std::vector<signed char>& roles = this->Displaced.roles;
   std::array<morph::Index, Surroundings::IsLayer + 1> count = {}, inside = {};
-  const auto whole = static_cast<std::size_t>(this->Model.Points().rows());
+  const auto whole = static_cast<std::size_t>(this->Model.points().rows());
   // Without inner nodes all nodes inside stay. On ranks the model has the boundary's nodes alone.
   for (std::size_t i = 0; hasInner && i < whole; ++i)
   {
     ++count[roles[i]];
   }
-  for (std::size_t i = 0; !hasInner && i < this->Model.Faces().nodes.size(); ++i)
+  for (std::size_t i = 0; !hasInner && i < this->Model.faces.nodes.size(); ++i)
   {
-    ++count[roles[this->Model.Faces().nodes[i]]];
+    ++count[roles[this->Model.faces.nodes[i]]];
   }
   // All processes have the nodes of the boundary, and each has its own inner ones behind them.
   for (std::size_t i = whole; i < roles.size(); ++i)

@@ -4,20 +4,20 @@
 
 #include "vtkBoundaryDisplacement.h"
 
+#include "BoundaryMover/Surroundings.h"
 #include "Private/Blocks/Blocks.h"
 #include "Private/Data/Unchanged.h"
 #include "Private/Displace/BlockSelection.h"
 #include "Private/Displace/BoundaryFields.h"
-#include "Private/Displace/BoundaryModel.h"
-#include "Private/Displace/Choice.h"
+#include "Private/Displace/Chosen.h"
 #include "Private/Displace/ControlPoints.h"
 #include "Private/Displace/FitToTarget.h"
 #include "Private/Displace/InnerNodes.h"
+#include "Private/Displace/InputBoundary.h"
 #include "Private/Displace/Motion.h"
 #include "Private/Displace/Picker.h"
 #include "Private/Displace/SharedProperties.h"
 #include "Private/Displace/SlideRounds.h"
-#include "Private/Displace/Surroundings.h"
 #include "Private/Distributed/WholeSurface.h"
 #include "Private/Pipeline/Monitor.h"
 
@@ -47,13 +47,13 @@ struct vtkBoundaryDisplacement::vtkInternals : vtkDisplacementAlgorithm::vtkShar
   const morph::filters::MergedBlocks* OuterBlocks = nullptr; ///< of a filter around this one
   morph::filters::Unchanged Checked;                         ///< the input, where it is a grid
   morph::filters::BlockSelection Selected, ZoneSelected;
-  morph::filters::BoundaryModel Model;
+  morph::filters::InputBoundary Model;
   std::vector<std::string> Warnings; ///< of the geometry, not reported yet
   vtkIdType ChosenVersion = -1;      ///< of Model, that Choice is of
-  morph::filters::Choice::Options ChosenBy;
-  morph::filters::Choice::Result Choice;
-  morph::filters::Surroundings Spread;
-  morph::filters::Surroundings::Result Displaced; ///< by the last execution
+  morph::filters::Chosen::Options ChosenBy;
+  morph::Choice Choice;
+  morph::Surroundings Spread;
+  morph::Surroundings::Result Displaced; ///< by the last execution
   morph::filters::BoundaryFields Fields;
   morph::filters::FitToTarget Fit;
   morph::filters::InnerNodes Inner;
@@ -104,8 +104,8 @@ private:
   {
     morph::Points Given, Targets;
     morph::filters::Motion::Options Motion;
-    morph::filters::Choice::Result Choice;
-    morph::filters::Surroundings::Options Rest;
+    morph::Choice Choice;
+    morph::Surroundings::Options Rest;
   };
   /// Finds what moves. Returns false where there is no boundary.
   bool Prepare(vtkBoundaryDisplacement* filter, vtkPointSet* input, const Extras& extras,
@@ -126,5 +126,5 @@ private:
     vtkSelection* selection, vtkDataObject* points, morph::filters::Monitor& monitor);
   std::vector<morph::Handle> SelectedHandles(
     const vtkBoundaryDisplacement* filter, vtkPointSet* input, vtkSelection* selection);
-  void WriteDistances(const morph::filters::Surroundings::Result& result, vtkPolyData* output);
+  void WriteDistances(const morph::Surroundings::Result& result, vtkPolyData* output);
 };

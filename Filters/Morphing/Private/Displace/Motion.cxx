@@ -2,9 +2,7 @@
 #include "Private/Displace/Motion.h"
 #include "Private/Pipeline/Input.h"
 
-#include "Boundary/FaceAreas.h"
 #include "Private/Data/DataCheck.h"
-#include "Private/Displace/SurfaceShape.h"
 #include "Support/Error.h"
 #include "vtkDisplacementAlgorithm.h"
 
@@ -12,11 +10,8 @@
 #include <vtkDataArray.h>
 #include <vtkLinearTransform.h>
 #include <vtkMatrix4x4.h>
-#include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPointSet.h>
-#include <vtkSmartPointer.h>
-#include <vtkTransform.h>
 
 #include <algorithm>
 
@@ -93,14 +88,9 @@ Points arrayRows(vtkPointSet* input, const std::string& name, const std::vector<
   return rows;
 }
 
-/// The middle of the box around these points.
-Eigen::RowVector3d centerOf(const Points& points)
-{
-  return 0.5 * (points.colwise().minCoeff() + points.colwise().maxCoeff());
-}
-
-/// The point that is the origin of the transform. `from`: what moves.
-Eigen::RowVector3d turningPoint(const Points& from, const Motion::Options& options)
+/// The point that is the origin of the transform.
+Eigen::RowVector3d turningPoint(
+  const BoundaryModel& model, const Choice& choice, const Motion::Options& options)
 {
   if (options.Displacement == vtkDisplacementAlgorithm::DISPLACEMENT_TRANSFORM &&
       !options.TransformAboutCenter)
@@ -108,98 +98,36 @@ Eigen::RowVector3d turningPoint(const Points& from, const Motion::Options& optio
     return Eigen::RowVector3d::Zero();
   }
   return options.AutoCenter
-           ? centerOf(from)
+           ? morph::centerOfMoving(model, choice)
            : Eigen::RowVector3d(options.Center[0], options.Center[1], options.Center[2]);
 }
 
-/// Scales and turns about the origin, and translates.
-vtkSmartPointer<vtkTransform> placement(const Motion::Options& options)
+morph::Placement placementOf(const Motion::Options& options)
 {
-  auto transform = vtkSmartPointer<vtkTransform>::New();
-  transform->Translate(options.Translation.data());
-  transform->RotateZ(options.Rotation[2]);
-  transform->RotateX(options.Rotation[0]);
-  transform->RotateY(options.Rotation[1]);
-  // A factor of zero is allowed, where VTK raises an error.
-  vtkNew<vtkMatrix4x4> scale;
-  for (int i = 0; i < 3; ++i)
-  {
-    scale->SetElement(i, i, options.Scale[i]);
-  }
-  transform->Concatenate(scale);
-  return transform;
-}
-
-/// Moves nodes away from the axis of their cylinder.
-Points withRadius(
-  const BoundaryModel& model, const Choice::Result& choice, const Points& from, double change)
-{
-  std::vector<Index> row(model.Points().rows(), -1);
-  for (std::size_t i = 0; i < choice.Moving.size(); ++i)
-  {
-    row[choice.Moving[i]] = static_cast<Index>(i);
-  }
-  Points to = from;
-  std::vector<std::uint8_t> isDone(choice.Moving.size(), 0);
-  for (const morph::GeometrySurface& surface : model.Geometry().surfaces)
-  {
-    if (std::none_of(surface.faces.begin(), surface.faces.end(),
-          [&](Index face) { return choice.IsMovingFace[face] != 0; }))
-    {
-      continue;
-    }
-    const SurfaceShape shape(model.Points(), model.Faces(), surface);
-    const std::string name = "Surface " + std::to_string(surface.id);
-    if (shape.GetKind() != SurfaceShape::Kind::Cylinder)
-    {
-      throw Error("RadiusChange needs cylinders, and " + name +
-                  ", which moves, is none. Choose cylinders, or another displacement.");
-    }
-    if (shape.GetRadius() + change <= 0)
-    {
-      throw Error("RadiusChange would leave " + name + " no radius: it has " +
-                  std::to_string(shape.GetRadius()) + ".");
-    }
-    for (const Index node : surface.nodes)
-    {
-      if (row[node] >= 0 && !isDone[row[node]])
-      {
-        to.row(row[node]) += change * shape.Outwards(from.row(row[node]));
-        isDone[row[node]] = 1;
-      }
-    }
-  }
-  if (std::all_of(isDone.begin(), isDone.end(), [](std::uint8_t done) { return !done; }))
-  {
-    throw Error("RadiusChange needs cylinders, and no face moves. Choose surfaces that are some.");
-  }
-  return to;
+  return { options.Translation, options.Rotation, options.Scale };
 }
 
 Points positions(const BoundaryModel& model, const std::vector<Index>& nodes)
 {
-  return model.Points()(nodes, morph::allColumns);
+  return model.points()(nodes, morph::allColumns);
 }
 
-/// The displacement of the whole motion; nothing where it is not affine.
-std::optional<morph::AffineMotion> affineMotion(
-  const Points& from, const Motion::Options& options, const Eigen::RowVector3d& center)
+/// The displacement of the whole motion about its turning point; nothing where it is not affine.
+std::optional<morph::AffineMotion> affineMotion(const Motion::Options& options)
 {
   morph::AffineMotion motion = morph::AffineMotion::Zero();
-  vtkSmartPointer<vtkLinearTransform> linear;
+  auto* linear = vtkLinearTransform::SafeDownCast(options.Transform);
   switch (options.Displacement)
   {
     case vtkDisplacementAlgorithm::DISPLACEMENT_VECTOR:
-      motion.col(0) << options.Vector[0], options.Vector[1], options.Vector[2];
+      motion.col(0) = Eigen::Vector3d::Map(options.Vector.data());
       return motion;
     case vtkDisplacementAlgorithm::DISPLACEMENT_TRANSLATE_ROTATE_SCALE:
-      linear = placement(options);
-      break;
+      return morph::affineMotion(placementOf(options));
     case vtkDisplacementAlgorithm::DISPLACEMENT_TRANSFORM:
-      linear = vtkLinearTransform::SafeDownCast(options.Transform);
       break;
     default:
-      break;
+      return {};
   }
   if (!linear)
   {
@@ -214,11 +142,10 @@ std::optional<morph::AffineMotion> affineMotion(
     }
     motion(i, 0) = linear->GetMatrix()->GetElement(i, 3);
   }
-  motion.col(0) += motion.rightCols<3>() * (center - turningPoint(from, options)).transpose();
   return motion;
 }
 
-Points wholeMotion(vtkPointSet* input, const BoundaryModel& model, const Choice::Result& choice,
+Points wholeMotion(vtkPointSet* input, const BoundaryModel& model, const Choice& choice,
   const Motion::Options& options, const Points& from)
 {
   switch (options.Displacement)
@@ -227,14 +154,19 @@ Points wholeMotion(vtkPointSet* input, const BoundaryModel& model, const Choice:
       return from.rowwise() +
              Eigen::RowVector3d(options.Vector[0], options.Vector[1], options.Vector[2]);
     case vtkDisplacementAlgorithm::DISPLACEMENT_ALONG_NORMALS:
-      return from + options.Distance * morph::nodeNormals(model.OutwardAreas(model.Points()),
-                                         model.Faces(), choice.IsMovingFace, choice.Moving);
+      return morph::movedAlongNormals(model, choice, options.Distance);
     case vtkDisplacementAlgorithm::DISPLACEMENT_ARRAY:
-      return from + arrayRows(input, Input::ArrayName(options.DisplacementArray), choice.Moving);
+      return from + arrayRows(input, Input::ArrayName(options.DisplacementArray), choice.moving);
     case vtkDisplacementAlgorithm::DISPLACEMENT_TRANSLATE_ROTATE_SCALE:
-      return transformed(from, placement(options), turningPoint(from, options));
+    {
+      const Eigen::RowVector3d center = turningPoint(model, choice, options);
+      const morph::AffineMotion motion = morph::affineMotion(placementOf(options));
+      const Points about = from.rowwise() - center;
+      const Points turned = about * motion.rightCols<3>().transpose();
+      return from + (turned.rowwise() + motion.col(0).transpose());
+    }
     case vtkDisplacementAlgorithm::DISPLACEMENT_RADIUS:
-      return withRadius(model, choice, from, options.RadiusChange);
+      return morph::movedByRadius(model, choice, options.RadiusChange);
     case vtkDisplacementAlgorithm::DISPLACEMENT_TARGET:
     case vtkDisplacementAlgorithm::DISPLACEMENT_HANDLES:
     case vtkDisplacementAlgorithm::DISPLACEMENT_LATTICE:
@@ -242,7 +174,7 @@ Points wholeMotion(vtkPointSet* input, const BoundaryModel& model, const Choice:
     default:
       break;
   }
-  return transformed(from, options.Transform, turningPoint(from, options));
+  return transformed(from, options.Transform, turningPoint(model, choice, options));
 }
 
 void requireModerate(const Points& targets, const std::vector<Index>& nodes, const char* property)
@@ -271,18 +203,18 @@ void requireModerate(const Points& targets, const std::vector<Index>& nodes, con
 
 namespace Motion
 {
-Points Targets(vtkPointSet* input, const BoundaryModel& model, const Choice::Result& choice,
-  const Options& options)
+Points Targets(
+  vtkPointSet* input, const BoundaryModel& model, const Choice& choice, const Options& options)
 {
-  const Points from = positions(model, choice.Moving);
-  if (choice.Moving.empty())
+  const Points from = positions(model, choice.moving);
+  if (choice.moving.empty())
   {
     return from;
   }
   Points targets = wholeMotion(input, model, choice, options, from);
   const char* names[] = { "Transform", "Vector", "Distance", "DisplacementArray", "Scale",
     "RadiusChange", "Target", "Handles", "Lattice" };
-  requireModerate(targets, choice.Moving, names[options.Displacement]);
+  requireModerate(targets, choice.moving, names[options.Displacement]);
   if (options.ScaleFactor == 0)
   {
     return from;
@@ -290,24 +222,24 @@ Points Targets(vtkPointSet* input, const BoundaryModel& model, const Choice::Res
   if (options.ScaleFactor != 1)
   {
     targets = from + options.ScaleFactor * (targets - from);
-    requireModerate(targets, choice.Moving, "ScaleFactor");
+    requireModerate(targets, choice.moving, "ScaleFactor");
   }
   return targets;
 }
 
 std::vector<Index> TakeMissing(
-  vtkPointSet* input, const Options& options, Choice::Result& choice, morph::Monitor& monitor)
+  vtkPointSet* input, const Options& options, Choice& choice, morph::Monitor& monitor)
 {
-  if (options.Displacement != vtkDisplacementAlgorithm::DISPLACEMENT_ARRAY || choice.Moving.empty())
+  if (options.Displacement != vtkDisplacementAlgorithm::DISPLACEMENT_ARRAY || choice.moving.empty())
   {
     return {};
   }
-  const Points rows = arrayRows(input, Input::ArrayName(options.DisplacementArray), choice.Moving);
+  const Points rows = arrayRows(input, Input::ArrayName(options.DisplacementArray), choice.moving);
   vtkDataArray* mask = input->GetPointData()->GetArray(DataCheck::MaskName);
   std::vector<Index> missing, moving;
   for (Index i = 0; i < rows.rows(); ++i)
   {
-    const Index node = choice.Moving[i];
+    const Index node = choice.moving[i];
     (DataCheck::IsMissing(rows.row(i), mask, node) ? missing : moving).push_back(node);
   }
   const std::string where =
@@ -324,65 +256,25 @@ std::vector<Index> TakeMissing(
                  "there), and are free: they are solved with the interior. Point ids " +
                  morph::listIds(missing) + " of the input.");
   }
-  choice.Moving = std::move(moving);
+  choice.moving = std::move(moving);
   return missing;
 }
 
-std::optional<morph::AffineMotion> Affine(const BoundaryModel& model, const Choice::Result& choice,
+std::optional<morph::AffineMotion> Affine(const BoundaryModel& model, const Choice& choice,
   const Options& options, const Eigen::RowVector3d& center)
 {
-  if (choice.Moving.empty())
+  if (choice.moving.empty())
   {
     return {};
   }
-  std::optional<morph::AffineMotion> motion =
-    affineMotion(positions(model, choice.Moving), options, center);
+  std::optional<morph::AffineMotion> motion = affineMotion(options);
   if (motion)
   {
+    motion->col(0) +=
+      motion->rightCols<3>() * (center - turningPoint(model, choice, options)).transpose();
     *motion *= options.ScaleFactor;
   }
   return motion;
-}
-
-Eigen::RowVector3d Center(const BoundaryModel& model, const Choice::Result& choice)
-{
-  if (choice.Moving.empty())
-  {
-    return Eigen::RowVector3d::Zero();
-  }
-  return centerOf(positions(model, choice.Moving));
-}
-
-std::vector<Index> Collapsed(
-  const BoundaryModel& model, const Choice::Result& choice, const Points& moved)
-{
-  const morph::BoundaryFaces& faces = model.Faces();
-  const Points after = morph::faceAreas(moved, faces);
-  // No face of the boundary is larger than this, and nearly always all are larger than that part.
-  const double largest = model.Size() * model.Size();
-  if (after.rows() == 0 || after.rowwise().norm().minCoeff() > 1e-12 * largest)
-  {
-    return {};
-  }
-  const Points before = morph::faceAreas(model.Points(), faces);
-  const auto isCollapsed = [&](Index f)
-  {
-    const double area = before.row(f).norm();
-    return area > 0 && after.row(f).norm() <= 1e-12 * area &&
-           std::all_of(faces.connectivity.begin() + faces.offsets[f],
-             faces.connectivity.begin() + faces.offsets[f + 1],
-             [&](Index node)
-             { return std::binary_search(choice.Moving.begin(), choice.Moving.end(), node); });
-  };
-  std::vector<Index> cells;
-  for (std::size_t p = 0; p < model.FaceOfPolygon().size(); ++p)
-  {
-    if (isCollapsed(model.FaceOfPolygon()[p]))
-    {
-      cells.push_back(model.FirstPolygon() + static_cast<Index>(p));
-    }
-  }
-  return cells;
 }
 }
 }

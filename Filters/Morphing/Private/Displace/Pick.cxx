@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Private/Displace/Pick.h"
 
+#include "BoundaryMover/Patches.h"
 #include "Private/Data/Surface.h"
 #include "Private/Displace/BlockPick.h"
-#include "Private/Displace/Patches.h"
 #include "Private/Displace/Selection.h"
 #include "Support/Error.h"
 
@@ -82,7 +82,7 @@ Corners cornersOf(vtkIdList* points, const Nodes& nodes)
 
 /// Whether each of the model's nodes is at a selected point.
 std::vector<std::uint8_t> selectedNodes(
-  const std::vector<std::uint8_t>& flags, const Nodes& nodes, const BoundaryModel& model)
+  const std::vector<std::uint8_t>& flags, const Nodes& nodes, const InputBoundary& model)
 {
   std::vector<Index> ids;
   for (std::size_t i = 0; i < flags.size(); ++i)
@@ -96,7 +96,7 @@ std::vector<std::uint8_t> selectedNodes(
   // A model made from a surface has numbers of its own for the mesh's nodes.
   vtkPolyData* surface = model.Surface();
   const Nodes nodesOfSurface(surface);
-  std::vector<std::uint8_t> isSelected(model.Points().rows(), 0);
+  std::vector<std::uint8_t> isSelected(model.points().rows(), 0);
   for (std::size_t i = 0; i < model.NodeOfPoint().size(); ++i)
   {
     const Index id = nodesOfSurface(static_cast<vtkIdType>(i));
@@ -106,9 +106,9 @@ std::vector<std::uint8_t> selectedNodes(
 }
 
 Items itemsOfPoints(
-  const std::vector<std::uint8_t>& flags, const Nodes& nodes, const BoundaryModel& model)
+  const std::vector<std::uint8_t>& flags, const Nodes& nodes, const InputBoundary& model)
 {
-  const morph::Classification& geometry = model.Geometry();
+  const morph::Classification& geometry = model.geometry;
   const std::vector<std::uint8_t> isSelected = selectedNodes(flags, nodes, model);
   std::vector<std::vector<Index>> surfacesOf(isSelected.size());
   for (std::size_t s = 0; s < geometry.surfaces.size(); ++s)
@@ -129,7 +129,7 @@ Items itemsOfPoints(
 }
 
 /// Adds an item for each selected face: those of the boundary with the same corners.
-void addFaces(std::vector<Corners>& selected, const BoundaryModel& model, Items& items)
+void addFaces(std::vector<Corners>& selected, const InputBoundary& model, Items& items)
 {
   std::sort(selected.begin(), selected.end());
   vtkPolyData* surface = model.Surface();
@@ -141,7 +141,7 @@ void addFaces(std::vector<Corners>& selected, const BoundaryModel& model, Items&
     polygons->GetCellAtId(i, points);
     if (std::binary_search(selected.begin(), selected.end(), cornersOf(points, nodes)))
     {
-      const Index number = model.Geometry().surfaceOfFace[model.FaceOfPolygon()[i]];
+      const Index number = model.geometry.surfaceOfFace[model.FaceOfPolygon()[i]];
       items.SurfacesOf.push_back({ number });
       ++items.FacesOn[number];
     }
@@ -149,9 +149,9 @@ void addFaces(std::vector<Corners>& selected, const BoundaryModel& model, Items&
 }
 
 Items itemsOfCells(const std::vector<std::uint8_t>& flags, vtkDataSet* shown, const Nodes& nodes,
-  const BoundaryModel& model)
+  const InputBoundary& model)
 {
-  const morph::BoundaryFaces& faces = model.Faces();
+  const morph::BoundaryFaces& faces = model.faces;
   std::vector<Corners> selected;
   vtkNew<vtkIdList> points;
   for (std::size_t i = 0; i < flags.size(); ++i)
@@ -164,7 +164,7 @@ Items itemsOfCells(const std::vector<std::uint8_t>& flags, vtkDataSet* shown, co
     }
   }
   Items items;
-  items.FacesOn.assign(model.Geometry().surfaces.size(), 0);
+  items.FacesOn.assign(model.geometry.surfaces.size(), 0);
   std::vector<std::vector<Index>> surfacesOf(flags.size());
   for (std::size_t f = 0; f < faces.cells.size(); ++f)
   {
@@ -172,7 +172,7 @@ Items itemsOfCells(const std::vector<std::uint8_t>& flags, vtkDataSet* shown, co
     if (cell >= 0 && cell < static_cast<Index>(flags.size()) && flags[cell] &&
         shown->GetCell(cell)->GetCellDimension() == 3)
     {
-      const Index number = model.Geometry().surfaceOfFace[f];
+      const Index number = model.geometry.surfaceOfFace[f];
       surfacesOf[cell].push_back(number);
       ++items.FacesOn[number];
     }
@@ -230,13 +230,13 @@ std::vector<Index> cover(const Items& items)
   }
 }
 
-void writeCurves(const BoundaryModel& model, const std::vector<Index>& curves, vtkPolyData* output)
+void writeCurves(const InputBoundary& model, const std::vector<Index>& curves, vtkPolyData* output)
 {
   const std::vector<Index>& nodeOfPoint = model.NodeOfPoint();
   vtkNew<vtkCellArray> lines;
   for (Index number : curves)
   {
-    const morph::GeometryCurve& curve = model.Geometry().curves[number];
+    const morph::GeometryCurve& curve = model.geometry.curves[number];
     std::vector<vtkIdType> line;
     for (Index node : curve.nodes)
     {
@@ -256,7 +256,7 @@ void writeCurves(const BoundaryModel& model, const std::vector<Index>& curves, v
 namespace Pick
 {
 std::vector<Index> Surfaces(vtkDataSet* shown, vtkSelection* selection,
-  vtkExtractSelection* extractor, const BoundaryModel& model)
+  vtkExtractSelection* extractor, const InputBoundary& model)
 {
   const Selection::Inside inside = Selection::Evaluate(shown, selection, extractor);
   const Nodes nodes(shown);
@@ -265,10 +265,10 @@ std::vector<Index> Surfaces(vtkDataSet* shown, vtkSelection* selection,
 }
 
 void Find(vtkDataObject* shown, vtkSelection* selection, vtkExtractSelection* extractor,
-  const Blocks& blocks, const BoundaryModel& model, vtkDataArraySelection* names)
+  const Blocks& blocks, const InputBoundary& model, vtkDataArraySelection* names)
 {
   names->RemoveAllArrays();
-  for (const std::string& name : Patches::Names(model))
+  for (const std::string& name : morph::patchNames(model))
   {
     names->AddArray(name.c_str(), false);
   }
@@ -294,11 +294,11 @@ void Find(vtkDataObject* shown, vtkSelection* selection, vtkExtractSelection* ex
   }
   for (Index surface : Surfaces(data, selection, extractor, model))
   {
-    names->EnableArray(Patches::SurfaceName(model.Geometry(), surface).c_str());
+    names->EnableArray(morph::surfaceName(model.geometry, surface).c_str());
   }
 }
 
-void Write(const BoundaryModel& model, vtkDataArraySelection* names, vtkPolyData* positions,
+void Write(const InputBoundary& model, vtkDataArraySelection* names, vtkPolyData* positions,
   vtkPolyData* output)
 {
   output->Initialize();
@@ -308,7 +308,7 @@ void Write(const BoundaryModel& model, vtkDataArraySelection* names, vtkPolyData
     return;
   }
   std::set<std::string> enabled;
-  for (const std::string& name : Patches::Names(model))
+  for (const std::string& name : morph::patchNames(model))
   {
     if (names->ArrayExists(name.c_str()) && names->ArrayIsEnabled(name.c_str()))
     {
@@ -318,19 +318,19 @@ void Write(const BoundaryModel& model, vtkDataArraySelection* names, vtkPolyData
   const bool isMoved = positions && positions->GetNumberOfPoints() == surface->GetNumberOfPoints();
   output->SetPoints((isMoved ? positions : surface)->GetPoints());
   output->GetPointData()->AddArray(surface->GetPointData()->GetArray(Surface::IdName));
-  const Patches::Part part = Patches::Find(model, enabled, "the list");
+  const morph::PatchPart part = morph::findPatches(model, enabled, "the list");
   vtkNew<vtkCellArray> polygons;
   vtkNew<vtkIdList> points;
   for (vtkIdType i = 0; i < surface->GetPolys()->GetNumberOfCells(); ++i)
   {
-    if (part.HasFace[model.FaceOfPolygon()[i]])
+    if (part.hasFace[model.FaceOfPolygon()[i]])
     {
       surface->GetPolys()->GetCellAtId(i, points);
       polygons->InsertNextCell(points);
     }
   }
   output->SetPolys(polygons);
-  writeCurves(model, Patches::Curves(model.Geometry(), enabled), output);
+  writeCurves(model, morph::curvesNamed(model.geometry, enabled), output);
 }
 }
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Private/Displace/BoundaryModel.h"
+#include "Private/Displace/InputBoundary.h"
 
 #include <vector>
 
@@ -31,18 +31,18 @@ namespace morph::filters::Pick
 /// selected faces, then that with the lower number. Throws morph::Error as Selection::Evaluate()
 /// does. Cost: that of the extractor, a pass over the faces and, for selected faces, their sort.
 std::vector<morph::Index> Surfaces(vtkDataSet* shown, vtkSelection* selection,
-  vtkExtractSelection* extractor, const BoundaryModel& model);
+  vtkExtractSelection* extractor, const InputBoundary& model);
 
 /// Writes into `names` all names of surfaces and curves, and enables those of Surfaces(). Nothing
 /// is enabled where there is no selection. `blocks`: of composite data, which `shown` then is too.
 /// Throws as that does and as BlockPick::Translate(), where `shown` has no points, and where the
 /// model is empty.
 void Find(vtkDataObject* shown, vtkSelection* selection, vtkExtractSelection* extractor,
-  const Blocks& blocks, const BoundaryModel& model, vtkDataArraySelection* names);
+  const Blocks& blocks, const InputBoundary& model, vtkDataArraySelection* names);
 
 /// Makes `output` the polygons of the surfaces and the lines of the curves that `names` enables;
 /// unknown names are left out. Its points are those of model.Surface(), at `positions` if that has
 /// as many. Cost: a pass over the faces.
-void Write(const BoundaryModel& model, vtkDataArraySelection* names, vtkPolyData* positions,
+void Write(const InputBoundary& model, vtkDataArraySelection* names, vtkPolyData* positions,
   vtkPolyData* output);
 }

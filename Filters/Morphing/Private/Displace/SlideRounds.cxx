@@ -31,12 +31,12 @@ std::map<Index, Surfaces> slidingNodes(const BoundaryModel& model, const std::ve
   const Surfaces& sliding, const Surroundings::Result& result)
 {
   std::map<Index, Surfaces> nodes;
-  const auto& surfaces = model.Geometry().surfaces;
+  const auto& surfaces = model.geometry.surfaces;
   for (const Index s : sliding)
   {
     for (const Index node : surfaces[s].nodes)
     {
-      const signed char role = result.Roles[node];
+      const signed char role = result.roles[node];
       if (role == Surroundings::Stays || role == Surroundings::Follows ||
           role == Surroundings::IsHeld) // vertices, and surfaces that nothing touches
       {
@@ -68,7 +68,7 @@ Eigen::Matrix3d directionsAt(
   Eigen::Matrix3d free = Eigen::Matrix3d::Identity();
   for (const Index s : surfaces)
   {
-    const Eigen::Vector3d across = free * shapes.ShapeOf(model, s).Normal(x).transpose();
+    const Eigen::Vector3d across = free * shapes.shapeOf(model, s).normal(x).transpose();
     if (across.norm() > LeastSine)
     {
       const Eigen::Vector3d unit = across.normalized();
@@ -83,7 +83,7 @@ Eigen::Matrix3d directionsAt(
 void moveBetween(const BoundaryModel& model, const std::map<Index, Surfaces>& sliding,
   const morph::Points& before, Surroundings& shapes, morph::Points& moved)
 {
-  const morph::BoundaryFaces& faces = model.Faces();
+  const morph::BoundaryFaces& faces = model.faces;
   for (std::size_t i = 0; i < faces.nodes.size(); ++i)
   {
     const auto k = static_cast<Index>(i);
@@ -92,12 +92,12 @@ void moveBetween(const BoundaryModel& model, const std::map<Index, Surfaces>& sl
     {
       continue;
     }
-    const Row shift = morph::meanBetween(faces, k, model.Points(),
+    const Row shift = morph::meanBetween(faces, k, model.points(),
       [&](Index corner) { return Row(moved.row(corner) - before.row(corner)); });
     if (!shift.isZero(0))
     {
       moved.row(found->first) =
-        shapes.Slid(model, found->second, found->first, before.row(found->first) + shift);
+        shapes.slid(model, found->second, found->first, before.row(found->first) + shift);
     }
   }
 }
@@ -106,7 +106,7 @@ void moveBetween(const BoundaryModel& model, const std::map<Index, Surfaces>& sl
 void SlideRounds::Prepare(const BoundaryModel& model, const std::vector<Index>& nodes,
   const Surroundings::Result& result, morph::Monitor& monitor)
 {
-  const morph::Mesh& mesh = model.Mesh();
+  const morph::Mesh& mesh = model.mesh;
   if (mesh.numberOfCells() == 0)
   {
     throw morph::Error("SlideRounds needs the mesh's cells, and the input is a surface. Give the "
@@ -124,14 +124,14 @@ void SlideRounds::Prepare(const BoundaryModel& model, const std::vector<Index>& 
       prescribed.push_back(node);
     }
   }
-  if (!this->Method || this->MethodVersion != model.InputVersion() || nodes != this->Sliding ||
+  if (!this->Method || this->MethodVersion != model.inputVersion || nodes != this->Sliding ||
       prescribed != this->Prescribed)
   {
     this->Method = nullptr; // in case it throws
     auto method = std::make_unique<morph::SlidingWarp>();
     method->prepare(mesh, prescribed, nodes, monitor);
     this->Method = std::move(method);
-    this->MethodVersion = model.InputVersion();
+    this->MethodVersion = model.inputVersion;
     this->Sliding = nodes;
     this->Prescribed = prescribed;
   }
@@ -159,9 +159,9 @@ void SlideRounds::Run(const BoundaryModel& model, const std::vector<Index>& held
     return { [&model, &shapes, of](Index i, const Row& x)
       { return directionsAt(model, of(i)->second, shapes, x); },
       [&model, &shapes, of](Index i, const Row& x)
-      { return shapes.Slid(model, of(i)->second, of(i)->first, x); } };
+      { return shapes.slid(model, of(i)->second, of(i)->first, x); } };
   };
-  const morph::Points before = result.Moved;
+  const morph::Points before = result.moved;
   if (whole)
   {
     const WholeVolume volume(*whole);
@@ -169,20 +169,20 @@ void SlideRounds::Run(const BoundaryModel& model, const std::vector<Index>& held
     morph::Points places = before(nodes, morph::allColumns);
     this->Rounds = volume.Slide(
       inner.PrescribedOnRanks(model, result, nodes), nodes, along(nodes), rounds, places, monitor);
-    result.Moved(nodes, morph::allColumns) = places;
+    result.moved(nodes, morph::allColumns) = places;
   }
   else
   {
     this->Prepare(model, nodes, result, monitor);
     this->Rounds =
-      this->Method->slide(along(this->Method->slidingNodes()), rounds, result.Moved, monitor);
+      this->Method->slide(along(this->Method->slidingNodes()), rounds, result.moved, monitor);
   }
-  moveBetween(model, sliding, before, shapes, result.Moved);
+  moveBetween(model, sliding, before, shapes, result.moved);
   for (const Index node : nodes)
   {
-    if (result.Moved.row(node) != before.row(node))
+    if (result.moved.row(node) != before.row(node))
     {
-      result.Roles[node] = Surroundings::Follows;
+      result.roles[node] = Surroundings::Follows;
     }
   }
 }

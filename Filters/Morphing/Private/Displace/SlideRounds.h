@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "BoundaryMover/Surroundings.h"
 #include "LinearMethods/SlidingWarp.h"
-#include "Private/Displace/BoundaryModel.h"
 #include "Private/Displace/InnerNodes.h"
-#include "Private/Displace/Surroundings.h"
 #include "Private/Distributed/WholeSurface.h"
 
 #include <memory>

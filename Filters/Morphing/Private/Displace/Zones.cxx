@@ -4,7 +4,7 @@
 #include "Mesh/CellShape.h"
 #include "Private/Blocks/MergedBlocks.h"
 #include "Private/Data/NamedSets.h"
-#include "Private/Displace/Choice.h"
+#include "Private/Displace/Chosen.h"
 #include "Private/Displace/Selection.h"
 #include "Private/Distributed/WholeVolume.h"
 #include "Private/Pipeline/Ranks.h"
@@ -80,11 +80,11 @@ std::optional<Marked> findNamed(vtkUnstructuredGrid* grid, const morph::Mesh& me
   vtkDataArray* ofCells = grid->GetCellData()->GetArray(name.c_str());
   if (ofCells && ofCells->GetNumberOfTuples() == mesh.numberOfCells())
   {
-    return Marked{ false, Choice::Marked(ofCells) };
+    return Marked{ false, Chosen::Marked(ofCells) };
   }
   if (ofPoints && ofPoints->GetNumberOfTuples() == mesh.numberOfNodes())
   {
-    return Marked{ true, Choice::Marked(ofPoints) };
+    return Marked{ true, Chosen::Marked(ofPoints) };
   }
   Marked cells{ false, std::vector<std::uint8_t>(mesh.numberOfCells(), 0) };
   bool found = false;

@@ -2,14 +2,12 @@
 #pragma once
 
 #include "Boundary/Classification.h"
-#include "Mesh/Mesh.h"
+#include "Geometry/TriangleTree.h"
 #include "Mesh/Topology.h"
 
-#include <vtkSmartPointer.h>
+#include <memory>
 
-class vtkStaticCellLocator;
-
-namespace morph::filters
+namespace morph
 {
 /// The shape of an undeformed surface, along which its nodes can slide: a plane, a cylinder or, for
 /// any other surface, its facets. A plane fits its nodes to 1e-6 of their extent. A cylinder fits
@@ -27,34 +25,32 @@ public:
   };
 
   /// `points`: #nodes x 3. Cost: a few passes over the surface's nodes; for facets, a locator.
-  SurfaceShape(
-    const morph::Points& points, const morph::BoundaryFaces& faces, const morph::GeometrySurface&);
+  SurfaceShape(const Points& points, const BoundaryFaces& faces, const GeometrySurface&);
 
-  Kind GetKind() const { return this->How; }
-  double GetRadius() const { return this->Radius; } ///< of a cylinder
+  Kind kind() const { return this->kind_; }
+  double radius() const { return this->radius_; } ///< of a cylinder
   /// The unit vector away from a cylinder's axis, zero on it.
-  Row Outwards(const Row& x) const;
+  Row outwards(const Row& x) const;
   /// The nearest point of the shape. Planes and cylinders have no end.
-  Row Closest(const Row& x) const;
+  Row closest(const Row& x) const;
   /// The point near `to` at the height above the shape that `from` has. So a node that slides keeps
   /// its undeformed distance, and stays where it does not move.
-  Row Slid(const Row& from, const Row& to) const;
+  Row slid(const Row& from, const Row& to) const;
   /// The unit normal of the shape at its point nearest to `x`, either way; zero where it has none.
-  Row Normal(const Row& x) const;
+  Row normal(const Row& x) const;
 
 private:
   /// Both set the shape's numbers. The first returns the largest distance of a node from the plane.
   ///@{
-  double FitPlane(const morph::Points& nodes);
-  bool FitCylinder(const morph::Points& nodes, const morph::Points& areas, double tolerance);
+  double fitPlane(const Points& nodes);
+  bool fitCylinder(const Points& nodes, const Points& areas, double tolerance);
   ///@}
-  void TakeFacets(const morph::Points& points, const morph::BoundaryFaces& faces,
-    const morph::GeometrySurface& surface);
+  void takeFacets(const Points& points, const BoundaryFaces& faces, const GeometrySurface& surface);
 
-  Kind How = Kind::Facets;
-  Row Center = Row::Zero();    ///< a point of the plane, or of the axis
-  Row Direction = Row::Zero(); ///< the plane's normal, or the axis
-  double Radius = 0;
-  vtkSmartPointer<vtkStaticCellLocator> Locator;
+  Kind kind_ = Kind::Facets;
+  Row center_ = Row::Zero();    ///< a point of the plane, or of the axis
+  Row direction_ = Row::Zero(); ///< the plane's normal, or the axis
+  double radius_ = 0;
+  std::unique_ptr<TriangleTree> facets_;
 };
 }

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Private/Displace/BoundaryModel.h"
-#include "Private/Displace/Patches.h"
+#include "BoundaryMover/Choice.h"
 
 #include <vtkType.h>
 
@@ -17,8 +16,8 @@ class vtkImplicitFunction;
 class vtkPointSet;
 class vtkSelection;
 
-/// The choice of the nodes of a boundary that move, and of those that are held.
-namespace morph::filters::Choice
+/// The choice of what moves, from VTK's data.
+namespace morph::filters::Chosen
 {
 enum class By
 {
@@ -48,21 +47,9 @@ struct Options
   bool operator==(const Options& other) const;
 };
 
-struct Result
-{
-  std::vector<morph::Index> Moving;       ///< ascending, at least one unless By::Nothing
-  std::vector<morph::Index> Held;         ///< ascending, none of them moving
-  std::vector<std::uint8_t> IsMovingFace; ///< #faces
-
-  bool operator==(const Result& other) const;
-};
-
-/// Chooses the nodes and faces that move. Nodes between corners (of quadratic cells) that all move,
-/// move too. A face moves if its patch is chosen or, if the choice is not by patches, if all of its
-/// corners move. Nodes of a held patch that are chosen to move, move. `input`: the data that
-/// `model` was made from. Throws morph::Error where nothing on the boundary is chosen, with what is
-/// missing.
-Result Choose(vtkPointSet* input, const BoundaryModel& model, const Options& options);
+/// Chooses the nodes and faces that move. `input`: the data that `model` was made from. Throws
+/// morph::Error where nothing on the boundary is chosen, with what is missing.
+morph::Choice Choose(vtkPointSet* input, const morph::BoundaryModel& model, const Options& options);
 
 /// For each tuple, whether one of its values is not 0. A NaN marks nothing.
 std::vector<std::uint8_t> Marked(vtkDataArray* array);

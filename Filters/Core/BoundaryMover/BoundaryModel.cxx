@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "BoundaryMover/BoundaryModel.h"
+
+#include "Boundary/FaceAreas.h"
+#include "Mesh/FacesOfCells.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <iterator>
+#include <map>
+#include <utility>
+
+namespace morph
+{
+namespace
+{
+/// Whether all of these faces are among the last ones of `all`.
+bool areLast(const std::vector<Index>& faces, const BoundaryFaces& all, std::size_t number)
+{
+  const auto first = static_cast<Index>(all.offsets.size() - 1 - number);
+  return !faces.empty() &&
+         std::all_of(faces.begin(), faces.end(), [first](Index face) { return face >= first; });
+}
+
+/// Which faces the marked cells have; a volume cell those on the boundary alone.
+std::vector<Index> facesOfCells(const Mesh& mesh, const BoundaryFaces& faces, std::size_t inside,
+  const std::vector<std::uint8_t>& isMarked)
+{
+  const bool isMesh = mesh.numberOfCells() > 0;
+  const std::map<Corners, int> flat = isMesh ? flatCells(mesh, isMarked) : std::map<Corners, int>();
+  const Index* all = faces.connectivity.data();
+  const std::size_t count = faces.offsets.size() - 1;
+  std::vector<Index> result;
+  for (std::size_t f = 0; f < (flat.empty() ? count - inside : count); ++f)
+  {
+    const Index behind = isMesh ? faces.cells[f] : static_cast<Index>(f);
+    if (flat.empty()
+          ? isMarked[behind] != 0
+          : flat.count(sortedCorners(all + faces.offsets[f], all + faces.offsets[f + 1])) > 0)
+    {
+      result.push_back(static_cast<Index>(f));
+    }
+  }
+  return result;
+}
+
+void sortUnique(std::vector<Index>& list)
+{
+  std::sort(list.begin(), list.end());
+  list.erase(std::unique(list.begin(), list.end()), list.end());
+}
+
+/// The diagonal of the box around these nodes; 0 for none.
+double sizeOf(const Points& points, const std::vector<Index>& nodes)
+{
+  Eigen::AlignedBox3d box;
+  for (const Index node : nodes)
+  {
+    box.extend(points.row(node).transpose());
+  }
+  return box.isEmpty() ? 0 : box.diagonal().norm();
+}
+}
+
+NamedSet boundarySet(const std::string& name, const Mesh& mesh, const BoundaryFaces& faces,
+  std::size_t inside, const std::vector<std::uint8_t>& isNode,
+  const std::vector<std::uint8_t>& isCell)
+{
+  NamedSet set;
+  set.name = name;
+  const auto begin = faces.connectivity.begin();
+  if (!isCell.empty())
+  {
+    set.faces = facesOfCells(mesh, faces, inside, isCell);
+    for (const Index face : set.faces)
+    {
+      set.nodes.insert(
+        set.nodes.end(), begin + faces.offsets[face], begin + faces.offsets[face + 1]);
+    }
+  }
+  if (!isNode.empty())
+  {
+    const auto isMarked = [&](Index node) { return isNode[node] != 0; };
+    std::copy_if(faces.nodes.begin(), faces.nodes.end(), std::back_inserter(set.nodes), isMarked);
+    for (std::size_t f = 0; f + 1 < faces.offsets.size(); ++f)
+    {
+      if (std::all_of(begin + faces.offsets[f], begin + faces.offsets[f + 1], isMarked))
+      {
+        set.faces.push_back(static_cast<Index>(f));
+      }
+    }
+  }
+  sortUnique(set.nodes);
+  sortUnique(set.faces);
+  return set;
+}
+
+bool BoundaryModel::areInner(const std::vector<Index>& ids) const
+{
+  return areLast(ids, this->faces, this->inner.size());
+}
+
+std::vector<Index> BoundaryModel::sheets() const
+{
+  std::vector<Index> result;
+  for (std::size_t s = 0; s < this->geometry.surfaces.size(); ++s)
+  {
+    if (areLast(this->geometry.surfaces[s].faces, this->faces, this->inner.sheets.size()))
+    {
+      result.push_back(static_cast<Index>(s));
+    }
+  }
+  return result;
+}
+
+std::vector<std::uint8_t> BoundaryModel::nodesOnlyOn(const std::vector<Index>& surfaces) const
+{
+  std::vector<std::uint8_t> result(this->points().rows(), 0);
+  const auto mark = [&](Index surface, std::uint8_t value)
+  {
+    for (const Index node : this->geometry.surfaces[surface].nodes)
+    {
+      result[node] = value;
+    }
+  };
+  for (const Index s : surfaces)
+  {
+    mark(s, 1);
+  }
+  for (std::size_t s = 0; s < this->geometry.surfaces.size(); ++s)
+  {
+    if (!std::binary_search(surfaces.begin(), surfaces.end(), static_cast<Index>(s)))
+    {
+      mark(static_cast<Index>(s), 0);
+    }
+  }
+  return result;
+}
+
+Points BoundaryModel::outwardAreas(const Points& at) const
+{
+  Points areas = faceAreas(at, this->faces);
+  for (Index f = 0; f < areas.rows(); ++f)
+  {
+    areas.row(f) *= this->orientation[f];
+  }
+  return areas;
+}
+
+void BoundaryModel::findFaces(const std::vector<std::uint8_t>& isNamed, Monitor& monitor)
+{
+  const ConnectedComponents bodies = connectedComponents(this->mesh);
+  this->bodyOfNode = bodies.ofNode;
+  this->faces = boundaryFaces(this->mesh, monitor);
+  this->inner = innerFaces(this->mesh, this->faces, isNamed, monitor);
+  if (this->inner.size() > 0)
+  {
+    InnerFaces::Places places;
+    for (std::size_t f = 0; f < this->faces.cells.size(); ++f)
+    {
+      places.emplace_back(this->faces.cells[f], this->faces.sides[f]);
+    }
+    for (const auto* some : { &this->inner.baffles, &this->inner.sheets })
+    {
+      places.insert(places.end(), some->begin(), some->end());
+    }
+    this->faces = facesAt(this->mesh, places);
+  }
+  const std::vector<std::int8_t> ofCell = cellSigns(this->mesh, bodies);
+  this->orientation.clear();
+  for (const Index cell : this->faces.cells)
+  {
+    this->orientation.push_back(ofCell[cell]);
+  }
+  monitor.check();
+}
+
+void BoundaryModel::takeSets(std::vector<NamedSet> sets)
+{
+  const auto onBoundary = [](const NamedSet& set) { return !set.nodes.empty(); };
+  const auto isOuter = [this](const NamedSet& set) { return !this->areInner(set.faces); };
+  const auto inside = std::stable_partition(sets.begin(), sets.end(), onBoundary);
+  this->setsInside.assign(inside, sets.end());
+  sets.erase(inside, sets.end());
+  std::stable_partition(sets.begin(), sets.end(), isOuter);
+  this->namedSets = std::move(sets);
+  this->size = sizeOf(this->points(), this->faces.nodes);
+}
+}

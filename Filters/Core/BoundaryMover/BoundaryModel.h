@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Boundary/Classification.h"
+#include "Mesh/InnerFaces.h"
+#include "Mesh/Mesh.h"
+#include "Mesh/Topology.h"
+#include "Support/Monitor.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace morph
+{
+/// The part of a boundary that the mesh's file names: a node set, side set, patch or marker.
+struct NamedSet
+{
+  std::string name;
+  std::vector<Index> nodes; ///< ascending
+  std::vector<Index> faces; ///< ascending
+};
+
+/// Returns what a set of nodes and cells has of a boundary. A node belongs to it if it is marked, and
+/// a face if all of its corners are. A face belongs, too, if a marked two-dimensional cell lies on
+/// it or, where no two-dimensional cell is marked, if the volume cell behind it is; then `inside`
+/// faces, the last ones, do not. `isNode`: #nodes, `isCell`: #cells or, of a boundary alone,
+/// #faces; either may be empty.
+NamedSet boundarySet(const std::string& name, const Mesh& mesh, const BoundaryFaces& faces,
+  std::size_t inside, const std::vector<std::uint8_t>& isNode,
+  const std::vector<std::uint8_t>& isCell);
+
+/// The boundary of a mesh with its geometry and its names. It may stand alone: then `mesh` has
+/// points and no cells, and `undeformed` is where its geometry was found.
+struct BoundaryModel
+{
+  Mesh mesh;         ///< its points are the current positions
+  Points undeformed; ///< of a boundary alone: #nodes x 3
+  /// The outer faces, then those of baffles, then those of sheets; see innerFaces().
+  BoundaryFaces faces;
+  InnerFaces inner;                     ///< the last ones of `faces`
+  std::vector<std::int8_t> orientation; ///< #faces: -1 where the cell behind is wound inside out
+  std::vector<Index> bodyOfNode;        ///< as ConnectedComponents has it
+  Classification geometry;              ///< found at rest()
+  std::vector<NamedSet> namedSets;      ///< outer ones first
+  std::vector<NamedSet> setsInside;     ///< without any node on the boundary
+  /// Diagonal of the bounding box of the boundary's nodes, of which there is one at least.
+  double size = 0;
+  /// Change with all of this, and with points(), faces and geometry alone. What is kept for a
+  /// number is used again while that number stays.
+  ///@{
+  std::int64_t inputVersion = 0;
+  std::int64_t motionVersion = 0;
+  ///@}
+
+  const Points& points() const { return this->mesh.points; } ///< #nodes x 3, current positions
+  /// Undeformed positions: of a mesh, its own points.
+  const Points& rest() const
+  {
+    return this->mesh.numberOfCells() > 0 ? this->mesh.points : this->undeformed;
+  }
+  /// Whether all of these faces lie inside of the mesh; false for none.
+  bool areInner(const std::vector<Index>& ids) const;
+  /// The numbers of the surfaces that are sheets, ascending. They go along with the interior unless
+  /// they are named.
+  std::vector<Index> sheets() const;
+  /// #nodes: whether a node is on some of these surfaces, ascending, and on no other.
+  std::vector<std::uint8_t> nodesOnlyOn(const std::vector<Index>& surfaces) const;
+  /// The areas of faceAreas(), but outwards where cells are wound inside out.
+  Points outwardAreas(const Points& at) const;
+
+  /// Finds faces, inner faces, orientation and bodies of `mesh`. `isNamed`: #cells, those of named
+  /// sets: two-dimensional ones are inner faces where they lie inside. Cost: that of
+  /// boundaryFaces() and connectedComponents().
+  void findFaces(const std::vector<std::uint8_t>& isNamed, Monitor& monitor);
+  /// Takes the sets, with their nodes on the boundary alone, and sets `size`. Moves those without
+  /// nodes to `setsInside`.
+  void takeSets(std::vector<NamedSet> sets);
+};
+}

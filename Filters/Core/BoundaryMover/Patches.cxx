@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "BoundaryMover/Patches.h"
+
+#include "Boundary/FaceAreas.h"
+#include "Support/Error.h"
+
+#include <algorithm>
+#include <map>
+
+namespace morph
+{
+namespace
+{
+std::string surfaceName(Index id)
+{
+  return "Surface " + std::to_string(id);
+}
+
+std::string curveName(Index id)
+{
+  return "Curve " + std::to_string(id);
+}
+
+template <typename Patches>
+void addNames(const Patches& patches, std::string (*name)(Index), std::vector<std::string>& names)
+{
+  std::set<Index> ids;
+  for (const auto& patch : patches)
+  {
+    ids.insert(patch.id);
+  }
+  for (Index id : ids)
+  {
+    names.push_back(name(id));
+  }
+}
+
+/// The first few names for a message.
+std::string list(const std::vector<std::string>& names)
+{
+  std::string text;
+  for (std::size_t i = 0; i < std::min<std::size_t>(names.size(), 10); ++i)
+  {
+    text += (i > 0 ? ", " : "") + names[i];
+  }
+  return names.size() > 10 ? text + ", ... (" + std::to_string(names.size()) + " in all)" : text;
+}
+}
+
+namespace
+{
+void requireNone(
+  const std::set<std::string>& missing, const BoundaryModel& model, const char* option)
+{
+  for (const NamedSet& set : model.setsInside)
+  {
+    if (missing.count(set.name) > 0)
+    {
+      throw Error(std::string(option) + " names '" + set.name +
+                  "', which lies inside of the mesh. Surfaces on the boundary and sets of "
+                  "faces can move; a zone holds or moves the nodes of '" +
+                  set.name + "'.");
+    }
+  }
+  if (!missing.empty())
+  {
+    throw Error(std::string(option) + " names '" + *missing.begin() +
+                "', which the boundary does not have; it has " + list(patchNames(model)) +
+                ". Names change with the feature angle.");
+  }
+}
+
+/// The numbers of the surfaces that make up a set; throws where a part of one is left out.
+std::vector<Index> wholeSurfaces(
+  const Classification& geometry, const NamedSet& set, const char* option)
+{
+  const auto has = [&](Index face)
+  { return std::binary_search(set.faces.begin(), set.faces.end(), face); };
+  std::vector<Index> numbers;
+  for (std::size_t s = 0; s < geometry.surfaces.size(); ++s)
+  {
+    const std::vector<Index>& faces = geometry.surfaces[s].faces;
+    const auto count = std::count_if(faces.begin(), faces.end(), has);
+    if (count == 0)
+    {
+      continue;
+    }
+    if (count < static_cast<std::ptrdiff_t>(faces.size()))
+    {
+      throw Error(std::string(option) + " names '" + set.name + "', which has a part alone of " +
+                  surfaceName(geometry.surfaces[s].id) +
+                  ". Nodes slide along whole surfaces: name that one, or change the feature "
+                  "angle.");
+    }
+    numbers.push_back(static_cast<Index>(s));
+  }
+  return numbers;
+}
+}
+
+std::vector<std::string> patchNames(const BoundaryModel& model)
+{
+  const Classification& geometry = model.geometry;
+  std::vector<std::string> names;
+  for (const NamedSet& set : model.namedSets)
+  {
+    names.push_back(set.name);
+  }
+  addNames(geometry.surfaces, surfaceName, names);
+  addNames(geometry.curves, curveName, names);
+  return names;
+}
+
+std::vector<PatchSize> patchSizes(const BoundaryModel& model)
+{
+  const Classification& geometry = model.geometry;
+  const Points& points = model.rest();
+  const Points areas = faceAreas(points, model.faces);
+  const auto addNodes = [&](const std::vector<Index>& nodes, PatchSize& size)
+  {
+    for (const Index node : nodes)
+    {
+      size.box.extend(points.row(node).transpose());
+    }
+  };
+  const auto addFaces = [&](const std::vector<Index>& faces, PatchSize& size)
+  {
+    size.isInner = (size.count == 0 || size.isInner) && model.areInner(faces);
+    size.count += static_cast<Index>(faces.size());
+    for (const Index face : faces)
+    {
+      size.measure += areas.row(face).norm();
+    }
+  };
+  std::map<std::string, PatchSize> sizes;
+  for (const NamedSet& set : model.namedSets)
+  {
+    addFaces(set.faces, sizes[set.name]);
+    addNodes(set.nodes, sizes[set.name]);
+  }
+  for (const GeometrySurface& surface : geometry.surfaces)
+  {
+    addFaces(surface.faces, sizes[surfaceName(surface.id)]);
+    addNodes(surface.nodes, sizes[surfaceName(surface.id)]);
+  }
+  for (const GeometryCurve& curve : geometry.curves)
+  {
+    PatchSize& size = sizes[curveName(curve.id)];
+    addNodes(curve.nodes, size);
+    size.count += static_cast<Index>(curve.edges.size());
+    for (const Index edge : curve.edges)
+    {
+      const auto& ends = geometry.edges.nodes[edge];
+      size.measure += (points.row(ends[0]) - points.row(ends[1])).norm();
+    }
+  }
+  std::vector<PatchSize> result;
+  for (const std::string& name : patchNames(model))
+  {
+    sizes[name].name = name;
+    result.push_back(sizes[name]);
+  }
+  return result;
+}
+
+PatchPart findPatches(
+  const BoundaryModel& model, const std::set<std::string>& names, const char* option)
+{
+  const Classification& geometry = model.geometry;
+  PatchPart part;
+  part.hasNode.assign(geometry.dimension.size(), 0);
+  part.hasFace.assign(geometry.surfaceOfFace.size(), 0);
+  std::set<std::string> missing = names;
+  const auto has = [&](const std::string& name)
+  {
+    missing.erase(name);
+    return names.count(name) > 0;
+  };
+  const auto addNodes = [&](const std::vector<Index>& nodes)
+  {
+    for (Index node : nodes)
+    {
+      part.hasNode[node] = 1;
+    }
+  };
+  for (const GeometrySurface& surface : geometry.surfaces)
+  {
+    if (has(surfaceName(surface.id)))
+    {
+      addNodes(surface.nodes);
+      for (Index face : surface.faces)
+      {
+        part.hasFace[face] = 1;
+      }
+    }
+  }
+  for (const GeometryCurve& curve : geometry.curves)
+  {
+    if (has(curveName(curve.id)))
+    {
+      addNodes(curve.nodes);
+    }
+  }
+  for (const NamedSet& set : model.namedSets)
+  {
+    if (has(set.name))
+    {
+      addNodes(set.nodes);
+      for (Index face : set.faces)
+      {
+        part.hasFace[face] = 1;
+      }
+    }
+  }
+  requireNone(missing, model, option);
+  return part;
+}
+
+std::vector<Index> surfacesNamed(
+  const BoundaryModel& model, const std::set<std::string>& names, const char* option)
+{
+  if (names.empty())
+  {
+    return {};
+  }
+  const Classification& geometry = model.geometry;
+  std::vector<Index> numbers;
+  std::set<std::string> missing = names;
+  for (std::size_t s = 0; s < geometry.surfaces.size(); ++s)
+  {
+    const std::string name = surfaceName(geometry.surfaces[s].id);
+    if (names.count(name) > 0)
+    {
+      numbers.push_back(static_cast<Index>(s));
+      missing.erase(name);
+    }
+  }
+  for (const NamedSet& set : model.namedSets)
+  {
+    if (names.count(set.name) > 0)
+    {
+      const std::vector<Index> whole = wholeSurfaces(geometry, set, option);
+      numbers.insert(numbers.end(), whole.begin(), whole.end());
+      missing.erase(set.name);
+    }
+  }
+  requireNone(missing, model, option);
+  std::sort(numbers.begin(), numbers.end());
+  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+  return numbers;
+}
+
+std::string surfaceName(const Classification& geometry, Index surface)
+{
+  return surfaceName(geometry.surfaces[surface].id);
+}
+
+std::vector<Index> curvesNamed(const Classification& geometry, const std::set<std::string>& names)
+{
+  std::vector<Index> numbers;
+  for (std::size_t c = 0; c < geometry.curves.size(); ++c)
+  {
+    if (names.count(curveName(geometry.curves[c].id)) > 0)
+    {
+      numbers.push_back(static_cast<Index>(c));
+    }
+  }
+  return numbers;
+}
+}

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "BoundaryMover/BoundaryModel.h"
+
+#include <Eigen/Geometry>
+
+#include <set>
+#include <string>
+#include <vector>
+
+namespace morph
+{
+/// Returns the names of the surfaces and curves of a boundary, for users to choose from: those that
+/// the mesh's file gives, and "Surface 3", "Curve 7", with the ids of the geometry. Those of the
+/// file come first, then surfaces, then curves, each ascending by id. Several patches with one id
+/// have one name.
+std::vector<std::string> patchNames(const BoundaryModel& model);
+
+/// How large what has a name is.
+struct PatchSize
+{
+  std::string name;
+  Index count = 0;      ///< of faces; of a curve: of edges
+  double measure = 0;   ///< area; of a curve: length
+  bool isInner = false; ///< all faces lie inside of the mesh
+  Eigen::AlignedBox3d box;
+};
+/// Undeformed, in the order of patchNames(). Cost: a pass over the faces for each name of the file, and
+/// one for all others.
+std::vector<PatchSize> patchSizes(const BoundaryModel& model);
+
+/// The nodes and faces on some of the boundary.
+struct PatchPart
+{
+  std::vector<std::uint8_t> hasNode; ///< #nodes
+  std::vector<std::uint8_t> hasFace; ///< #faces
+};
+
+/// The numbers of the surfaces of these names, ascending. Throws as findPatches() does, for a curve too,
+/// and for a name of the file that stands for a part of a surface.
+std::vector<Index> surfacesNamed(
+  const BoundaryModel& model, const std::set<std::string>& names, const char* option);
+
+/// All nodes, those on the edges included, and all faces of the patches of these names; a curve has
+/// no faces. For a name that does not exist, throws an Error that names `option` and lists
+/// the names that do.
+PatchPart findPatches(
+  const BoundaryModel& model, const std::set<std::string>& names, const char* option);
+
+/// The name of a surface, by its number in `geometry`.
+std::string surfaceName(const Classification& geometry, Index surface);
+
+/// The numbers of the curves whose names are among these, ascending.
+std::vector<Index> curvesNamed(const Classification& geometry, const std::set<std::string>& names);
+}

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "BoundaryMover/PrescribedMotion.h"
+
+#include "Boundary/FaceAreas.h"
+#include "BoundaryMover/Patches.h"
+#include "BoundaryMover/SurfaceShape.h"
+#include "Support/Error.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace morph
+{
+namespace
+{
+Points positions(const BoundaryModel& model, const Choice& choice)
+{
+  return model.points()(choice.moving, allColumns);
+}
+}
+
+AffineMotion affineMotion(const Placement& placement)
+{
+  const auto turn = [&](int axis)
+  {
+    const double radians = placement.rotation[axis] * std::acos(-1.) / 180;
+    return Eigen::AngleAxisd(radians, Eigen::Vector3d::Unit(axis)).toRotationMatrix();
+  };
+  AffineMotion motion;
+  motion.col(0) = Eigen::Vector3d::Map(placement.translation.data());
+  motion.rightCols<3>() =
+    turn(2) * turn(0) * turn(1) *
+      Eigen::Vector3d::Map(placement.scale.data()).asDiagonal().toDenseMatrix() -
+    Eigen::Matrix3d::Identity();
+  return motion;
+}
+
+Points movedAlongNormals(const BoundaryModel& model, const Choice& choice, double distance)
+{
+  return positions(model, choice) + distance * nodeNormals(model.outwardAreas(model.points()),
+                                                 model.faces, choice.isMovingFace, choice.moving);
+}
+
+Points movedByRadius(const BoundaryModel& model, const Choice& choice, double change)
+{
+  std::vector<Index> row(model.points().rows(), -1);
+  for (std::size_t i = 0; i < choice.moving.size(); ++i)
+  {
+    row[choice.moving[i]] = static_cast<Index>(i);
+  }
+  Points to = positions(model, choice);
+  std::vector<std::uint8_t> isDone(choice.moving.size(), 0);
+  for (std::size_t s = 0; s < model.geometry.surfaces.size(); ++s)
+  {
+    const GeometrySurface& surface = model.geometry.surfaces[s];
+    if (std::none_of(surface.faces.begin(), surface.faces.end(),
+          [&](Index face) { return choice.isMovingFace[face] != 0; }))
+    {
+      continue;
+    }
+    const SurfaceShape shape(model.points(), model.faces, surface);
+    const std::string name = surfaceName(model.geometry, static_cast<Index>(s));
+    if (shape.kind() != SurfaceShape::Kind::Cylinder)
+    {
+      throw Error("RadiusChange needs cylinders, and " + name +
+                  ", which moves, is none. Choose cylinders, or another displacement.");
+    }
+    if (shape.radius() + change <= 0)
+    {
+      throw Error("RadiusChange would leave " + name + " no radius: it has " +
+                  std::to_string(shape.radius()) + ".");
+    }
+    for (const Index node : surface.nodes)
+    {
+      if (row[node] >= 0 && !isDone[row[node]])
+      {
+        to.row(row[node]) += change * shape.outwards(model.points().row(node));
+        isDone[row[node]] = 1;
+      }
+    }
+  }
+  if (std::all_of(isDone.begin(), isDone.end(), [](std::uint8_t done) { return !done; }))
+  {
+    throw Error("RadiusChange needs cylinders, and no face moves. Choose surfaces that are some.");
+  }
+  return to;
+}
+
+Eigen::RowVector3d centerOfMoving(const BoundaryModel& model, const Choice& choice)
+{
+  if (choice.moving.empty())
+  {
+    return Eigen::RowVector3d::Zero();
+  }
+  const Points from = positions(model, choice);
+  return 0.5 * (from.colwise().minCoeff() + from.colwise().maxCoeff());
+}
+
+std::vector<Index> collapsedFaces(
+  const BoundaryModel& model, const Choice& choice, const Points& moved)
+{
+  const BoundaryFaces& faces = model.faces;
+  const Points after = faceAreas(moved, faces);
+  // No face of the boundary is larger than this, and nearly always all are larger than that part.
+  constexpr double Rounding = 1e-12;
+  const double largest = model.size * model.size;
+  if (after.rows() == 0 || after.rowwise().norm().minCoeff() > Rounding * largest)
+  {
+    return {};
+  }
+  const Points before = faceAreas(model.points(), faces);
+  std::vector<Index> collapsed;
+  for (Index f = 0; f < after.rows(); ++f)
+  {
+    const double area = before.row(f).norm();
+    if (area > 0 && after.row(f).norm() <= Rounding * area &&
+        std::all_of(faces.connectivity.begin() + faces.offsets[f],
+          faces.connectivity.begin() + faces.offsets[f + 1],
+          [&](Index node)
+          { return std::binary_search(choice.moving.begin(), choice.moving.end(), node); }))
+    {
+      collapsed.push_back(f);
+    }
+  }
+  return collapsed;
+}
+}

@@ -1,0 +1,275 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Private/Displace/InputBoundary.h"
+
+#include "Private/Data/DataCheck.h"
+#include "Private/Data/GridMesh.h"
+#include "Private/Data/Surface.h"
+#include "Private/Distributed/WholeSurface.h"
+#include "Private/Pipeline/Input.h"
+#include "Support/Error.h"
+
+#include <vtkCellArray.h>
+#include <vtkCellData.h>
+#include <vtkDataArray.h>
+#include <vtkIdList.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPointSet.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkUnsignedCharArray.h>
+#include <vtkUnstructuredGrid.h>
+
+#include <algorithm>
+#include <numeric>
+#include <sstream>
+#include <utility>
+
+namespace morph::filters
+{
+namespace
+{
+using morph::Error;
+using morph::Index;
+
+/// The arrays and options that the geometry of an input depends on beside its points and faces.
+std::string geometryKey(vtkPointSet* input, const Geometry::Options& options)
+{
+  std::ostringstream key;
+  key.precision(17);
+  key << input->GetClassName() << ' ' << options.FeatureAngle << ' ' << options.CornerAngle << ' '
+      << options.FeaturesInside << ' ' << options.UseGeometryArrays << ' '
+      << options.SurfaceIdArray;
+  const auto add = [&key](vtkAbstractArray* array) {
+    key << '\n' << array << ' ' << (array ? array->GetMTime() : 0);
+  };
+  if (!options.SurfaceIdArray.empty())
+  {
+    add(input->GetCellData()->GetAbstractArray(options.SurfaceIdArray.c_str()));
+  }
+  else if (options.UseGeometryArrays)
+  {
+    for (const char* name : { Geometry::DimensionName, Geometry::IdName, Geometry::ParameterName })
+    {
+      add(input->GetPointData()->GetAbstractArray(name));
+    }
+  }
+  return key.str();
+}
+
+/// An array that vtkExtractMorphBoundary wrote.
+vtkDataArray* requireExtracted(vtkPolyData* surface, const char* name, int components)
+{
+  vtkDataArray* array = surface->GetPointData()->GetArray(name);
+  if (!array || array->GetNumberOfComponents() < components ||
+      array->GetNumberOfTuples() != surface->GetNumberOfPoints())
+  {
+    throw Error(
+      std::string("The input is a surface ") +
+      (array ? "whose point array " : "without the point array ") + name +
+      (array ? " has the wrong number of components or values" : "") +
+      ", so a morph could not tell which nodes of the mesh its points are. Give the volume "
+      "mesh itself, or its boundary from Extract Morph Boundary or Classify Boundary.");
+  }
+  return array;
+}
+
+/// Throws for coordinates that are not finite or too large; `what`: "coordinates".
+morph::Points moderatePoints(morph::Points points, const char* what)
+{
+  std::vector<Index> notFinite, huge;
+  for (const Index n : DataCheck::Immoderate(points))
+  {
+    (points.row(n).allFinite() ? huge : notFinite).push_back(n);
+  }
+  if (!notFinite.empty())
+  {
+    throw Error(std::string("The input has ") + what +
+                " that are not finite (NaN or infinite), at its points " +
+                morph::listIds(notFinite) + ".");
+  }
+  if (!huge.empty())
+  {
+    throw Error(std::string("The input has ") + what + " above 1e50, at its points " +
+                morph::listIds(huge) + ".");
+  }
+  return points;
+}
+
+morph::BoundaryFaces polygons(vtkPolyData* surface)
+{
+  morph::BoundaryFaces faces;
+  faces.offsets.push_back(0);
+  vtkNew<vtkIdList> corners;
+  std::vector<Index> wrong;
+  vtkCellArray* cells = surface->GetPolys();
+  for (vtkIdType c = 0; c < cells->GetNumberOfCells(); ++c)
+  {
+    cells->GetCellAtId(c, corners);
+    const vtkIdType* begin = corners->GetPointer(0);
+    faces.connectivity.insert(faces.connectivity.end(), begin, begin + corners->GetNumberOfIds());
+    faces.offsets.push_back(static_cast<Index>(faces.connectivity.size()));
+    if (corners->GetNumberOfIds() < 3)
+    {
+      wrong.push_back(surface->GetNumberOfVerts() + surface->GetNumberOfLines() + c);
+    }
+  }
+  if (faces.offsets.size() == 1)
+  {
+    throw Error(
+      "The input is a surface without polygons, so there is no boundary to move. Give the "
+      "volume mesh, or its boundary from Extract Morph Boundary or Classify Boundary.");
+  }
+  if (!wrong.empty())
+  {
+    throw Error("The input has polygons with fewer than three points: its cells " +
+                morph::listIds(wrong) + ". Remove them.");
+  }
+  faces.nodes = faces.connectivity;
+  std::sort(faces.nodes.begin(), faces.nodes.end());
+  faces.nodes.erase(std::unique(faces.nodes.begin(), faces.nodes.end()), faces.nodes.end());
+  faces.between.offsets.assign(faces.nodes.size() + 1, 0);
+  return faces;
+}
+
+bool samePoints(const morph::Points& a, const morph::Points& b)
+{
+  return a.rows() == b.rows() && a == b; // Eigen reads past the end of the shorter one
+}
+
+bool sameFaces(const morph::BoundaryFaces& a, const morph::BoundaryFaces& b)
+{
+  return a.offsets == b.offsets && a.connectivity == b.connectivity;
+}
+}
+
+void InputBoundary::Update(vtkPointSet* input, const Geometry::Options& options,
+  morph::Monitor& monitor, const WholeSurface* whole)
+{
+  const std::string key = geometryKey(input, options);
+  if (this->Input == input && this->InputTime == input->GetMTime() && this->GeometryKey == key)
+  {
+    return;
+  }
+  InputBoundary next = std::exchange(*this, InputBoundary()); // so nothing is kept if it throws
+  this->Versions = next.Versions;
+  this->Classified = next.Classified;
+  next.inputVersion = ++next.Versions;
+  if (auto* grid = vtkUnstructuredGrid::SafeDownCast(input))
+  {
+    next.TakeGrid(grid, options, key, whole, monitor);
+  }
+  else
+  {
+    next.TakeSurface(vtkPolyData::SafeDownCast(input), options, key, monitor);
+  }
+  next.takeSets(
+    FindNamedSets(input, next.mesh, next.faces, next.FirstPolygon(), next.inner.size()));
+  AddNamedSets(next.namedSets, next.Polygons, next.FirstPolygon(), next.Written);
+  next.Input = input;
+  next.InputTime = input->GetMTime();
+  next.GeometryKey = key;
+  *this = std::move(next);
+}
+
+void InputBoundary::TakeFaces(const WholeSurface& whole)
+{
+  this->inner = {};
+  this->mesh = whole.Mesh();
+  this->bodyOfNode = whole.BodyOfNode();
+  this->faces = whole.Faces();
+  this->orientation.clear();
+  for (const Index cell : this->faces.cells)
+  {
+    this->orientation.push_back(whole.Orientation()[cell]);
+  }
+}
+
+void InputBoundary::TakeGrid(vtkUnstructuredGrid* grid, const Geometry::Options& options,
+  const std::string& key, const WholeSurface* whole, morph::Monitor& monitor)
+{
+  const bool sameMesh =
+    this->mesh.numberOfCells() > 0 && GridMesh::SameCells(grid, this->mesh) &&
+    GridMesh::SamePoints(grid, this->mesh) &&
+    (whole ? sameFaces(this->faces, whole->Faces()) : this->IsNamed == CellsOfNamedSets(grid));
+  if (!sameMesh && whole)
+  {
+    this->TakeFaces(*whole);
+  }
+  else if (!sameMesh)
+  {
+    this->mesh = GridMesh::FromGrid(grid);
+    Input::RequireVolumeCells(this->mesh);
+    this->IsNamed = CellsOfNamedSets(grid);
+    this->findFaces(this->IsNamed, monitor);
+  }
+  if (!sameMesh || this->GeometryKey != key)
+  {
+    this->geometry = Geometry::Classify(grid, this->mesh, this->faces, options, monitor);
+    this->motionVersion = ++this->Versions;
+    ++this->Classified;
+  }
+  this->Written = vtkSmartPointer<vtkPolyData>::New();
+  this->Polygons = Surface::Write(
+    grid, this->mesh, this->faces, this->Written, whole ? &whole->Orientation() : nullptr);
+  this->Nodes = this->faces.nodes;
+  if (this->inner.size() > 0)
+  {
+    const auto first = static_cast<Index>(this->faces.cells.size() - this->inner.size());
+    vtkNew<vtkUnsignedCharArray> isInner;
+    isInner->SetName("Inner");
+    for (const Index face : this->Polygons)
+    {
+      isInner->InsertNextValue(face >= first);
+    }
+    this->Written->GetCellData()->AddArray(isInner);
+  }
+  Geometry::AddPointArrays(this->geometry, this->Nodes, this->Written->GetPointData());
+  Geometry::AddSurfaceIds(this->geometry, this->Polygons, this->Written);
+}
+
+void InputBoundary::TakeSurface(vtkPolyData* surface, const Geometry::Options& options,
+  const std::string& key, morph::Monitor& monitor)
+{
+  this->inner = {};
+  morph::BoundaryFaces given = polygons(surface);
+  requireExtracted(surface, Surface::IdName, 1);
+  morph::Points at =
+    moderatePoints(GridMesh::FromVectors(requireExtracted(surface, Surface::RestName, 3)),
+      "values of RestPosition");
+  morph::Points current = moderatePoints(GridMesh::FromPoints(surface->GetPoints()), "coordinates");
+  const bool sameGeometry =
+    this->GeometryKey == key && sameFaces(this->faces, given) && samePoints(this->undeformed, at);
+  if (!sameGeometry)
+  {
+    this->geometry = Geometry::Classify(surface, at, given, options, monitor);
+    this->faces = std::move(given);
+    this->orientation.assign(this->faces.offsets.size() - 1, 1);
+    this->undeformed = std::move(at);
+    this->bodyOfNode.assign(current.rows(), -1);
+    ++this->Classified;
+  }
+  if (!sameGeometry || !samePoints(this->points(), current))
+  {
+    this->motionVersion = ++this->Versions;
+  }
+  this->mesh = morph::Mesh();
+  this->mesh.points = std::move(current);
+  this->Written = vtkSmartPointer<vtkPolyData>::New();
+  this->Written->ShallowCopy(surface);
+  this->Nodes.resize(surface->GetNumberOfPoints());
+  std::iota(this->Nodes.begin(), this->Nodes.end(), Index(0));
+  this->Polygons.resize(this->faces.offsets.size() - 1);
+  std::iota(this->Polygons.begin(), this->Polygons.end(), Index(0));
+  Geometry::AddPointArrays(this->geometry, this->Nodes, this->Written->GetPointData());
+  if (this->Polygons.size() == static_cast<std::size_t>(surface->GetNumberOfCells()))
+  {
+    Geometry::AddSurfaceIds(this->geometry, this->Polygons, this->Written);
+  }
+}
+
+morph::Index InputBoundary::FirstPolygon() const
+{
+  return this->Written->GetNumberOfVerts() + this->Written->GetNumberOfLines();
+}
+}
