@@ -20,7 +20,7 @@
 #include "Private/Pipeline/Monitor.h"
 #include "Private/Pipeline/Ports.h"
 #include "Private/Pipeline/Ranks.h"
-#include "Private/Project/Target.h"
+#include "Private/Project/TargetData.h"
 #include "Support/Error.h"
 
 #include <vtkCellData.h>
@@ -87,7 +87,7 @@ private:
   void Run(const Task& task, vtkPolyData* output, filters::Monitor& monitor);
 
   void ReportProjection(const morph::ProjectionReport& onCurves,
-    const morph::ProjectionReport& onSurfaces, const filters::Target& target,
+    const morph::ProjectionReport& onSurfaces, const morph::Target& target,
     filters::Monitor& monitor);
 };
 
@@ -371,15 +371,22 @@ void vtkMorphBoundary::vtkInternals::Run(
 
   monitor.SetRange(0.2, 0.3);
   morph::morphCurves(geometry, how.unattached, motion, monitor);
-  std::unique_ptr<filters::Target> place;
+  std::unique_ptr<morph::Target> place;
   morph::ProjectionReport onCurves, onSurfaces;
   if (task.Target)
   {
     monitor.SetRange(0.3, 0.4);
-    place = std::make_unique<filters::Target>(task.Target, mesh.points,
-      this->Filter->Options->FeatureAngle, this->Filter->Options->TargetAngle,
-      this->Filter->Options->TargetReach * task.Size, monitor);
-    place->WarnOfRounding(task.Size, monitor);
+    morph::Target::Options options;
+    options.featureAngle = this->Filter->Options->FeatureAngle;
+    options.normalAngle = this->Filter->Options->TargetAngle;
+    options.reach = this->Filter->Options->TargetReach * task.Size;
+    std::string warning;
+    place =
+      filters::TargetData::Make(task.Target, mesh.points, task.Size, options, warning, monitor);
+    if (!warning.empty())
+    {
+      monitor.warn(warning);
+    }
     onCurves = morph::projectCurves(geometry, *place, motion, monitor);
   }
   monitor.SetRange(0.4, 0.7);
@@ -389,8 +396,8 @@ void vtkMorphBoundary::vtkInternals::Run(
   {
     monitor.SetRange(0.7, 0.9);
     const morph::Points moved = motion.moved();
-    place->Assign(geometry, moved);
-    place->Orient(moved, morph::surfaceNodeNormals(mesh.points, moved, faces, geometry));
+    place->assign(geometry, moved);
+    place->orient(moved, morph::surfaceNodeNormals(mesh.points, moved, faces, geometry));
     onSurfaces = morph::projectSurfaces(faces, geometry, *place, motion, monitor);
     this->ReportProjection(onCurves, onSurfaces, *place, monitor);
   }
@@ -447,15 +454,14 @@ void vtkMorphBoundary::vtkInternals::Run(
 }
 
 void vtkMorphBoundary::vtkInternals::ReportProjection(const morph::ProjectionReport& onCurves,
-  const morph::ProjectionReport& onSurfaces, const filters::Target& target,
-  filters::Monitor& monitor)
+  const morph::ProjectionReport& onSurfaces, const morph::Target& target, filters::Monitor& monitor)
 {
   const auto both = [](const std::vector<Index>& a, const std::vector<Index>& b)
   { return static_cast<vtkIdType>(a.size()) + static_cast<vtkIdType>(b.size()); };
   this->Results.SetInteger("ProjectedPoints", both(onCurves.projected, onSurfaces.projected));
   this->Results.SetInteger("UnprojectedPoints",
     both(onCurves.missed, onCurves.kept) + both(onSurfaces.missed, onSurfaces.kept));
-  if (target.HasFeatures())
+  if (target.hasFeatures())
   {
     warnOfNodes(monitor, onCurves.missed,
       "Curve nodes are not projected, since no feature edge of the target is within "

@@ -43,6 +43,24 @@ std::pair<Row, Row> across(const Row& axis)
 }
 }
 
+void addTriangles(const Points& points, const BoundaryFaces& faces, Index face,
+  std::vector<TriangleTree::Triangle>& triangles)
+{
+  const std::vector<Index> corners(faces.connectivity.begin() + faces.offsets[face],
+    faces.connectivity.begin() + faces.offsets[face + 1]);
+  const Points at = points(corners, allColumns);
+  const Row middle = at.colwise().mean();
+  if (at.rows() == 3)
+  {
+    triangles.push_back({ at.row(0), at.row(1), at.row(2) });
+    return;
+  }
+  for (Index k = 0; k < at.rows(); ++k)
+  {
+    triangles.push_back({ at.row(k), at.row((k + 1) % at.rows()), middle });
+  }
+}
+
 SurfaceShape::SurfaceShape(
   const Points& points, const BoundaryFaces& faces, const GeometrySurface& surface)
 {
@@ -130,26 +148,13 @@ bool SurfaceShape::fitCylinder(const Points& nodes, const Points& areas, double 
   return false;
 }
 
-/// Polygons of four corners and more are cut into triangles about their middle.
 void SurfaceShape::takeFacets(
   const Points& points, const BoundaryFaces& faces, const GeometrySurface& surface)
 {
   std::vector<TriangleTree::Triangle> triangles;
   for (const Index face : surface.faces)
   {
-    const std::vector<Index> corners(faces.connectivity.begin() + faces.offsets[face],
-      faces.connectivity.begin() + faces.offsets[face + 1]);
-    const Points at = points(corners, allColumns);
-    const Row middle = at.colwise().mean();
-    if (at.rows() == 3)
-    {
-      triangles.push_back({ at.row(0), at.row(1), at.row(2) });
-      continue;
-    }
-    for (Index k = 0; k < at.rows(); ++k)
-    {
-      triangles.push_back({ at.row(k), at.row((k + 1) % at.rows()), middle });
-    }
+    addTriangles(points, faces, face, triangles);
   }
   this->facets_ = std::make_unique<TriangleTree>(std::move(triangles));
 }

@@ -6,9 +6,15 @@
 #include "Mesh/Topology.h"
 
 #include <memory>
+#include <vector>
 
 namespace morph
 {
+/// Adds the triangles of a face. A polygon of four corners and more is cut about its middle.
+/// `points`: #nodes x 3.
+void addTriangles(const Points& points, const BoundaryFaces& faces, Index face,
+  std::vector<TriangleTree::Triangle>& triangles);
+
 /// The shape of an undeformed surface, along which its nodes can slide: a plane, a cylinder or, for
 /// any other surface, its facets. A plane fits its nodes to 1e-6 of their extent. A cylinder fits
 /// them to 1e-6 of their extent and of its radius, and ten times as well as a plane: what is bumpy

@@ -54,40 +54,103 @@ Row nearestOn(const TriangleTree::Triangle& corner, const Row& x)
 
 using Tree = Eigen::KdBVH<double, 3, int>;
 
-/// What Eigen's search asks for.
+constexpr double Never = std::numeric_limits<double>::infinity();
+
+/// What Eigen's search asks for. `least`: the distance of what is found, at first the radius.
 struct Search
 {
   using Scalar = double;
 
-  /// Less than the distance by the last digit, so that what is as near is searched, too.
+  const Row& x;
+  const std::vector<TriangleTree::Triangle>& triangles;
+  const std::function<bool(Index)>& fits;
+  double least;
+  TriangleTree::Found found;
+
+  /// Less than the distance of a box by the last digit, so that what is as near is searched, too.
+  double bound(double distance) const
+  {
+    return distance > this->least ? Never : std::nextafter(distance, -Never);
+  }
+  double take(int triangle, double distance, const Row& place)
+  {
+    if (distance < this->least ||
+        (distance == this->least && (this->found.triangle < 0 || triangle < this->found.triangle)))
+    {
+      this->least = distance;
+      this->found = { triangle, place };
+    }
+    return distance;
+  }
+};
+
+struct NearestSearch : Search
+{
   double minimumOnVolume(const Tree::Volume& box) const
   {
-    constexpr double Never = std::numeric_limits<double>::infinity();
-    const double distance2 = box.squaredExteriorDistance(this->x.transpose());
-    return distance2 > this->least ? Never : std::nextafter(distance2, -Never);
+    return this->bound(box.exteriorDistance(this->x.transpose()));
   }
   double minimumOnObject(int triangle)
   {
     if (this->fits && !this->fits(triangle))
     {
-      return std::numeric_limits<double>::infinity();
+      return Never;
     }
     const Row place = nearestOn(this->triangles[static_cast<std::size_t>(triangle)], this->x);
-    const double distance2 = (place - this->x).squaredNorm();
-    if (distance2 < this->least ||
-        (distance2 == this->least && (this->found.triangle < 0 || triangle < this->found.triangle)))
-    {
-      this->least = distance2;
-      this->found = { triangle, place };
-    }
-    return distance2;
+    return this->take(triangle, (place - this->x).norm(), place);
   }
+};
 
-  const Row& x;
-  const std::vector<TriangleTree::Triangle>& triangles;
-  const std::function<bool(Index)>& fits;
-  double least; ///< squared distance of what is found, or of the radius
-  TriangleTree::Found found;
+struct AlongSearch : Search
+{
+  const Row& direction;
+  double tolerance;
+
+  /// By the part of the line that is inside of the box.
+  double minimumOnVolume(const Tree::Volume& box) const
+  {
+    double first = -Never, last = Never;
+    for (int d = 0; d < 3; ++d)
+    {
+      const double low = box.min()[d] - this->tolerance - this->x[d],
+                   high = box.max()[d] + this->tolerance - this->x[d];
+      if (this->direction[d] != 0)
+      {
+        const auto [from, to] =
+          std::minmax({ low / this->direction[d], high / this->direction[d] });
+        first = std::max(first, from);
+        last = std::min(last, to);
+      }
+      else if (low > 0 || high < 0)
+      {
+        return Never;
+      }
+    }
+    return first > last ? Never : this->bound(std::max({ 0., first, -last }));
+  }
+  double minimumOnObject(int triangle)
+  {
+    const TriangleTree::Triangle& corner = this->triangles[static_cast<std::size_t>(triangle)];
+    const Row normal = (corner[1] - corner[0]).cross(corner[2] - corner[0]).normalized();
+    const double across = normal.dot(this->direction);
+    if (across == 0 || !this->fits(triangle))
+    {
+      return Never;
+    }
+    const double along = (corner[0] - this->x).dot(normal) / across;
+    const Row place = this->x + along * this->direction;
+    // A place in a steep triangle is the farther off, the steeper it is.
+    const double off = this->tolerance / std::abs(across);
+    for (int k = 0; k < 3; ++k)
+    {
+      const Row edge = corner[(k + 1) % 3] - corner[k];
+      if (edge.cross(place - corner[k]).dot(normal) < -off * edge.norm())
+      {
+        return Never;
+      }
+    }
+    return this->take(triangle, std::abs(along), place);
+  }
 };
 }
 
@@ -95,6 +158,16 @@ struct TriangleTree::Implementation
 {
   std::vector<Triangle> triangles;
   Tree tree;
+
+  template <typename AnySearch>
+  Found found(AnySearch& search) const
+  {
+    if (!this->triangles.empty())
+    {
+      Eigen::BVMinimize(this->tree, search);
+    }
+    return search.found;
+  }
 };
 
 TriangleTree::TriangleTree(std::vector<Triangle> triangles)
@@ -119,12 +192,16 @@ TriangleTree::Found TriangleTree::nearest(
   const Row& x, double radius, const std::function<bool(Index)>& fits) const
 {
   const Implementation& own = *this->implementation_;
-  Search search{ x, own.triangles, fits, radius * radius, { -1, x } };
-  if (!own.triangles.empty())
-  {
-    Eigen::BVMinimize(own.tree, search);
-  }
-  return search.found;
+  NearestSearch search{ { x, own.triangles, fits, radius, { -1, x } } };
+  return own.found(search);
+}
+
+TriangleTree::Found TriangleTree::nearestAlong(const Row& x, const Row& direction, double radius,
+  double tolerance, const std::function<bool(Index)>& fits) const
+{
+  const Implementation& own = *this->implementation_;
+  AlongSearch search{ { x, own.triangles, fits, radius, { -1, x } }, direction, tolerance };
+  return own.found(search);
 }
 
 const std::vector<TriangleTree::Triangle>& TriangleTree::triangles() const

@@ -33,6 +33,12 @@ public:
   Found nearest(
     const Row& x, double radius, const std::function<bool(Index)>& fits = nullptr) const;
 
+  /// Returns the place nearest to `x` on the line through it, at most `radius` away, where the
+  /// line meets a triangle that `fits`. Triangles are wider by `tolerance` than their edges.
+  /// `direction`: unit length.
+  Found nearestAlong(const Row& x, const Row& direction, double radius, double tolerance,
+    const std::function<bool(Index)>& fits) const;
+
   const std::vector<Triangle>& triangles() const;
   /// The unit normal, by the right-hand rule; zero for a triangle without area, and for -1.
   Row normal(Index triangle) const;

@@ -2,6 +2,7 @@
 #include "Private/Displace/Internals.h"
 
 #include "BoundaryMorphing/LatticeMotion.h"
+#include "BoundaryMover/FitToTarget.h"
 #include "BoundaryMover/Patches.h"
 #include "BoundaryMover/Unmet.h"
 #include "Private/Data/AffineArrays.h"
@@ -129,7 +130,8 @@ void vtkBoundaryDisplacement::Choose(vtkPointSet* input, vtkSelection* selection
   {
     const bool byTarget =
       this->Options->Surfaces.empty() && this->Options->Displacement == DISPLACEMENT_TARGET;
-    options.Surfaces = byTarget ? own.Fit.NearestSurfaces(own.Model) : this->Options->Surfaces;
+    options.Surfaces =
+      byTarget ? morph::surfacesNearest(*own.Fit.Get(), own.Model) : this->Options->Surfaces;
   }
   else if (this->Options->Moving == MOVING_REGION)
   {
@@ -154,27 +156,33 @@ morph::Points vtkBoundaryDisplacement::vtkInternals::Fitted(vtkBoundaryDisplacem
   vtkPointSet* input, vtkSelection* selection, vtkPolyData* target,
   const std::vector<morph::Index>& sliding, filters::Monitor& monitor)
 {
-  filters::FitToTarget::Options options;
-  options.Align = filter->Options->AlignTarget;
-  options.FeatureAngle = filter->Options->FeatureAngle;
-  options.Angle = filter->Options->TargetAngle;
-  options.Reach = filter->Options->TargetReach * this->Model.size;
+  const bool align = filter->Options->AlignTarget;
+  morph::Target::Options options;
+  options.featureAngle = filter->Options->FeatureAngle;
+  options.normalAngle = filter->Options->TargetAngle;
+  options.reach = filter->Options->TargetReach * this->Model.size;
+  morph::FitOptions how;
   if (filter->Options->ProjectAlong != PROJECT_ALONG_CLOSEST_POINT)
   {
-    options.How = filters::FitToTarget::Project::Along;
-    options.Direction = directionOf(filter->Options->ProjectAlong, filter->Options->ProjectVector);
+    how.project = morph::FitOptions::Project::Along;
+    how.direction = directionOf(filter->Options->ProjectAlong, filter->Options->ProjectVector);
   }
   if (filter->Options->Moving == MOVING_SURFACES && filter->Options->Surfaces.empty())
   {
-    this->Fit.Update(target, this->Model, nullptr, options, monitor);
+    this->Fit.Update(target, this->Model, nullptr, align, options, monitor);
     filter->Choose(input, selection);
   }
   else
   {
     filter->Choose(input, selection);
-    this->Fit.Update(target, this->Model, &this->Choice, options, monitor);
+    this->Fit.Update(target, this->Model, &this->Choice, align, options, monitor);
   }
-  return this->Fit.Targets(this->Model, this->Choice, sliding, this->Spread, monitor);
+  if (!this->Fit.GetWarning().empty())
+  {
+    monitor.warn(this->Fit.GetWarning());
+  }
+  return morph::fittedTo(
+    *this->Fit.Get(), this->Model, this->Choice, sliding, how, this->Spread, monitor);
 }
 
 std::vector<morph::Handle> vtkBoundaryDisplacement::vtkInternals::SelectedHandles(
@@ -329,15 +337,15 @@ bool vtkBoundaryDisplacement::vtkInternals::Prepare(vtkBoundaryDisplacement* fil
   if (motion.Displacement == DISPLACEMENT_ALONG_NORMALS)
   {
     // In a plane of symmetry the facets on its other side count, too.
-    const filters::FitToTarget::Rim rim(this->Model, moves.Choice, rest.sliding, this->Spread);
+    const morph::TargetRim rim(this->Model, moves.Choice, rest.sliding, this->Spread);
     for (std::size_t i = 0; i < moves.Choice.moving.size(); ++i)
     {
       const morph::Index node = moves.Choice.moving[i];
       auto target = moves.Targets.row(static_cast<morph::Index>(i));
       const Eigen::RowVector3d from = this->Model.points().row(node), step = target - from;
-      if (rim.Has(node) && step.norm() > 0)
+      if (rim.has(node) && step.norm() > 0)
       {
-        target = from + step.norm() * rim.Along(node, step.normalized());
+        target = from + step.norm() * rim.along(node, step.normalized());
       }
     }
   }

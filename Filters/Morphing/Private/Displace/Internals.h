@@ -11,7 +11,7 @@
 #include "Private/Displace/BoundaryFields.h"
 #include "Private/Displace/Chosen.h"
 #include "Private/Displace/ControlPoints.h"
-#include "Private/Displace/FitToTarget.h"
+#include "Private/Displace/FittedTarget.h"
 #include "Private/Displace/InnerNodes.h"
 #include "Private/Displace/InputBoundary.h"
 #include "Private/Displace/Motion.h"
@@ -55,7 +55,7 @@ struct vtkBoundaryDisplacement::vtkInternals : vtkDisplacementAlgorithm::vtkShar
   morph::Surroundings Spread;
   morph::Surroundings::Result Displaced; ///< by the last execution
   morph::filters::BoundaryFields Fields;
-  morph::filters::FitToTarget Fit;
+  morph::filters::FittedTarget Fit;
   morph::filters::InnerNodes Inner;
   morph::filters::SlideRounds Slide;
   morph::filters::Picker Picker;

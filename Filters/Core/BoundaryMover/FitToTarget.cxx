@@ -1,0 +1,368 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "BoundaryMover/FitToTarget.h"
+
+#include "Boundary/FaceAreas.h"
+#include "BoundaryMorphing/Alignment.h"
+#include "BoundaryMorphing/CurveMorph.h"
+#include "BoundaryMorphing/SurfaceMorph.h"
+#include "BoundaryMover/Patches.h"
+#include "Support/Error.h"
+#include "Support/ProgressRange.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+namespace morph
+{
+namespace
+{
+using Row = ProjectionTarget::Row;
+
+constexpr double Anywhere = std::numeric_limits<double>::infinity();
+
+/// A target whose surface serves for curves too, where it has no feature edge near. Nodes on the
+/// rim of what moves that are on surfaces which slide go to target and sliding surfaces together.
+class WithCurves : public ProjectionTarget
+{
+public:
+  WithCurves(const Target& target, const TargetRim& rim)
+    : place_(target)
+    , rim_(rim)
+  {
+  }
+  bool closestOnSurface(Index surface, const Row& x, const Row& normal, Row& y) const override
+  {
+    return this->place_.closestOnSurface(surface, x, normal, y);
+  }
+  bool closestOnFeatures(Index node, const Row& x, Row& y) const override
+  {
+    if (this->rim_.has(node))
+    {
+      return this->rim_.meet(
+        node, x, [&](const Row& at, Row& to) { return this->anywhere(at, to); }, y);
+    }
+    return this->place_.closestOnFeatures(node, x, y) || this->anywhere(x, y);
+  }
+  bool closestForVertex(Index node, const Row& x, Row& y) const
+  {
+    if (!this->rim_.has(node))
+    {
+      return this->place_.closestOnVertices(x, y) || this->closestOnFeatures(node, x, y);
+    }
+    // Where surfaces that move meet, their common edge goes to the target's.
+    const auto onEdge = [&](const Row& at, Row& to)
+    { return this->place_.closestOnFeatures(node, at, to); };
+    return (this->rim_.isOnEdge(node) && this->rim_.meet(node, x, onEdge, y)) ||
+           this->closestOnFeatures(node, x, y);
+  }
+
+private:
+  bool anywhere(const Row& x, Row& y) const
+  {
+    return this->place_.closestOnSurface(-1, x, Row::Zero(), y);
+  }
+
+  const Target& place_;
+  const TargetRim& rim_;
+};
+
+/// The triangles of faces, and the face of each.
+std::pair<std::vector<TriangleTree::Triangle>, std::vector<Index>> trianglesOf(
+  const BoundaryModel& model, const std::vector<Index>& ids)
+{
+  std::vector<TriangleTree::Triangle> triangles;
+  std::vector<Index> faceOf;
+  for (const Index face : ids)
+  {
+    addTriangles(model.points(), model.faces, face, triangles);
+    faceOf.resize(triangles.size(), face);
+  }
+  return { std::move(triangles), std::move(faceOf) };
+}
+
+std::vector<Index> allFaces(const BoundaryModel& model)
+{
+  std::vector<Index> ids(model.faces.offsets.size() - 1);
+  std::iota(ids.begin(), ids.end(), Index(0));
+  return ids;
+}
+
+BoundaryMotion allHeld(const BoundaryModel& model)
+{
+  BoundaryMotion motion;
+  motion.rest = model.points();
+  motion.displacement = Points::Zero(motion.rest.rows(), 3);
+  motion.state.assign(motion.rest.rows(), BoundaryMotion::Unknown);
+  motion.bodyOfNode = model.bodyOfNode;
+  for (const Index node : model.faces.nodes)
+  {
+    motion.state[node] = BoundaryMotion::Held;
+  }
+  return motion;
+}
+
+/// The motion's start: what does not move is given, and vertices that move are, where they find a
+/// place. `missed`: those that find none.
+BoundaryMotion begin(const BoundaryModel& model, const Choice& choice, const WithCurves& place,
+  std::vector<Index>& missed)
+{
+  const Classification& geometry = model.geometry;
+  BoundaryMotion motion = allHeld(model);
+  for (const Index node : choice.moving)
+  {
+    motion.state[node] = BoundaryMotion::Unknown;
+    Row y;
+    if (geometry.dimension[node] == 0)
+    {
+      motion.state[node] = BoundaryMotion::Held;
+      if (place.closestForVertex(node, motion.rest.row(node), y))
+      {
+        motion.displacement.row(node) = y - motion.rest.row(node);
+      }
+      else
+      {
+        missed.push_back(node);
+      }
+    }
+  }
+  return motion;
+}
+
+/// Nodes of closed curves or surfaces, about which nothing is known, wait where they are.
+void await(const Choice& choice, const Classification& geometry, int dimension,
+  BoundaryMotion::State state, BoundaryMotion& motion)
+{
+  for (const Index node : choice.moving)
+  {
+    if (motion.state[node] == BoundaryMotion::Unknown && geometry.dimension[node] == dimension)
+    {
+      motion.state[node] = state;
+    }
+  }
+}
+
+void moveAlong(Target& target, const BoundaryModel& model, const Choice& choice,
+  const TargetRim& rim, const FitOptions& options, BoundaryMotion& motion,
+  std::vector<Index>& missed)
+{
+  Points directions =
+    options.direction.normalized().replicate(static_cast<Index>(choice.moving.size()), 1);
+  if (options.direction.isZero(0))
+  {
+    directions = nodeNormals(
+      model.outwardAreas(model.points()), model.faces, choice.isMovingFace, choice.moving);
+  }
+  const Points normals =
+    surfaceNodeNormals(model.points(), model.points(), model.faces, model.geometry);
+  target.orient(model.points(), normals);
+  for (std::size_t i = 0; i < choice.moving.size(); ++i)
+  {
+    const Index node = choice.moving[i];
+    const Row direction = rim.along(node, directions.row(static_cast<Index>(i)));
+    const auto find = [&](const Row& at, Row& to)
+    { return target.closestAlong(at, direction, normals.row(node), to); };
+    const Row x = model.points().row(node);
+    Row y;
+    if (rim.has(node) ? rim.meet(node, x, find, y) : find(x, y))
+    {
+      motion.displacement.row(node) = y - x;
+    }
+    else
+    {
+      // A vertex has nothing to follow.
+      motion.state[node] =
+        model.geometry.dimension[node] == 0 ? BoundaryMotion::Held : BoundaryMotion::Unknown;
+      missed.push_back(node);
+    }
+  }
+}
+}
+
+Eigen::Isometry3d alignedOnto(
+  const BoundaryModel& model, const Choice* choice, const Target& target, Monitor& monitor)
+{
+  std::vector<Index> ids = allFaces(model);
+  if (choice && std::count(choice->isMovingFace.begin(), choice->isMovingFace.end(), 1) > 0)
+  {
+    ids.erase(std::remove_if(ids.begin(), ids.end(),
+                [&](Index face) { return choice->isMovingFace[face] == 0; }),
+      ids.end());
+  }
+  std::vector<Index> corners;
+  for (const TargetTriangle& triangle : target.triangles())
+  {
+    corners.insert(corners.end(), triangle.begin(), triangle.end());
+  }
+  std::sort(corners.begin(), corners.end());
+  corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+  return alignment(target.tree(), target.points()(corners, allColumns),
+    TriangleTree(trianglesOf(model, ids).first), monitor);
+}
+
+std::set<std::string> surfacesNearest(const Target& target, const BoundaryModel& model)
+{
+  const Classification& geometry = model.geometry;
+  auto [triangles, faceOf] = trianglesOf(model, allFaces(model));
+  const TriangleTree boundary(std::move(triangles));
+  std::vector<double> votes(geometry.surfaces.size(), 0), own(geometry.surfaces.size(), 0);
+  const Points areas = faceAreas(model.points(), model.faces);
+  for (Index f = 0; f < areas.rows(); ++f)
+  {
+    own[geometry.surfaceOfFace[f]] += areas.row(f).norm();
+  }
+  for (const auto& [a, b, c] : target.tree().triangles())
+  {
+    // Triangles of an STL file may be as large as the surface: a sample in each quarter.
+    const double area = (b - a).cross(c - a).norm() / 2;
+    const Row center = (a + b + c) / 3;
+    for (const Row& sample :
+      { center, Row((center + a) / 2), Row((center + b) / 2), Row((center + c) / 2) })
+    {
+      const Index found = boundary.nearest(sample, Anywhere).triangle;
+      if (found >= 0)
+      {
+        votes[geometry.surfaceOfFace[faceOf[found]]] += area / 4;
+      }
+    }
+  }
+  std::set<std::string> names;
+  for (std::size_t s = 0; s < votes.size(); ++s)
+  {
+    if (votes[s] >= 0.5 * own[s] && votes[s] > 0)
+    {
+      names.insert(surfaceName(geometry, static_cast<Index>(s)));
+    }
+  }
+  if (names.empty())
+  {
+    throw Error("No surface of the mesh belongs to the target: none has half of its area "
+                "beside it. Choose the surfaces that are to fit, or align the target.");
+  }
+  return names;
+}
+
+TargetRim::TargetRim(const BoundaryModel& model, const Choice& choice,
+  const std::vector<Index>& sliding, Surroundings& surroundings)
+  : model_(model)
+  , surfaces_(surroundings)
+{
+  const std::vector<GeometrySurface>& surfaces = model.geometry.surfaces;
+  for (const Index s : sliding)
+  {
+    surroundings.shapeOf(model, s); // before several threads ask for it
+    for (const Index node : surfaces[s].nodes)
+    {
+      if (model.geometry.dimension[node] < 2 &&
+          std::binary_search(choice.moving.begin(), choice.moving.end(), node))
+      {
+        this->nodes_[node].sliding.push_back(s);
+      }
+    }
+  }
+  for (const GeometrySurface& surface : surfaces)
+  {
+    const bool moves = std::any_of(surface.faces.begin(), surface.faces.end(),
+      [&](Index face) { return choice.isMovingFace[face] != 0; });
+    for (const Index node : surface.nodes)
+    {
+      const auto found = this->nodes_.find(node);
+      if (moves && found != this->nodes_.end())
+      {
+        ++found->second.moving;
+      }
+    }
+  }
+}
+
+Eigen::RowVector3d TargetRim::along(Index node, const Row& direction) const
+{
+  const auto found = this->nodes_.find(node);
+  Row along = direction;
+  if (found != this->nodes_.end())
+  {
+    std::vector<Row> normals; // orthonormal
+    for (const Index s : found->second.sliding)
+    {
+      const Row x = this->model_.points().row(node);
+      Row normal = this->surfaces_.shapeOf(this->model_, s).normal(x);
+      for (const Row& other : normals)
+      {
+        normal -= normal.dot(other) * other;
+      }
+      if (normal.norm() > 1e-6)
+      {
+        normals.push_back(normal.normalized());
+        along -= along.dot(normals.back()) * normals.back();
+      }
+    }
+  }
+  return along.norm() > 1e-6 ? Row(along.normalized()) : direction;
+}
+
+Points fittedTo(Target& target, const BoundaryModel& model, const Choice& choice,
+  const std::vector<Index>& sliding, const FitOptions& options, Surroundings& surroundings,
+  Monitor& monitor)
+{
+  const Classification& geometry = model.geometry;
+  const TargetRim rim(model, choice, sliding, surroundings);
+  const WithCurves place(target, rim);
+  const bool isAlong = options.project == FitOptions::Project::Along;
+  std::vector<Index> missed;
+  BoundaryMotion motion;
+  if (isAlong)
+  {
+    motion = allHeld(model);
+    moveAlong(target, model, choice, rim, options, motion, missed);
+  }
+  else
+  {
+    motion = begin(model, choice, place, missed);
+  }
+  SurfaceMorphOptions how;
+  how.unattached = UnattachedMotion::Stay;
+  ProgressRange onCurves(monitor, 0.55, 0.75), onSurfaces(monitor, 0.75, 1);
+  const auto add = [&missed](const ProjectionReport& report)
+  {
+    for (const auto* some : { &report.missed, &report.kept })
+    {
+      missed.insert(missed.end(), some->begin(), some->end());
+    }
+  };
+  morphCurves(geometry, how.unattached, motion, onCurves);
+  await(choice, geometry, 1, BoundaryMotion::OnCurve, motion);
+  if (!isAlong)
+  {
+    add(projectCurves(geometry, place, motion, monitor));
+  }
+  morphSurfaces(model.faces, geometry, how, motion, onSurfaces);
+  await(choice, geometry, 2, BoundaryMotion::OnSurface, motion);
+  if (!isAlong)
+  {
+    const Points moved = motion.moved();
+    target.assign(geometry, moved);
+    target.orient(moved, surfaceNodeNormals(model.points(), moved, model.faces, geometry));
+    add(projectSurfaces(model.faces, geometry, place, motion, monitor));
+  }
+  std::sort(missed.begin(), missed.end());
+  const std::string along = isAlong ? " along the direction" : "";
+  if (missed.size() == choice.moving.size())
+  {
+    throw Error("No node that moves reaches the target: it has no place within "
+                "TargetReach" +
+                along +
+                " whose normal is within TargetAngle. Align the target, or raise "
+                "TargetReach.");
+  }
+  if (!missed.empty())
+  {
+    monitor.warn("Nodes do not reach the target, since it has no place within TargetReach" + along +
+                 " whose normal is within TargetAngle, or faces would fold there: point ids " +
+                 listIds(missed) + " of the input.");
+  }
+  return motion.moved()(choice.moving, allColumns);
+}
+}

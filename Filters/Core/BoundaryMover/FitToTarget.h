@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "BoundaryMorphing/BoundaryMotion.h"
+#include "BoundaryMorphing/Target.h"
+#include "BoundaryMover/BoundaryModel.h"
+#include "BoundaryMover/Choice.h"
+#include "BoundaryMover/Surroundings.h"
+
+#include <Eigen/Geometry>
+
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+/// Moves a part of a boundary onto a target surface.
+namespace morph
+{
+/// The rotation and shift that lays a target on the boundary, or on what moves of it. `choice`: what
+/// moves, or null. See alignment().
+Eigen::Isometry3d alignedOnto(
+  const BoundaryModel& model, const Choice* choice, const Target& target, Monitor& monitor);
+
+/// Returns the names of the surfaces that the target belongs to. Each is the nearest one for an
+/// area of the target of at least half its own. Throws Error where there is none.
+std::set<std::string> surfacesNearest(const Target& target, const BoundaryModel& model);
+
+/// The nodes on vertices and curves of what moves that are on sliding surfaces, too.
+class TargetRim
+{
+public:
+  using Row = Eigen::RowVector3d;
+  TargetRim(const BoundaryModel& model, const Choice& choice, const std::vector<Index>& sliding,
+    Surroundings& surroundings);
+
+  bool has(Index node) const { return this->nodes_.count(node) > 0; }
+  /// Whether surfaces that move meet there.
+  bool isOnEdge(Index node) const { return this->nodes_.at(node).moving > 1; }
+  /// The direction nearest to that one in which a node stays on its sliding surfaces, of unit
+  /// length.
+  Row along(Index node, const Row& direction) const;
+  /// Finds the point near `x` on the sliding surfaces and where `find`(x, y) leads to, by
+  /// alternating projections. Returns false where that leads nowhere. Several threads may call
+  /// it.
+  template <typename Find>
+  bool meet(Index node, const Row& x, const Find& find, Row& y) const
+  {
+    constexpr int Rounds = 100;
+    y = x;
+    for (int round = 0; round < Rounds; ++round)
+    {
+      Row there;
+      if (!find(y, there))
+      {
+        return false;
+      }
+      y = this->surfaces_.slid(this->model_, this->nodes_.at(node).sliding, node, there);
+      if ((y - there).norm() <= 1e-14 * this->model_.size)
+      {
+        break;
+      }
+    }
+    return true;
+  }
+
+private:
+  struct Node
+  {
+    std::vector<Index> sliding; ///< surfaces
+    int moving = 0;             ///< surfaces with faces that move
+  };
+  const BoundaryModel& model_;
+  Surroundings& surfaces_;
+  std::map<Index, Node> nodes_;
+};
+
+struct FitOptions
+{
+  enum class Project
+  {
+    Closest,
+    Along
+  };
+  Project project = Project::Closest;
+  /// of Along; zero: each node's normal
+  Eigen::RowVector3d direction = Eigen::RowVector3d::Zero();
+};
+
+/// Returns the positions of choice.moving on the target, #moving x 3. Closest: vertices go to
+/// vertices of the target, then curves to its feature edges, then surfaces follow and go to the
+/// target, as projectCurves() and projectSurfaces() move them. What has no such place within reach
+/// goes to the nearest place of the target. Along: each node goes to the nearest place of the target
+/// along the direction; what has none follows the others, but for vertices, which stay. Nodes on
+/// surfaces that slide, by their numbers in `sliding`, go to places that are on both. A warning
+/// names nodes that do not reach the target. Throws Error where none does.
+Points fittedTo(Target& target, const BoundaryModel& model, const Choice& choice,
+  const std::vector<Index>& sliding, const FitOptions& options, Surroundings& surroundings,
+  Monitor& monitor);
+}
