@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Named parts of a boundary move, others follow or slide: the engine of the filters without VTK.
+#include "BoundaryMover/FitToTarget.h"
+#include "BoundaryMover/Patches.h"
+#include "BoundaryMover/PrescribedMotion.h"
+#include "BoundaryMover/Surroundings.h"
+#include "BoundaryShapes.h"
+#include "Meshes.h"
+#include "Support/Error.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace
+{
+using morph::BoundaryModel;
+using morph::Index;
+using morph::Points;
+using Row = Eigen::RowVector3d;
+
+/// With a node set TOP where z is largest.
+BoundaryModel modelOf(const morph::Mesh& mesh)
+{
+  morph::Monitor monitor;
+  BoundaryModel model;
+  model.mesh = mesh;
+  model.findFaces(std::vector<std::uint8_t>(mesh.numberOfCells(), 0), monitor);
+  model.geometry = morph::classify(model.mesh, model.faces, {}, monitor);
+  std::vector<std::uint8_t> isTop(mesh.numberOfNodes(), 0);
+  for (Index n = 0; n < mesh.numberOfNodes(); ++n)
+  {
+    isTop[n] = mesh.points(n, 2) > mesh.points.col(2).maxCoeff() - 1e-9;
+  }
+  model.takeSets(
+    { morph::boundarySet("TOP", model.mesh, model.faces, model.inner.size(), isTop, {}) });
+  model.inputVersion = model.motionVersion = 1;
+  return model;
+}
+
+/// The number of the surface whose nodes all have that coordinate.
+Index surfaceAt(const BoundaryModel& model, int axis, double value)
+{
+  const auto& surfaces = model.geometry.surfaces;
+  const auto found = std::find_if(surfaces.begin(), surfaces.end(),
+    [&](const morph::GeometrySurface& surface)
+    {
+      return std::all_of(surface.nodes.begin(), surface.nodes.end(),
+        [&](Index n) { return std::abs(model.points()(n, axis) - value) < 1e-9; });
+    });
+  return found - surfaces.begin();
+}
+}
+
+TEST(BoundaryMover, ASetOfNodesIsListedFirstWithItsArea)
+{
+  const BoundaryModel model = modelOf(meshes::hexes(4, 3, 2));
+  const std::vector<morph::PatchSize> sizes = morph::patchSizes(model);
+  ASSERT_EQ(sizes.size(), 1u + 6u + 12u); // surfaces and edges of a box
+  EXPECT_EQ(sizes[0].name, "TOP");
+  EXPECT_EQ(sizes[0].count, 12);
+  EXPECT_NEAR(sizes[0].measure, sizes[0].box.sizes()[0] * sizes[0].box.sizes()[1], 1e-12);
+  EXPECT_FALSE(sizes[0].isInner);
+  EXPECT_THROW(morph::choosePatches(model, { "BOTTOM" }, {}), morph::Error);
+}
+
+TEST(BoundaryMover, SidesFollowATopThatTurnsWithinTheirPlanes)
+{
+  const BoundaryModel model = modelOf(meshes::hexes(4, 4, 4));
+  const morph::Choice choice = morph::choosePatches(model, { "TOP" }, {});
+  morph::Placement shift;
+  shift.translation = { 0.1, 0, 0 };
+  const Points targets = model.points()(choice.moving, morph::allColumns).rowwise() +
+                         morph::affineMotion(shift).col(0).transpose();
+  morph::Monitor monitor;
+  morph::Surroundings surroundings;
+  const auto result = surroundings.spread(model, choice, targets, {}, monitor);
+  EXPECT_EQ(Points(result.moved(choice.moving, morph::allColumns)), targets);
+  for (const double y : { model.points().col(1).minCoeff(), model.points().col(1).maxCoeff() })
+  {
+    for (const Index n : model.geometry.surfaces[surfaceAt(model, 1, y)].nodes)
+    {
+      EXPECT_NEAR(result.moved(n, 1), y, 1e-12);
+    }
+  }
+}
+
+TEST(BoundaryMover, APlacementScalesThenTurnsThenShifts)
+{
+  morph::Placement placement;
+  placement.scale = { 2, 1, 1 };
+  placement.rotation = { 0, 0, 90 };
+  placement.translation = { 0, 0, 5 };
+  const morph::AffineMotion motion = morph::affineMotion(placement);
+  const Row x(1, 3, 0);
+  const Row to = x + morph::affineDisplacement(motion, { 1, x[0], x[1], x[2] });
+  EXPECT_NEAR((to - Row(-3, 2, 5)).norm(), 0, 1e-14);
+}
+
+TEST(BoundaryMover, ATopGoesToATargetAndItsRimStaysInTheSlidingSides)
+{
+  const BoundaryModel model = modelOf(meshes::hexes(5, 5, 3));
+  const morph::Choice choice = morph::choosePatches(model, { "TOP" }, {});
+  // A roof over the box: z = top + 0.1 x.
+  const double top = model.points().col(2).maxCoeff();
+  Points corners(4, 3);
+  corners << -9, -9, top - 0.9, 9, -9, top + 0.9, 9, 9, top + 0.9, -9, 9, top - 0.9;
+  morph::Monitor monitor;
+  morph::Target::Options options;
+  options.reach = 5;
+  morph::Target target(corners, { { 0, 1, 2 }, { 0, 2, 3 } }, model.points(), options, monitor);
+  std::vector<Index> sides;
+  for (int axis = 0; axis < 2; ++axis)
+  {
+    sides.push_back(surfaceAt(model, axis, model.points().col(axis).minCoeff()));
+    sides.push_back(surfaceAt(model, axis, model.points().col(axis).maxCoeff()));
+  }
+  std::sort(sides.begin(), sides.end());
+  morph::Surroundings surroundings;
+  const Points fitted = morph::fittedTo(target, model, choice, sides, {}, surroundings, monitor);
+  for (std::size_t i = 0; i < choice.moving.size(); ++i)
+  {
+    const Row from = model.points().row(choice.moving[i]), to = fitted.row(static_cast<Index>(i));
+    EXPECT_NEAR(to[2], top + 0.1 * to[0], 1e-12);
+    for (int axis = 0; axis < 2; ++axis)
+    {
+      const bool isOnSide = from[axis] < model.points().col(axis).minCoeff() + 1e-9 ||
+                            from[axis] > model.points().col(axis).maxCoeff() - 1e-9;
+      EXPECT_NEAR(isOnSide ? to[axis] - from[axis] : 0, 0, 1e-12);
+    }
+  }
+}
