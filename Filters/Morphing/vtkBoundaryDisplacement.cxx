@@ -156,7 +156,7 @@ int vtkBoundaryDisplacement::GetClassifyCount() const
 
 int vtkBoundaryDisplacement::GetPrepareCount() const
 {
-  return this->Internals->Spread.prepareCount();
+  return this->Internals->Mover.surroundings().prepareCount();
 }
 
 int vtkBoundaryDisplacement::RequestInformation(

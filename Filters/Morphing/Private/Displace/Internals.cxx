@@ -4,19 +4,23 @@
 #include "BoundaryMorphing/LatticeMotion.h"
 #include "BoundaryMover/FitToTarget.h"
 #include "BoundaryMover/Patches.h"
-#include "BoundaryMover/Unmet.h"
 #include "Private/Data/AffineArrays.h"
 #include "Private/Data/Output.h"
 #include "Private/Data/Surface.h"
 #include "Private/Displace/DisplacedSurface.h"
+#include "Private/Displace/InnerPoints.h"
 #include "Private/Displace/Selection.h"
 #include "Private/Displace/Zones.h"
+#include "Private/Distributed/WholeVolume.h"
 #include "Private/Options.h"
 #include "Private/Pipeline/Input.h"
 #include "Private/Pipeline/Ranks.h"
 #include "Private/Project/TargetDistance.h"
 #include "Support/Error.h"
 
+#include <vtkAbstractTransform.h>
+#include <vtkCellData.h>
+#include <vtkFieldData.h>
 #include <vtkPointSet.h>
 #include <vtkPolyData.h>
 #include <vtkSelection.h>
@@ -35,6 +39,32 @@ namespace
 vtkMTimeType timeOf(vtkObject* object)
 {
   return object ? object->GetMTime() : 0;
+}
+
+std::vector<std::uint8_t> layerCells(vtkUnstructuredGrid* grid, const std::string& name)
+{
+  vtkDataArray* array = grid->GetCellData()->GetArray(name.c_str());
+  if (!array || array->GetNumberOfTuples() != grid->GetNumberOfCells())
+  {
+    throw morph::Error("LayersArray names '" + name + "', which is no cell array of the input.");
+  }
+  return filters::Chosen::Marked(array);
+}
+
+/// What each round of sliding has done.
+void writeRounds(
+  const std::vector<morph::SlidingWarp::Round>& rounds, double size, vtkFieldData* data)
+{
+  vtkNew<vtkDoubleArray> change, force;
+  change->SetName("SlideChange");
+  force->SetName("SlideForce");
+  for (const morph::SlidingWarp::Round& round : rounds)
+  {
+    change->InsertNextValue(round.change / size);
+    force->InsertNextValue(round.force);
+  }
+  data->AddArray(change);
+  data->AddArray(force);
 }
 
 /// The direction of a projection along one; zero: the normals.
@@ -182,7 +212,7 @@ morph::Points vtkBoundaryDisplacement::vtkInternals::Fitted(vtkBoundaryDisplacem
     monitor.warn(this->Fit.GetWarning());
   }
   return morph::fittedTo(
-    *this->Fit.Get(), this->Model, this->Choice, sliding, how, this->Spread, monitor);
+    *this->Fit.Get(), this->Model, this->Choice, sliding, how, this->Mover.surroundings(), monitor);
 }
 
 std::vector<morph::Handle> vtkBoundaryDisplacement::vtkInternals::SelectedHandles(
@@ -246,25 +276,69 @@ morph::Points vtkBoundaryDisplacement::vtkInternals::ByControlPoints(
   return from + lattice.displacements(from, monitor);
 }
 
-filters::InnerNodes::Options vtkBoundaryDisplacement::vtkInternals::InnerOptions(
+filters::Zones::Options vtkBoundaryDisplacement::vtkInternals::ZoneOptions(
   const vtkBoundaryDisplacement* filter, vtkSelection* zone)
 {
-  filters::InnerNodes::Options options;
-  options.Zones.Fixed = filter->Options->FixedZones;
-  options.Zones.Rigid = filter->Options->RigidZones;
-  options.Zones.Region = this->ZoneRegion;
-  options.Zones.RegionKind = filter->Options->ZoneRegionType;
-  options.Zones.SelectionKind = filter->Options->ZoneSelectionType;
+  filters::Zones::Options options;
+  options.Fixed = filter->Options->FixedZones;
+  options.Rigid = filter->Options->RigidZones;
+  options.Region = this->ZoneRegion;
+  options.RegionKind = filter->Options->ZoneRegionType;
+  options.SelectionKind = filter->Options->ZoneSelectionType;
   if (filter->Options->ZoneSelectionType != ZONE_NONE)
   {
-    options.Zones.Selection = this->ZoneSelected.OfGrid(this->Blocks, zone, this->Extractor);
+    options.Selection = this->ZoneSelected.OfGrid(this->Blocks, zone, this->Extractor);
   }
-  options.Zones.Extractor = this->Extractor;
-  options.RigidTransform = this->RigidTransform;
-  options.ScaleFactor = filter->Options->ScaleFactor;
-  options.KeepLayers = filter->Options->KeepLayers;
-  options.LayersArray = filters::Input::ArrayName(filter->Options->LayersArray);
+  options.Extractor = this->Extractor;
   return options;
+}
+
+void vtkBoundaryDisplacement::vtkInternals::FindInner(const vtkBoundaryDisplacement* filter,
+  vtkUnstructuredGrid* grid, const filters::Zones::Options& zones,
+  morph::BoundaryMover::Options& options)
+{
+  options.inner.keepLayers = filter->Options->KeepLayers;
+  options.inner.layersName = filters::Input::ArrayName(filter->Options->LayersArray);
+  if (!zones.Any() && options.inner.keepLayers == 0)
+  {
+    return;
+  }
+  if (!grid)
+  {
+    throw morph::Error("Zones and layers have inner nodes, and the input is a surface. Give the "
+                       "volume mesh to this filter.");
+  }
+  const filters::MergedBlocks* blocks =
+    this->OuterBlocks ? this->OuterBlocks : this->Blocks.Merged();
+  const auto find = [&](filters::Zones::Kind kind)
+  {
+    const std::vector<filters::Zones::Part> parts =
+      this->Whole
+        ? filters::Zones::FindOnRanks(kind, grid, filters::WholeVolume(*this->Whole), blocks, zones)
+        : filters::Zones::Find(kind, grid, this->Model.mesh, blocks, zones);
+    return std::vector<morph::Zone>(parts.begin(), parts.end());
+  };
+  options.fixedZones = find(filters::Zones::Fixed);
+  options.rigidZones = find(filters::Zones::Rigid);
+  if (this->RigidTransform)
+  {
+    options.inner.rigid = [this, factor = filter->Options->ScaleFactor](
+                            const Eigen::RowVector3d& x) -> Eigen::RowVector3d
+    {
+      Eigen::RowVector3d to;
+      this->RigidTransform->TransformPoint(x.data(), to.data());
+      return factor == 1 ? to : Eigen::RowVector3d(x + factor * (to - x));
+    };
+  }
+  const auto takeLayers = [&]
+  {
+    // Of several processes those without cells have no arrays.
+    if (!options.inner.layersName.empty() && !(this->Whole && grid->GetNumberOfCells() == 0))
+    {
+      options.inner.isLayer = layerCells(grid, options.inner.layersName);
+    }
+  };
+  this->Whole ? filters::Ranks::Together(takeLayers) : takeLayers();
 }
 
 void vtkBoundaryDisplacement::vtkInternals::WriteDistances(
@@ -337,7 +411,7 @@ bool vtkBoundaryDisplacement::vtkInternals::Prepare(vtkBoundaryDisplacement* fil
   if (motion.Displacement == DISPLACEMENT_ALONG_NORMALS)
   {
     // In a plane of symmetry the facets on its other side count, too.
-    const morph::TargetRim rim(this->Model, moves.Choice, rest.sliding, this->Spread);
+    const morph::TargetRim rim(this->Model, moves.Choice, rest.sliding, this->Mover.surroundings());
     for (std::size_t i = 0; i < moves.Choice.moving.size(); ++i)
     {
       const morph::Index node = moves.Choice.moving[i];
@@ -377,85 +451,44 @@ void vtkBoundaryDisplacement::vtkInternals::Displace(vtkBoundaryDisplacement* fi
   { whole ? whole->Together(work) : work(); };
   Moves moves;
   bool hasBoundary = false;
-  filters::InnerNodes::Options inner;
+  filters::Zones::Options zones;
   alike(
     [&]
     {
       hasBoundary = this->Prepare(filter, input, extras, moves, monitor);
-      inner = this->InnerOptions(filter, extras.Zone);
+      zones = this->ZoneOptions(filter, extras.Zone);
     });
   if (!hasBoundary)
   {
     return;
   }
-  const bool hasInner = inner.Any() && filter->Options->Moving != MOVING_NOTHING;
-  const bool isConstrained = hasInner || !moves.Rest.sliding.empty();
-  const morph::Points asked = isConstrained ? moves.Targets : morph::Points();
-  this->Inner.Clear();
-  if (hasInner)
+  morph::BoundaryMover::Options options;
+  options.rest = moves.Rest;
+  if (filter->Options->Moving != MOVING_NOTHING)
   {
-    if (!grid)
-    {
-      throw morph::Error("Zones and layers have inner nodes, and the input is a surface. Give the "
-                         "volume mesh to this filter.");
-    }
-    this->Inner.Find(grid, this->Model,
-      this->OuterBlocks ? this->OuterBlocks : this->Blocks.Merged(), inner, whole);
+    this->FindInner(filter, grid, zones, options);
+    options.slideRounds = filter->Options->SlideRounds;
   }
-  monitor.SetRange(extras.Target ? 0.7 : 0.5, 0.9);
-  morph::Surroundings::Result& result = this->Displaced;
-  alike(
-    [&]
-    {
-      if (hasInner)
-      {
-        this->Inner.Constrain(this->Model, inner, moves.Choice, moves.Targets);
-      }
-      // Nothing is left of it where this throws.
-      result = this->Spread.spread(this->Model, moves.Choice, moves.Targets, moves.Rest, monitor,
-        std::exchange(this->Displaced, morph::Surroundings::Result()));
-    });
-  if (hasInner)
+  monitor.SetRange(extras.Target ? 0.7 : 0.5, 1);
+  std::unique_ptr<filters::WholeVolume> pieces;
+  if (whole)
   {
-    result.motionVersion = -1; // inner nodes move, too
-    this->Inner.Place(grid, this->Model, moves.Choice, inner, result, monitor);
-    alike(
-      [&]
-      {
-        this->Inner.SpreadAround(
-          this->Model, moves.Choice, moves.Targets, moves.Rest, result, monitor);
-      });
+    pieces = std::make_unique<filters::WholeVolume>(*whole);
   }
-  const bool hasRounds =
-    filter->Options->SlideRounds > 0 && filter->Options->Moving != MOVING_NOTHING;
-  if (hasRounds)
+  this->Mover.move(this->Model, moves.Choice, moves.Targets, options, pieces.get(), monitor);
+  alike([&] { this->Write(filter, input, extras, moves, options, output, monitor); });
+  if (options.hasInner())
   {
-    monitor.SetRange(0.9, 1);
-    this->Slide.Run(this->Model, moves.Choice.held, moves.Rest.sliding,
-      filter->Options->SlideRounds, this->Spread, whole, this->Inner, result, monitor);
+    alike([&] { this->AppendInner(grid, output); });
   }
-  alike(
-    [&]
-    {
-      if (isConstrained)
-      {
-        morph::warnOfUnmet(
-          this->Model, this->Choice, asked, moves.Rest.sliding, result, this->Spread, monitor);
-      }
-    });
-  alike([&] { this->Write(filter, input, extras, moves, hasInner, hasRounds, output, monitor); });
-  if (hasInner)
-  {
-    alike([&] { this->Inner.Append(grid, this->Model, result, output); });
-  }
-  this->Count(filter, hasInner);
+  this->Count(filter, options.hasInner());
 }
 
 void vtkBoundaryDisplacement::vtkInternals::Write(vtkBoundaryDisplacement* filter,
-  vtkPointSet* input, const Extras& extras, const Moves& moves, bool hasInner, bool hasRounds,
-  vtkPolyData* output, filters::Monitor& monitor)
+  vtkPointSet* input, const Extras& extras, const Moves& moves,
+  const morph::BoundaryMover::Options& options, vtkPolyData* output, filters::Monitor& monitor)
 {
-  const morph::Surroundings::Result& result = this->Displaced;
+  const morph::Surroundings::Result& result = this->Mover.result();
   const std::vector<morph::Index> faces =
     morph::collapsedFaces(this->Model, moves.Choice, result.moved);
   std::vector<morph::Index> collapsed; // cells of the output
@@ -473,26 +506,26 @@ void vtkBoundaryDisplacement::vtkInternals::Write(vtkBoundaryDisplacement* filte
       "be valid: the output's cell ids " +
       morph::listIds(collapsed) + ". Is a scale zero?");
   }
-  if (hasInner)
+  if (options.hasInner())
   {
-    filters::Output::RequireWritable(this->Inner.Rest(this->Model), result.moved,
+    filters::Output::RequireWritable(this->Mover.inner().rest(this->Model), result.moved,
       filters::Output::IsFloat(input, filter->Options->OutputPointsPrecision), "nodes");
   }
   filters::DisplacedSurface::Write(
     this->Model, result, input, filter->Options->OutputPointsPrecision, output);
-  if (hasRounds)
+  if (options.slideRounds > 0)
   {
-    this->Slide.Write(this->Model.size, output->GetFieldData());
-    this->SlideReport = this->Slide.Report(this->Model.size);
+    writeRounds(this->Mover.rounds().rounds(), this->Model.size, output->GetFieldData());
+    this->SlideReport = this->Mover.rounds().report(this->Model.size);
   }
-  if (hasInner || hasRounds)
+  if (options.hasInner() || options.slideRounds > 0)
   {
     filters::AffineArrays::Remove(output);
   }
   else
   {
-    this->Fields.Write(
-      this->Model, this->Choice, moves.Motion, moves.Rest, result, this->Spread, output, monitor);
+    this->Fields.Write(this->Model, this->Choice, moves.Motion, moves.Rest, result,
+      this->Mover.surroundings(), output, monitor);
   }
   if (extras.Target)
   {
@@ -505,11 +538,30 @@ void vtkBoundaryDisplacement::vtkInternals::Write(vtkBoundaryDisplacement* filte
   }
 }
 
+void vtkBoundaryDisplacement::vtkInternals::AppendInner(
+  vtkUnstructuredGrid* grid, vtkPolyData* output)
+{
+  const morph::Surroundings::Result& result = this->Mover.result();
+  const std::vector<morph::Index> nodes = morph::InnerNodes::placedInside(this->Model, result);
+  std::vector<signed char> roles;
+  for (const morph::Index node : nodes)
+  {
+    roles.push_back(result.roles[node]);
+  }
+  filters::InnerPoints::Append(grid, this->Mover.inner().pointsOf(this->Model, nodes),
+    this->Mover.inner().rest(this->Model)(nodes, morph::allColumns),
+    result.moved(nodes, morph::allColumns), roles, output);
+  if (this->Whole)
+  {
+    this->Whole->MakeIdsGlobal(output, static_cast<vtkIdType>(nodes.size()));
+  }
+}
+
 void vtkBoundaryDisplacement::vtkInternals::Count(
   vtkBoundaryDisplacement* filter, bool hasInner) const
 {
   using morph::Surroundings;
-  const std::vector<signed char>& roles = this->Displaced.roles;
+  const std::vector<signed char>& roles = this->Mover.result().roles;
   std::array<morph::Index, Surroundings::IsLayer + 1> count = {}, inside = {};
   const auto whole = static_cast<std::size_t>(this->Model.points().rows());
   // Without inner nodes all nodes inside stay. On ranks the model has the boundary's nodes alone.

@@ -4,7 +4,7 @@
 
 #include "vtkBoundaryDisplacement.h"
 
-#include "BoundaryMover/Surroundings.h"
+#include "BoundaryMover/BoundaryMover.h"
 #include "Private/Blocks/Blocks.h"
 #include "Private/Data/Unchanged.h"
 #include "Private/Displace/BlockSelection.h"
@@ -12,12 +12,11 @@
 #include "Private/Displace/Chosen.h"
 #include "Private/Displace/ControlPoints.h"
 #include "Private/Displace/FittedTarget.h"
-#include "Private/Displace/InnerNodes.h"
 #include "Private/Displace/InputBoundary.h"
 #include "Private/Displace/Motion.h"
 #include "Private/Displace/Picker.h"
 #include "Private/Displace/SharedProperties.h"
-#include "Private/Displace/SlideRounds.h"
+#include "Private/Displace/Zones.h"
 #include "Private/Distributed/WholeSurface.h"
 #include "Private/Pipeline/Monitor.h"
 
@@ -52,12 +51,9 @@ struct vtkBoundaryDisplacement::vtkInternals : vtkDisplacementAlgorithm::vtkShar
   vtkIdType ChosenVersion = -1;      ///< of Model, that Choice is of
   morph::filters::Chosen::Options ChosenBy;
   morph::Choice Choice;
-  morph::Surroundings Spread;
-  morph::Surroundings::Result Displaced; ///< by the last execution
+  morph::BoundaryMover Mover;
   morph::filters::BoundaryFields Fields;
   morph::filters::FittedTarget Fit;
-  morph::filters::InnerNodes Inner;
-  morph::filters::SlideRounds Slide;
   morph::filters::Picker Picker;
   /// The boundary of a mesh on several MPI processes, of which Model is then; else null.
   std::unique_ptr<morph::filters::WholeSurface> Whole;
@@ -111,12 +107,17 @@ private:
   bool Prepare(vtkBoundaryDisplacement* filter, vtkPointSet* input, const Extras& extras,
     Moves& moves, morph::filters::Monitor& monitor);
   void Write(vtkBoundaryDisplacement* filter, vtkPointSet* input, const Extras& extras,
-    const Moves& moves, bool hasInner, bool hasRounds, vtkPolyData* output,
+    const Moves& moves, const morph::BoundaryMover::Options& options, vtkPolyData* output,
     morph::filters::Monitor& monitor);
+  /// Adds zones and layers inside to the output, points without cells.
+  void AppendInner(vtkUnstructuredGrid* grid, vtkPolyData* output);
   void Count(vtkBoundaryDisplacement* filter, bool hasInner) const;
   void SelectOnRanks(vtkUnstructuredGrid* piece, vtkSelection* selection);
-  morph::filters::InnerNodes::Options InnerOptions(
+  morph::filters::Zones::Options ZoneOptions(
     const vtkBoundaryDisplacement* filter, vtkSelection* zone);
+  /// Finds zones and the cells of layers. `grid`: null for a surface. Collective on ranks.
+  void FindInner(const vtkBoundaryDisplacement* filter, vtkUnstructuredGrid* grid,
+    const morph::filters::Zones::Options& zones, morph::BoundaryMover::Options& options);
   /// The positions of what moves, on the target. Chooses what moves, too.
   morph::Points Fitted(vtkBoundaryDisplacement* filter, vtkPointSet* input, vtkSelection* selection,
     vtkPolyData* target, const std::vector<morph::Index>& sliding,

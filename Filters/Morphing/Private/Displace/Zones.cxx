@@ -30,30 +30,10 @@ using morph::Index;
 using Zones::Part;
 using Flags = std::vector<std::uint8_t>;
 
-/// Flags of the tuples with a component other than 0; a NaN marks nothing.
 void takeNodes(const morph::Mesh& mesh, Flags isNode, Part& part)
 {
   part.ByNodes = true;
-  part.IsNode = std::move(isNode);
-  part.IsCell.assign(mesh.numberOfCells(), 0);
-  for (Index c = 0; c < mesh.numberOfCells(); ++c)
-  {
-    part.IsCell[c] = std::all_of(mesh.cell(c), mesh.cell(c) + mesh.cellSize(c),
-      [&](Index node) { return part.IsNode[node] != 0; });
-  }
-}
-
-void takeCells(const morph::Mesh& mesh, Flags isCell, Part& part)
-{
-  part.IsCell = std::move(isCell);
-  part.IsNode.assign(mesh.numberOfNodes(), 0);
-  for (Index c = 0; c < mesh.numberOfCells(); ++c)
-  {
-    for (Index k = 0; part.IsCell[c] && k < mesh.cellSize(c); ++k)
-    {
-      part.IsNode[mesh.cell(c)[k]] = 1;
-    }
-  }
+  morph::takeNodes(mesh, std::move(isNode), part);
 }
 
 /// Whether messages name the block of that name, or of the last part of its path, in this way.
@@ -188,7 +168,7 @@ std::string listed(vtkUnstructuredGrid* grid, const morph::Mesh& mesh, const Mer
   vtkUnstructuredGrid* grid, const morph::Mesh& mesh, const MergedBlocks* blocks, const Part& part)
 {
   const std::string names = listed(grid, mesh, blocks);
-  throw Error("The zone '" + part.Name +
+  throw Error("The zone '" + part.name +
               "' is neither a set, a point or cell array nor a block of the input" +
               (names.empty() ? "" : "; it has " + names) +
               ". A zone is where an array is not zero, or a block.");
@@ -199,7 +179,7 @@ void takeNamed(vtkUnstructuredGrid* grid, const morph::Mesh& mesh, const MergedB
   bool isPart, Part& part)
 {
   const bool isEmpty = isPart && mesh.numberOfCells() == 0;
-  std::optional<Marked> marked = isEmpty ? std::nullopt : findNamed(grid, mesh, blocks, part.Name);
+  std::optional<Marked> marked = isEmpty ? std::nullopt : findNamed(grid, mesh, blocks, part.name);
   if (!marked)
   {
     if (!isEmpty && (!isPart || !blocks))
@@ -210,7 +190,7 @@ void takeNamed(vtkUnstructuredGrid* grid, const morph::Mesh& mesh, const MergedB
     marked = Marked{ false, Flags(mesh.numberOfCells(), 0) };
   }
   marked->AreNodes ? takeNodes(mesh, std::move(marked->Flags), part)
-                   : takeCells(mesh, std::move(marked->Flags), part);
+                   : morph::takeCells(mesh, std::move(marked->Flags), part);
 }
 
 void takeRegion(const morph::Mesh& mesh, vtkImplicitFunction* region, Part& part)
@@ -229,12 +209,12 @@ void takeRegion(const morph::Mesh& mesh, vtkImplicitFunction* region, Part& part
 
 bool isNowhere(const Part& part)
 {
-  return std::none_of(part.IsNode.begin(), part.IsNode.end(), [](auto flag) { return flag != 0; });
+  return std::none_of(part.isNode.begin(), part.isNode.end(), [](auto flag) { return flag != 0; });
 }
 
 [[noreturn]] void throwNowhere(const Part& part)
 {
-  throw Error("The zone '" + part.Name + "' has no node of the mesh.");
+  throw Error("The zone '" + part.name + "' has no node of the mesh.");
 }
 }
 
@@ -269,7 +249,7 @@ std::vector<Part> Find(Kind kind, vtkUnstructuredGrid* grid, const morph::Mesh& 
   const auto take = [&](const std::string& name, const auto& fill)
   {
     Part& part = parts.emplace_back();
-    part.Name = name;
+    part.name = name;
     fill(part);
     if (!options.IsPart && isNowhere(part))
     {
@@ -294,12 +274,12 @@ std::vector<Part> Find(Kind kind, vtkUnstructuredGrid* grid, const morph::Mesh& 
       {
         if (options.IsPart && !(options.Selection && options.Selection->GetNumberOfNodes() > 0))
         {
-          takeCells(mesh, Flags(mesh.numberOfCells(), 0), part);
+          morph::takeCells(mesh, Flags(mesh.numberOfCells(), 0), part);
           return;
         }
         Selection::Inside inside = Selection::Evaluate(grid, options.Selection, options.Extractor);
         inside.ByPoints ? takeNodes(mesh, std::move(inside.Flags), part)
-                        : takeCells(mesh, std::move(inside.Flags), part);
+                        : morph::takeCells(mesh, std::move(inside.Flags), part);
       });
   }
   return parts;
@@ -319,22 +299,22 @@ std::vector<Part> FindOnRanks(Kind kind, vtkUnstructuredGrid* grid, const WholeV
       {
         Selection::Evaluate(grid, nullptr, nullptr); // which throws
       }
-      parts = Find(kind, grid, volume.Piece(), blocks, options);
+      parts = Find(kind, grid, volume.piece(), blocks, options);
     });
   for (Part& part : parts)
   {
     if (Ranks::Count(part.IsKnown) == 0)
     {
-      Ranks::Together([&] { throwUnknown(grid, volume.Piece(), blocks, part); });
+      Ranks::Together([&] { throwUnknown(grid, volume.piece(), blocks, part); });
     }
-    Flags isNode = volume.AnyFlags(part.IsNode);
+    Flags isNode = volume.anyFlags(part.isNode);
     if (Ranks::Count(!isNowhere(part)) == 0)
     {
       throwNowhere(part);
     }
     // A process without a part of the zone does not know what kind it is.
-    Ranks::Count(part.ByNodes) > 0 ? takeNodes(volume.Piece(), std::move(isNode), part)
-                                   : void(part.IsNode = std::move(isNode));
+    Ranks::Count(part.ByNodes) > 0 ? takeNodes(volume.piece(), std::move(isNode), part)
+                                   : void(part.isNode = std::move(isNode));
   }
   return parts;
 }

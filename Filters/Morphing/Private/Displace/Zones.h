@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Mesh/Mesh.h"
+#include "BoundaryMover/InnerNodes.h"
 #include "Private/Pipeline/NameSet.h"
 
 #include <cstdint>
@@ -51,14 +51,10 @@ struct Options
   }
 };
 
-/// What a zone has of a mesh.
-struct Part
+struct Part : morph::Zone
 {
-  std::string Name;                 ///< for messages
-  std::vector<std::uint8_t> IsNode; ///< #nodes: the zone's, and those of its cells
-  std::vector<std::uint8_t> IsCell; ///< #cells: the zone's, or those whose nodes all are
-  bool ByNodes = false;             ///< whether the zone has nodes of its own, not cells
-  bool IsKnown = true;              ///< whether this process has an array or a block of the name
+  bool ByNodes = false; ///< whether the zone has nodes of its own, not cells
+  bool IsKnown = true;  ///< whether this process has an array or a block of the name
 };
 
 /// A zone that can be named, and its size: cells, or nodes where it is a set of nodes.

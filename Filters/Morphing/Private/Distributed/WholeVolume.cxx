@@ -39,12 +39,12 @@ WholeVolume::WholeVolume(const WholeSurface& surface)
 {
 }
 
-const morph::Mesh& WholeVolume::Piece() const
+const morph::Mesh& WholeVolume::piece() const
 {
   return this->Surface.Pieces().Piece();
 }
 
-WholeVolume::Flags WholeVolume::AnyFlags(const Flags& ofPiece) const
+InnerPieces::Flags WholeVolume::anyFlags(const Flags& ofPiece) const
 {
   const DistributedMesh& mesh = this->Surface.Pieces().Whole();
   std::vector<std::int64_t> isUnmarked(mesh.mesh().numberOfNodes(), 1);
@@ -67,7 +67,22 @@ WholeVolume::Flags WholeVolume::AnyFlags(const Flags& ofPiece) const
   return result;
 }
 
-std::vector<Index> WholeVolume::OwnInner(const Flags& ofPiece) const
+void WholeVolume::together(const std::function<void()>& work) const
+{
+  this->Surface.Together(work);
+}
+
+bool WholeVolume::anywhere(bool here) const
+{
+  return this->Surface.Pieces().Ranks().sum(Index(here)) > 0;
+}
+
+InnerPieces::Flags WholeVolume::nodeFlags(const Flags& ofPiece) const
+{
+  return this->Surface.AnyFlags(ofPiece);
+}
+
+std::vector<Index> WholeVolume::ownInner(const Flags& ofPiece) const
 {
   const DistributedMesh& mesh = this->Surface.Pieces().Whole();
   const std::vector<Index>& outer = mesh.outerNodes().nodes;
@@ -82,9 +97,9 @@ std::vector<Index> WholeVolume::OwnInner(const Flags& ofPiece) const
   return points;
 }
 
-void WholeVolume::RequireNoPolyhedra(const char* what) const
+void WholeVolume::requireNoPolyhedra(const char* what) const
 {
-  if (this->Surface.Pieces().Ranks().sum(Index(morph::hasPolyhedra(this->Piece()))) > 0)
+  if (this->Surface.Pieces().Ranks().sum(Index(morph::hasPolyhedra(this->piece()))) > 0)
   {
     throw morph::Error(std::string(what) +
                        " of a mesh with polyhedra needs one MPI rank, and the mesh is distributed "
@@ -92,7 +107,7 @@ void WholeVolume::RequireNoPolyhedra(const char* what) const
   }
 }
 
-WholeVolume::Columns WholeVolume::FindLayers(
+InnerPieces::Columns WholeVolume::findLayers(
   const Flags& isWall, Index most, const Flags& isLayer) const
 {
   const DistributedMesh& mesh = this->Surface.Pieces().Whole();
@@ -127,16 +142,16 @@ WholeVolume::Columns WholeVolume::FindLayers(
   }
   for (const Pair& pair : mesh.ranks().gather(outer))
   {
-    columns.Nodes.emplace_back(this->Surface.NodeOf(pair.node), this->Surface.NodeOf(pair.wall));
+    columns.nodes.emplace_back(this->Surface.NodeOf(pair.node), this->Surface.NodeOf(pair.wall));
   }
   Flags isInColumn(mesh.pieceNodes(), 0);
   for (std::size_t n = 0; n < isInColumn.size(); ++n)
   {
     isInColumn[n] = wallOf[n] >= 0;
   }
-  for (const Index n : this->OwnInner(isInColumn))
+  for (const Index n : this->ownInner(isInColumn))
   {
-    columns.Points.emplace_back(n, this->Surface.NodeOf(wallOf[n]));
+    columns.points.emplace_back(n, this->Surface.NodeOf(wallOf[n]));
   }
   return columns;
 }
@@ -146,19 +161,19 @@ std::vector<Index> WholeVolume::Place(const Prescribed& given, morph::Points& pl
   const DistributedMesh& mesh = this->Surface.Pieces().Whole();
   std::vector<std::int64_t> isFree(mesh.mesh().numberOfNodes(), 1);
   places = mesh.mesh().points;
-  for (std::size_t i = 0; i < given.Nodes.size(); ++i)
+  for (std::size_t i = 0; i < given.nodes.size(); ++i)
   {
-    const Index node = mesh.nodeOf(this->Surface.NodeIds()[given.Nodes[i]]);
+    const Index node = mesh.nodeOf(this->Surface.NodeIds()[given.nodes[i]]);
     if (node >= 0)
     {
       isFree[node] = 0;
-      places.row(node) = given.NodePlaces.row(static_cast<Index>(i));
+      places.row(node) = given.nodePlaces.row(static_cast<Index>(i));
     }
   }
-  for (std::size_t i = 0; i < given.Points.size(); ++i)
+  for (std::size_t i = 0; i < given.points.size(); ++i)
   {
-    isFree[given.Points[i]] = 0;
-    places.row(given.Points[i]) = given.PointPlaces.row(static_cast<Index>(i));
+    isFree[given.points[i]] = 0;
+    places.row(given.points[i]) = given.pointPlaces.row(static_cast<Index>(i));
   }
   mesh.halo().minimum(mesh.ranks(), isFree);
   mesh.halo().update(mesh.ranks(), places);
@@ -173,7 +188,7 @@ std::vector<Index> WholeVolume::Place(const Prescribed& given, morph::Points& pl
   return prescribed;
 }
 
-WholeVolume::Moved WholeVolume::Warp(
+InnerPieces::Moved WholeVolume::warp(
   const Prescribed& given, const Flags& ofPiece, morph::Monitor& monitor) const
 {
   const DistributedMesh& mesh = this->Surface.Pieces().Whole();
@@ -196,18 +211,18 @@ WholeVolume::Moved WholeVolume::Warp(
   std::sort(
     records.begin(), records.end(), [](const Record& a, const Record& b) { return a.id < b.id; });
   Moved result;
-  result.From.resize(static_cast<Index>(records.size()), 3);
-  result.To.resize(result.From.rows(), 3);
+  result.from.resize(static_cast<Index>(records.size()), 3);
+  result.to.resize(result.from.rows(), 3);
   for (std::size_t i = 0; i < records.size(); ++i)
   {
     const auto row = static_cast<Index>(i);
-    result.From.row(row) = Eigen::Map<const Eigen::RowVector3d>(records[i].from);
-    result.To.row(row) = Eigen::Map<const Eigen::RowVector3d>(records[i].to);
+    result.from.row(row) = Eigen::Map<const Eigen::RowVector3d>(records[i].from);
+    result.to.row(row) = Eigen::Map<const Eigen::RowVector3d>(records[i].to);
   }
   return result;
 }
 
-std::vector<morph::NodeSliding::Round> WholeVolume::Slide(const Prescribed& given,
+std::vector<morph::NodeSliding::Round> WholeVolume::slide(const Prescribed& given,
   const std::vector<Index>& sliding, const morph::NodeSliding::Surfaces& surfaces, int rounds,
   morph::Points& places, morph::Monitor& monitor) const
 {

@@ -181,9 +181,9 @@ vtkSmartPointer<vtkDataArray> vtkMorphMesh::vtkInternals::SoftCells()
   factors->FillValue(1);
   for (const filters::Zones::Part& part : parts)
   {
-    for (std::size_t c = 0; c < part.IsCell.size(); ++c)
+    for (std::size_t c = 0; c < part.isCell.size(); ++c)
     {
-      if (part.IsCell[c])
+      if (part.isCell[c])
       {
         factors->SetValue(static_cast<vtkIdType>(c), from->MeshOptions->SoftStiffness);
       }

@@ -1,28 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Private/Displace/SlideRounds.h"
+#include "BoundaryMover/SlideRounds.h"
 
 #include "BoundaryMorphing/MidNodes.h"
 #include "Mesh/Polyhedra.h"
 #include "Support/Error.h"
 
-#include <vtkDoubleArray.h>
-#include <vtkFieldData.h>
-#include <vtkNew.h>
-
 #include <algorithm>
 #include <map>
 #include <sstream>
 
-namespace morph::filters
+namespace morph
 {
 namespace
 {
-using morph::Index;
 using Row = Eigen::RowVector3d;
 using Surfaces = std::vector<Index>;
 
-constexpr const char* ChangeName = "SlideChange";
-constexpr const char* ForceName = "SlideForce";
 /// Of the angle between two surfaces: below it they are one where a node slides.
 constexpr double LeastSine = 1e-3;
 
@@ -81,9 +74,9 @@ Eigen::Matrix3d directionsAt(
 
 /// Moves mid-side and face nodes that slide by what their corners have moved since `before`.
 void moveBetween(const BoundaryModel& model, const std::map<Index, Surfaces>& sliding,
-  const morph::Points& before, Surroundings& shapes, morph::Points& moved)
+  const Points& before, Surroundings& shapes, Points& moved)
 {
-  const morph::BoundaryFaces& faces = model.faces;
+  const BoundaryFaces& faces = model.faces;
   for (std::size_t i = 0; i < faces.nodes.size(); ++i)
   {
     const auto k = static_cast<Index>(i);
@@ -92,7 +85,7 @@ void moveBetween(const BoundaryModel& model, const std::map<Index, Surfaces>& sl
     {
       continue;
     }
-    const Row shift = morph::meanBetween(faces, k, model.points(),
+    const Row shift = meanBetween(faces, k, model.points(),
       [&](Index corner) { return Row(moved.row(corner) - before.row(corner)); });
     if (!shift.isZero(0))
     {
@@ -103,45 +96,45 @@ void moveBetween(const BoundaryModel& model, const std::map<Index, Surfaces>& sl
 }
 }
 
-void SlideRounds::Prepare(const BoundaryModel& model, const std::vector<Index>& nodes,
-  const Surroundings::Result& result, morph::Monitor& monitor)
+void SlideRounds::prepare(const BoundaryModel& model, const std::vector<Index>& nodes,
+  const Surroundings::Result& result, Monitor& monitor)
 {
-  const morph::Mesh& mesh = model.mesh;
+  const Mesh& mesh = model.mesh;
   if (mesh.numberOfCells() == 0)
   {
-    throw morph::Error("SlideRounds needs the mesh's cells, and the input is a surface. Give the "
-                       "volume mesh to this filter, or set SlideRounds to 0.");
+    throw Error("SlideRounds needs the mesh's cells, and the input is a surface. Give the "
+                "volume mesh to this filter, or set SlideRounds to 0.");
   }
-  if (morph::hasPolyhedra(mesh))
+  if (hasPolyhedra(mesh))
   {
-    throw morph::Error("SlideRounds does not know polyhedra, and the mesh has some. Set it to 0.");
+    throw Error("SlideRounds does not know polyhedra, and the mesh has some. Set it to 0.");
   }
   std::vector<Index> prescribed;
-  for (const Index node : InnerNodes::Prescribed(model, result))
+  for (const Index node : InnerNodes::prescribed(model, result))
   {
     if (!std::binary_search(nodes.begin(), nodes.end(), node))
     {
       prescribed.push_back(node);
     }
   }
-  if (!this->Method || this->MethodVersion != model.inputVersion || nodes != this->Sliding ||
-      prescribed != this->Prescribed)
+  if (!this->method_ || this->methodVersion_ != model.inputVersion || nodes != this->sliding_ ||
+      prescribed != this->prescribed_)
   {
-    this->Method = nullptr; // in case it throws
-    auto method = std::make_unique<morph::SlidingWarp>();
+    this->method_ = nullptr; // in case it throws
+    auto method = std::make_unique<SlidingWarp>();
     method->prepare(mesh, prescribed, nodes, monitor);
-    this->Method = std::move(method);
-    this->MethodVersion = model.inputVersion;
-    this->Sliding = nodes;
-    this->Prescribed = prescribed;
+    this->method_ = std::move(method);
+    this->methodVersion_ = model.inputVersion;
+    this->sliding_ = nodes;
+    this->prescribed_ = prescribed;
   }
 }
 
-void SlideRounds::Run(const BoundaryModel& model, const std::vector<Index>& held,
-  const std::vector<Index>& surfaces, int rounds, Surroundings& shapes, const WholeSurface* whole,
-  const InnerNodes& inner, Surroundings::Result& result, morph::Monitor& monitor)
+void SlideRounds::run(const BoundaryModel& model, const std::vector<Index>& held,
+  const std::vector<Index>& surfaces, int rounds, Surroundings& shapes, const InnerPieces* pieces,
+  const InnerNodes& inner, Surroundings::Result& result, Monitor& monitor)
 {
-  this->Rounds.clear();
+  this->rounds_.clear();
   if (surfaces.empty())
   {
     monitor.warn("SlideRounds has no effect: no surface is named that slides.");
@@ -153,7 +146,7 @@ void SlideRounds::Run(const BoundaryModel& model, const std::vector<Index>& held
   {
     nodes.push_back(node);
   }
-  const auto along = [&](const std::vector<Index>& numbered) -> morph::NodeSliding::Surfaces
+  const auto along = [&](const std::vector<Index>& numbered) -> NodeSliding::Surfaces
   {
     const auto of = [&](Index i) { return sliding.find(numbered[static_cast<std::size_t>(i)]); };
     return { [&model, &shapes, of](Index i, const Row& x)
@@ -161,21 +154,20 @@ void SlideRounds::Run(const BoundaryModel& model, const std::vector<Index>& held
       [&model, &shapes, of](Index i, const Row& x)
       { return shapes.slid(model, of(i)->second, of(i)->first, x); } };
   };
-  const morph::Points before = result.moved;
-  if (whole)
+  const Points before = result.moved;
+  if (pieces)
   {
-    const WholeVolume volume(*whole);
-    volume.RequireNoPolyhedra("SlideRounds of vtkBoundaryDisplacement");
-    morph::Points places = before(nodes, morph::allColumns);
-    this->Rounds = volume.Slide(
-      inner.PrescribedOnRanks(model, result, nodes), nodes, along(nodes), rounds, places, monitor);
-    result.moved(nodes, morph::allColumns) = places;
+    pieces->requireNoPolyhedra("SlideRounds of vtkBoundaryDisplacement");
+    Points places = before(nodes, allColumns);
+    this->rounds_ = pieces->slide(
+      inner.prescribedOnRanks(model, result, nodes), nodes, along(nodes), rounds, places, monitor);
+    result.moved(nodes, allColumns) = places;
   }
   else
   {
-    this->Prepare(model, nodes, result, monitor);
-    this->Rounds =
-      this->Method->slide(along(this->Method->slidingNodes()), rounds, result.moved, monitor);
+    this->prepare(model, nodes, result, monitor);
+    this->rounds_ =
+      this->method_->slide(along(this->method_->slidingNodes()), rounds, result.moved, monitor);
   }
   moveBetween(model, sliding, before, shapes, result.moved);
   for (const Index node : nodes)
@@ -187,29 +179,15 @@ void SlideRounds::Run(const BoundaryModel& model, const std::vector<Index>& held
   }
 }
 
-void SlideRounds::Write(double size, vtkFieldData* data) const
-{
-  vtkNew<vtkDoubleArray> change, force;
-  change->SetName(ChangeName);
-  force->SetName(ForceName);
-  for (const morph::SlidingWarp::Round& round : this->Rounds)
-  {
-    change->InsertNextValue(round.change / size);
-    force->InsertNextValue(round.force);
-  }
-  data->AddArray(change);
-  data->AddArray(force);
-}
-
-std::string SlideRounds::Report(double size) const
+std::string SlideRounds::report(double size) const
 {
   std::ostringstream text;
   text.precision(3);
-  for (std::size_t i = 0; i < this->Rounds.size(); ++i)
+  for (std::size_t i = 0; i < this->rounds_.size(); ++i)
   {
     text << (i > 0 ? "; " : "") << "round " << i + 1 << ": moved by "
-         << this->Rounds[i].change / size << " of the size, force left " << this->Rounds[i].force;
+         << this->rounds_[i].change / size << " of the size, force left " << this->rounds_[i].force;
   }
-  return this->Rounds.empty() ? "None" : text.str();
+  return this->rounds_.empty() ? "None" : text.str();
 }
 }

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "BoundaryMover/BoundaryMover.h"
+
+#include "BoundaryMover/Unmet.h"
+#include "Support/ProgressRange.h"
+
+#include <functional>
+#include <utility>
+
+namespace morph
+{
+const Surroundings::Result& BoundaryMover::move(const BoundaryModel& model, const Choice& choice,
+  const Points& targets, const Options& options, const InnerPieces* pieces, Monitor& monitor)
+{
+  // What the boundary alone decides is the same on all processes.
+  const auto alike = [pieces](const std::function<void()>& work)
+  { pieces ? pieces->together(work) : work(); };
+  const bool hasInner = options.hasInner();
+  Surroundings::Result last = std::exchange(this->result_, {}); // nothing is left if it throws
+  Surroundings::Result result;
+  Choice constrained = choice;
+  Points places = targets;
+  this->inner_.clear();
+  if (hasInner)
+  {
+    this->inner_.take(model, options.fixedZones, options.rigidZones, pieces);
+  }
+  ProgressRange spreading(monitor, 0, options.slideRounds > 0 ? 0.8 : 1);
+  alike(
+    [&]
+    {
+      if (hasInner)
+      {
+        this->inner_.constrain(model, options.inner, constrained, places);
+      }
+      result = this->surroundings_.spread(
+        model, constrained, places, options.rest, spreading, std::move(last));
+    });
+  if (hasInner)
+  {
+    result.motionVersion = -1; // inner nodes move, too
+    this->inner_.place(model, constrained, options.inner, result, monitor);
+    alike([&]
+      { this->inner_.spreadAround(model, constrained, places, options.rest, result, monitor); });
+  }
+  this->rounds_.clear();
+  if (options.slideRounds > 0)
+  {
+    ProgressRange sliding(monitor, 0.8, 1);
+    this->rounds_.run(model, constrained.held, options.rest.sliding, options.slideRounds,
+      this->surroundings_, pieces, this->inner_, result, sliding);
+  }
+  if (hasInner || !options.rest.sliding.empty())
+  {
+    alike(
+      [&]
+      {
+        warnOfUnmet(
+          model, choice, targets, options.rest.sliding, result, this->surroundings_, monitor);
+      });
+  }
+  this->result_ = std::move(result);
+  return this->result_;
+}
+}

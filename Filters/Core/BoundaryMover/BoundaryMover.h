@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "BoundaryMover/InnerNodes.h"
+#include "BoundaryMover/SlideRounds.h"
+#include "BoundaryMover/Surroundings.h"
+
+#include <vector>
+
+namespace morph
+{
+/// Moves a part of a boundary, the rest of the boundary with it, and zones and layers inside. What
+/// does not depend on the motion is kept from one call to the next; a result does not depend on it.
+///
+///     const Choice choice = choosePatches(model, { "BORE" }, { "FEET" });
+///     const auto& moved = mover.move(model, choice, targets, {}, nullptr, monitor);
+///     // A morph prescribes InnerNodes::prescribed(model, moved), at moved.moved of these nodes.
+class BoundaryMover
+{
+public:
+  struct Options
+  {
+    Surroundings::Options rest;
+    std::vector<Zone> fixedZones, rigidZones; ///< of the mesh or, with pieces, of the piece
+    InnerNodes::Options inner;
+    int slideRounds = 0; ///< see SlideRounds
+
+    bool hasInner() const
+    {
+      return !this->fixedZones.empty() || !this->rigidZones.empty() || this->inner.keepLayers > 0;
+    }
+  };
+
+  /// `targets`: of choice.moving, #moving x 3, finite. `pieces`: of a mesh on several processes,
+  /// whose boundary alone `model` is; else null. Then this is collective. Warns of what is not met
+  /// where zones and sliding surfaces win over what else is asked. Throws Error as InnerNodes and
+  /// SlideRounds do; then there is no result. Cost: passes over the boundary and, with surfaces that
+  /// follow, their weights the first time.
+  const Surroundings::Result& move(const BoundaryModel& model, const Choice& choice,
+    const Points& targets, const Options& options, const InnerPieces* pieces, Monitor& monitor);
+
+  const Surroundings::Result& result() const { return this->result_; } ///< of the last move()
+  const InnerNodes& inner() const { return this->inner_; }
+  const SlideRounds& rounds() const { return this->rounds_; }
+  Surroundings& surroundings() { return this->surroundings_; }
+  const Surroundings& surroundings() const { return this->surroundings_; }
+
+private:
+  Surroundings surroundings_;
+  InnerNodes inner_;
+  SlideRounds rounds_;
+  Surroundings::Result result_;
+};
+}

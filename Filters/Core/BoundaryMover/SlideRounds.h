@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "BoundaryMover/BoundaryModel.h"
+#include "BoundaryMover/InnerNodes.h"
+#include "BoundaryMover/Surroundings.h"
+#include "LinearMethods/SlidingWarp.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace morph
+{
+/// Iterates the nodes of sliding surfaces with the volume: see SlidingWarp. A result does not depend on what is kept.
+class SlideRounds
+{
+public:
+  /// Moves the nodes of `surfaces` in `result`, which Surroundings made, and gives them the role
+  /// Follows. A node slides if all of its surfaces do, and if it neither moves, nor is held, nor is
+  /// of a zone or layer. Mid-side nodes move with their corners, and back onto the surface. Throws
+  /// Error for a model without cells, and for polyhedra. `pieces`: of a mesh on several
+  /// processes, of which `inner` has the inner nodes; else null. Then this is collective.
+  void run(const BoundaryModel& model, const std::vector<Index>& held,
+    const std::vector<Index>& surfaces, int rounds, Surroundings& shapes, const InnerPieces* pieces,
+    const InnerNodes& inner, Surroundings::Result& result, Monitor& monitor);
+
+  void clear() { this->rounds_.clear(); } ///< forgets what was done
+  /// What each round has done.
+  const std::vector<SlidingWarp::Round>& rounds() const { return this->rounds_; }
+  /// A line of text on them; "None" where there was no round.
+  std::string report(double size) const;
+
+private:
+  /// Prepares the method, unless it is.
+  void prepare(const BoundaryModel& model, const std::vector<Index>& nodes,
+    const Surroundings::Result& result, Monitor& monitor);
+
+  std::unique_ptr<SlidingWarp> method_; ///< prepared, or null
+  std::int64_t methodVersion_ = -1;
+  std::vector<Index> prescribed_, sliding_; ///< that it was prepared for
+  std::vector<SlidingWarp::Round> rounds_;
+};
+}
