@@ -10,8 +10,8 @@
 
 namespace morph
 {
-/// Returns the rotation and shift that lays the triangles of `surface` on those of `onto`; both have
-/// some. `landmarks`: points of the surface, of which some hundred are taken, evenly from all.
+/// Returns the rotation and shift that lays the triangles of `surface` on those of `onto`; both
+/// have some. `landmarks`: points of the surface, of which some hundred are taken, evenly from all.
 /// Iterative closest points, each by Umeyama's least squares (IEEE Trans. PAMI 13 (1991) 376-380),
 /// run from six starts: the current place, equal centers, and the four rotations that turn
 /// principal axes into each other. The start that ends with the least mean distance is taken; of

@@ -25,8 +25,9 @@ public:
     double rounding = 0;
   };
 
-  /// `points`: #points x 3; `triangles`: any number; `mesh`: the points that it is a target of. Throws Error where there is no triangle, and for points that are not finite,
-  /// or farther from the mesh than 1e5 times its size.
+  /// `points`: #points x 3; `triangles`: any number; `mesh`: the points that it is a target of.
+  /// Throws Error where there is no triangle, and for points that are not finite, or farther from
+  /// the mesh than 1e5 times its size.
   Target(const Points& points, const std::vector<TargetTriangle>& triangles, const Points& mesh,
     const Options& options, Monitor& monitor);
   ~Target() override;

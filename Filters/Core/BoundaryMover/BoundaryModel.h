@@ -21,11 +21,11 @@ struct NamedSet
   std::vector<Index> faces; ///< ascending
 };
 
-/// Returns what a set of nodes and cells has of a boundary. A node belongs to it if it is marked, and
-/// a face if all of its corners are. A face belongs, too, if a marked two-dimensional cell lies on
-/// it or, where no two-dimensional cell is marked, if the volume cell behind it is; then `inside`
-/// faces, the last ones, do not. `isNode`: #nodes, `isCell`: #cells or, of a boundary alone,
-/// #faces; either may be empty.
+/// Returns what a set of nodes and cells has of a boundary. A node belongs to it if it is marked,
+/// and a face if all of its corners are. A face belongs, too, if a marked two-dimensional cell lies
+/// on it or, where no two-dimensional cell is marked, if the volume cell behind it is; then
+/// `inside` faces, the last ones, do not. `isNode`: #nodes, `isCell`: #cells or, of a boundary
+/// alone, #faces; either may be empty.
 NamedSet boundarySet(const std::string& name, const Mesh& mesh, const BoundaryFaces& faces,
   std::size_t inside, const std::vector<std::uint8_t>& isNode,
   const std::vector<std::uint8_t>& isCell);
@@ -41,7 +41,7 @@ struct BoundaryModel
   InnerFaces inner;                     ///< the last ones of `faces`
   std::vector<std::int8_t> orientation; ///< #faces: -1 where the cell behind is wound inside out
   std::vector<Index> bodyOfNode;        ///< as ConnectedComponents has it
-  Classification geometry;              ///< found at rest()
+  Classification geometry;              ///< found at undeformed positions
   std::vector<NamedSet> namedSets;      ///< outer ones first
   std::vector<NamedSet> setsInside;     ///< without any node on the boundary
   /// Diagonal of the bounding box of the boundary's nodes, of which there is one at least.

@@ -17,8 +17,8 @@
 /// Moves a part of a boundary onto a target surface.
 namespace morph
 {
-/// The rotation and shift that lays a target on the boundary, or on what moves of it. `choice`: what
-/// moves, or null. See alignment().
+/// The rotation and shift that lays a target on the boundary, or on what moves of it. `choice`:
+/// what moves, or null. See alignment().
 Eigen::Isometry3d alignedOnto(
   const BoundaryModel& model, const Choice* choice, const Target& target, Monitor& monitor);
 
@@ -90,10 +90,10 @@ struct FitOptions
 /// Returns the positions of choice.moving on the target, #moving x 3. Closest: vertices go to
 /// vertices of the target, then curves to its feature edges, then surfaces follow and go to the
 /// target, as projectCurves() and projectSurfaces() move them. What has no such place within reach
-/// goes to the nearest place of the target. Along: each node goes to the nearest place of the target
-/// along the direction; what has none follows the others, but for vertices, which stay. Nodes on
-/// surfaces that slide, by their numbers in `sliding`, go to places that are on both. A warning
-/// names nodes that do not reach the target. Throws Error where none does.
+/// goes to the nearest place of the target. Along: each node goes to the nearest place of the
+/// target along the direction; what has none follows the others, but for vertices, which stay.
+/// Nodes on surfaces that slide, by their numbers in `sliding`, go to places that are on both. A
+/// warning names nodes that do not reach the target. Throws Error where none does.
 Points fittedTo(Target& target, const BoundaryModel& model, const Choice& choice,
   const std::vector<Index>& sliding, const FitOptions& options, Surroundings& surroundings,
   Monitor& monitor);

@@ -26,8 +26,8 @@ struct PatchSize
   bool isInner = false; ///< all faces lie inside of the mesh
   Eigen::AlignedBox3d box;
 };
-/// Undeformed, in the order of patchNames(). Cost: a pass over the faces for each name of the file, and
-/// one for all others.
+/// Undeformed, in the order of patchNames(). Cost: a pass over the faces for each name of the file,
+/// and one for all others.
 std::vector<PatchSize> patchSizes(const BoundaryModel& model);
 
 /// The nodes and faces on some of the boundary.
@@ -37,8 +37,8 @@ struct PatchPart
   std::vector<std::uint8_t> hasFace; ///< #faces
 };
 
-/// The numbers of the surfaces of these names, ascending. Throws as findPatches() does, for a curve too,
-/// and for a name of the file that stands for a part of a surface.
+/// The numbers of the surfaces of these names, ascending. Throws as findPatches() does, for a curve
+/// too, and for a name of the file that stands for a part of a surface.
 std::vector<Index> surfacesNamed(
   const BoundaryModel& model, const std::set<std::string>& names, const char* option);
 

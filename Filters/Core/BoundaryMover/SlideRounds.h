@@ -12,7 +12,8 @@
 
 namespace morph
 {
-/// Iterates the nodes of sliding surfaces with the volume: see SlidingWarp. A result does not depend on what is kept.
+/// Iterates the nodes of sliding surfaces with the volume: see SlidingWarp. A result does not
+/// depend on what is kept.
 class SlideRounds
 {
 public:

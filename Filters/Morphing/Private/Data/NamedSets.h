@@ -20,11 +20,11 @@ std::vector<std::string> NamesOfSets(vtkPointSet* input);
 /// For each cell of the input whether a set that its field data `SurfaceNames` lists has it.
 std::vector<std::uint8_t> CellsOfNamedSets(vtkPointSet* input);
 
-/// The sets that the input's field data `SurfaceNames` (vtkStringArray) lists, by the point and cell
-/// arrays of their names, which mark by values that are not zero; see morph::boundarySet(). A name
-/// without arrays is left out; a set that is not on the boundary has no nodes. `mesh`, `faces`: of a
-/// grid, and `firstPolygon` is 0; of a surface `mesh` has no cells, and each face is a polygon, the
-/// first one the cell `firstPolygon`.
+/// The sets that the input's field data `SurfaceNames` (vtkStringArray) lists, by the point and
+/// cell arrays of their names, which mark by values that are not zero; see morph::boundarySet(). A
+/// name without arrays is left out; a set that is not on the boundary has no nodes. `mesh`,
+/// `faces`: of a grid, and `firstPolygon` is 0; of a surface `mesh` has no cells, and each face is
+/// a polygon, the first one the cell `firstPolygon`.
 std::vector<NamedSet> FindNamedSets(vtkPointSet* input, const morph::Mesh& mesh,
   const morph::BoundaryFaces& faces, morph::Index firstPolygon, std::size_t inside = 0);
 
