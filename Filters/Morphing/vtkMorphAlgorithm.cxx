@@ -277,6 +277,7 @@ filters::MotionOptions vtkMorphAlgorithm::vtkInternals::Options(
   options.Matching.scaleFactor = filter->Options->ScaleFactor;
   options.Matching.matchTolerance = filter->Options->MatchTolerance;
   options.Matching.fixUnnamedBoundary = filter->Options->FixUnnamedBoundary;
+  static_assert(int(morph::Validity::Mode::RepairAll) == VALIDITY_REPAIR_ALL, "of one order");
   options.validity = static_cast<morph::Validity::Mode>(filter->Options->Validity);
   options.measureAll = this->MeasuresAll();
   options.maximumSubSteps = filter->Options->MaximumSubSteps;
