@@ -273,7 +273,7 @@ def try_wrong_includes(source):
         "no such header": ("Core/Mesh/Mesh.cxx", '#include "Mesh/Nothing.h"',
                            'there is no "Mesh/Nothing.h"'),
         "private parts of each other": ("Morphing/Private/Data/Output.cxx",
-                                        '#include "Private/Morph/Series.h"',
+                                        '#include "Private/Morph/KeptMesh.h"',
                                         "Morphing/Private/Data may not include "
                                         "Morphing/Private/Morph"),
         "a private header at the top": ("Morphing/vtkMorphStray.h", "", "no public class"),

@@ -2,6 +2,7 @@
 #include "Distributed/HypreSolver.h"
 
 #include "Support/Error.h"
+#include "Support/Stopwatch.h"
 
 #include <HYPRE.h>
 #include <HYPRE_IJ_mv.h>
@@ -9,7 +10,6 @@
 #include <HYPRE_parcsr_ls.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -33,13 +33,6 @@ const bool isMallocRestored = []
          mallopt(M_TRIM_THRESHOLD, 64 * MiB) == 1;
 }();
 #endif
-
-using Clock = std::chrono::steady_clock;
-
-double secondsSince(Clock::time_point start)
-{
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 void startHypre()
 {
@@ -280,9 +273,9 @@ void HypreSolver::prepare(LinearEquations&& equations, Monitor&)
   const std::vector<double> zeros(rows, 0.);
   HYPRE_ParVector pb = b.set(zeros);
   HYPRE_ParVector px = x.set(zeros);
-  const auto start = Clock::now();
+  const morph::Stopwatch watch;
   handles.setUp(pb, px);
-  this->seconds_.setUp += secondsSince(start);
+  this->seconds_.setUp += watch.seconds();
 }
 
 SolveReport HypreSolver::solve(
@@ -310,9 +303,9 @@ SolveReport HypreSolver::solve(
     HYPRE_ParVector pb = b.set(column);
     Eigen::Map<Eigen::VectorXd>(column.data(), rows) = x.col(j);
     HYPRE_ParVector pu = u.set(column);
-    const auto start = Clock::now();
+    const morph::Stopwatch watch;
     report.iterations += handles.solve(pb, pu, tolerance, maxIterations);
-    this->seconds_.solve += secondsSince(start);
+    this->seconds_.solve += watch.seconds();
     u.get(column);
     x.col(j) = Eigen::Map<const Eigen::VectorXd>(column.data(), rows);
     // b - A x, in place of b: what the iteration reports may have drifted.
@@ -350,9 +343,9 @@ void HypreSolver::byColumns(const Points& columns, Points& results, const Action
     HYPRE_ParVector pFrom = from.set(column);
     std::fill(column.begin(), column.end(), 0.);
     HYPRE_ParVector pTo = to.set(column);
-    const auto start = Clock::now();
+    const morph::Stopwatch watch;
     action(pFrom, pTo);
-    this->seconds_.solve += secondsSince(start);
+    this->seconds_.solve += watch.seconds();
     to.get(column);
     results.col(j) = Eigen::Map<const Eigen::VectorXd>(column.data(), rows);
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkClassifyBoundary.h"
 
+#include "Mesh/Extent.h"
 #include "Mesh/Topology.h"
 #include "Private/Blocks/Blocks.h"
 #include "Private/Data/Geometry.h"
@@ -153,7 +154,7 @@ void vtkClassifyBoundary::Classify(
   vtkUnstructuredGrid* grid, vtkInformationVector* outputVector, morph::Monitor& monitor)
 {
   const morph::Mesh mesh = filters::GridMesh::FromGrid(grid);
-  filters::Input::RequireVolumeCells(mesh);
+  morph::requireVolumeCells(mesh);
   monitor.progress(0.1);
   const morph::BoundaryFaces faces = morph::boundaryFaces(mesh, monitor);
   filters::Surface::WarnOfNone(faces, monitor);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkExtractMorphBoundary.h"
 
+#include "Mesh/Extent.h"
 #include "Mesh/Topology.h"
 #include "Private/Blocks/Blocks.h"
 #include "Private/Data/GridMesh.h"
@@ -83,7 +84,7 @@ void vtkExtractMorphBoundary::Extract(
   vtkUnstructuredGrid* grid, vtkPolyData* output, morph::Monitor& monitor)
 {
   const morph::Mesh mesh = filters::GridMesh::FromGrid(grid);
-  filters::Input::RequireVolumeCells(mesh);
+  morph::requireVolumeCells(mesh);
   monitor.progress(0.2);
   const morph::BoundaryFaces faces = morph::boundaryFaces(mesh, monitor);
   monitor.progress(0.6);

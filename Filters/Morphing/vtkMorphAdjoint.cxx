@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkMorphAdjoint.h"
 
-#include "Private/Data/DataCheck.h"
+#include "Mesh/Extent.h"
 #include "Private/Data/GridMesh.h"
 #include "Private/Options.h"
 #include "Private/Pipeline/Input.h"
@@ -309,7 +309,7 @@ void vtkMorphAdjoint::Execute(vtkMorphAlgorithm* morph, vtkUnstructuredGrid* res
     }
     // With a DisplacementArray the method does not use the points, but the output has them.
     if (const auto wrong =
-          filters::DataCheck::Immoderate(filters::GridMesh::FromPoints(points->GetPoints()));
+          morph::immoderateRows(filters::GridMesh::FromPoints(points->GetPoints()));
         !wrong.empty())
     {
       throw morph::Error(

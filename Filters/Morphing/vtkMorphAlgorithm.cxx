@@ -2,13 +2,14 @@
 #include "vtkMorphAlgorithm.h"
 
 #include "Morpher/Morpher.h"
+#include "Private/Data/Gradient.h"
 #include "Private/Data/Output.h"
 #include "Private/Data/Results.h"
 #include "Private/Data/Version.h"
 #include "Private/Distributed/OnRanks.h"
+#include "Private/Morph/BoundaryMatch.h"
+#include "Private/Morph/KeptMesh.h"
 #include "Private/Morph/MorphOutput.h"
-#include "Private/Morph/Session.h"
-#include "Private/Morph/Validity.h"
 #include "Private/Options.h"
 #include "Private/Pipeline/CrewMonitor.h"
 #include "Private/Pipeline/Execution.h"
@@ -16,6 +17,7 @@
 #include "Private/Pipeline/Ports.h"
 #include "Private/Pipeline/Ranks.h"
 #include "Private/Pipeline/Steps.h"
+#include "Session/Session.h"
 #include "Support/Error.h"
 #include "Support/ProgressRange.h"
 
@@ -33,6 +35,7 @@
 #include <vtkUnstructuredGrid.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <optional>
 #include <utility>
@@ -44,7 +47,8 @@ class vtkMorphAlgorithm::vtkInternals
 {
 public:
   filters::Results Results{ filters::ResultTables::vtkMorphAlgorithm() };
-  filters::Session Session{ Results };
+  filters::KeptMesh Kept;
+  morph::Session Session; ///< of Kept
   /// null until the mesh is on several MPI processes
   std::unique_ptr<filters::OnRanks::Morphing> Distributed;
   bool IsOnRanks = false; ///< the last execution was that of Distributed
@@ -75,7 +79,7 @@ public:
     return { this->MeasuresAll(), this->Filter->Options->Certify,
       this->Filter->Options->Validity != VALIDITY_NONE };
   }
-  filters::Session::Options Options(vtkUnstructuredGrid* grid, vtkDataObject* boundary) const;
+  filters::MotionOptions Options(vtkUnstructuredGrid* grid, vtkDataObject* boundary) const;
   /// Returns an error that comes with a result, or nothing.
   std::string Morph(vtkUnstructuredGrid* grid, vtkDataObject* boundary, vtkUnstructuredGrid* output,
     vtkUnstructuredGrid* badCells, vtkPolyData* surface, morph::Monitor& monitor);
@@ -84,6 +88,9 @@ public:
     vtkUnstructuredGrid* output, vtkUnstructuredGrid* badCells, vtkPolyData* surface,
     morph::Monitor& monitor);
   filters::OnRanks::Morphing& OnRanks();
+  /// vtkMorphAlgorithm::ApplyTranspose() on one process. Throws morph::Error.
+  void Transpose(vtkUnstructuredGrid* rest, vtkDataObject* boundary, vtkDataArray* gradient,
+    vtkDoubleArray* boundaryGradient, morph::Monitor& monitor);
   /// Makes `output` the undeformed mesh, where that can be read, without a result.
   void WriteUndeformed(
     vtkDataObject* input, const char* status, vtkUnstructuredGrid* output, vtkPolyData* surface);
@@ -91,10 +98,13 @@ public:
 private:
   vtkMorphAlgorithm* Filter;
 
-  /// The steps of a motion. `boundary`: returns that of a step.
-  filters::Session::Motion Motion(std::function<vtkPointSet*(int step)> boundary) const;
-  std::shared_ptr<const filters::StepResult> MorphSeries(
-    vtkPointSet* displaced, const filters::Session::Options& options, morph::Monitor& monitor);
+  /// Takes the cost of Session's last motion over.
+  void NoteEffort();
+  /// Matches the boundary, for that fraction of its motion.
+  morph::BoundaryTargets Match(vtkPointSet* boundary, double fraction,
+    const filters::MotionOptions& options, morph::Monitor& monitor) const;
+  std::shared_ptr<const morph::StepResult> MorphSeries(
+    vtkPointSet* displaced, const filters::MotionOptions& options, morph::Monitor& monitor);
 };
 
 vtkMorphAlgorithm::vtkMorphAlgorithm()
@@ -161,14 +171,14 @@ int vtkMorphAlgorithm::RequestUpdateExtent(
   {
     auto* upstream =
       boundary ? vtkDemandDrivenPipeline::SafeDownCast(this->GetInputExecutive(1, 0)) : nullptr;
-    kept.Session.CheckSeries(
+    kept.Session.steps().check(
       this->GetMTime(), kept.Steps.FromBoundary(), upstream ? upstream->GetPipelineMTime() : 0);
     if (kept.Distributed)
     {
       kept.Distributed->CheckSeries(
         this->GetMTime(), kept.Steps.FromBoundary(), upstream ? upstream->GetPipelineMTime() : 0);
     }
-    const int last = kept.Session.LastStepUntil(kept.Step);
+    const int last = kept.Session.steps().lastUntil(kept.Step).first;
     kept.BoundaryStep = std::min(kept.Step, last + 1);
     time = kept.Steps.Time(kept.BoundaryStep);
   }
@@ -198,9 +208,9 @@ int vtkMorphAlgorithm::RequestData(
     {
       morph();
     }
-    catch (const filters::Validity::Infeasible& infeasible)
+    catch (const morph::Validity::Infeasible& infeasible)
     {
-      kept.BoundaryInverted = infeasible.Cells;
+      kept.BoundaryInverted = infeasible.cells;
       throw;
     }
   };
@@ -243,6 +253,7 @@ void vtkMorphAlgorithm::vtkInternals::WriteUndeformed(
   {
     filters::Version::KeepAbortedOutput(this->Filter);
   }
+  this->NoteEffort();
   filters::MorphOutput::WriteUndeformed(
     input, status, this->BoundaryInverted, this->Results, output);
   if (this->IsOnRanks)
@@ -250,30 +261,30 @@ void vtkMorphAlgorithm::vtkInternals::WriteUndeformed(
     this->Distributed->WriteUndeformedSurface(output, surface);
     return;
   }
-  this->Session.GetKept().WriteUndeformedSurface(output, surface);
+  this->Kept.WriteUndeformedSurface(output, surface);
 }
 
-filters::Session::Options vtkMorphAlgorithm::vtkInternals::Options(
+filters::MotionOptions vtkMorphAlgorithm::vtkInternals::Options(
   vtkUnstructuredGrid* grid, vtkDataObject* boundary) const
 {
   vtkMorphAlgorithm* filter = this->Filter;
   filter->TakeInputs(grid, boundary);
-  filters::Session::Options options;
-  options.Method = filter->GetClassName();
+  filters::MotionOptions options;
+  options.method = filter->GetClassName();
   options.Matching.BoundaryIdArray = filters::Input::ArrayName(filter->Options->BoundaryIdArray);
-  options.Matching.DisplacementArray =
+  options.Matching.displacementArray =
     filters::Input::ArrayName(filter->Options->DisplacementArray);
-  options.Matching.ScaleFactor = filter->Options->ScaleFactor;
-  options.Matching.MatchTolerance = filter->Options->MatchTolerance;
-  options.Matching.FixUnnamedBoundary = filter->Options->FixUnnamedBoundary;
-  options.Validity = filter->Options->Validity;
-  options.MeasureAll = this->MeasuresAll();
-  options.MaximumSubSteps = filter->Options->MaximumSubSteps;
-  options.PostSmooth = filter->Options->PostSmooth;
-  options.PostSmoothIterations = filter->Options->PostSmoothIterations;
-  options.StepMemoryLimit = filter->Options->StepMemoryLimit;
-  options.IsFloat = filters::Output::IsFloat(grid, filter->Options->OutputPointsPrecision);
-  options.CreateMorpher = [filter] { return filter->CreateMorpher(); };
+  options.Matching.scaleFactor = filter->Options->ScaleFactor;
+  options.Matching.matchTolerance = filter->Options->MatchTolerance;
+  options.Matching.fixUnnamedBoundary = filter->Options->FixUnnamedBoundary;
+  static_assert(int(morph::Validity::Mode::RepairAll) == VALIDITY_REPAIR_ALL, "of one order");
+  options.validity = static_cast<morph::Validity::Mode>(filter->Options->Validity);
+  options.measureAll = this->MeasuresAll();
+  options.maximumSubSteps = filter->Options->MaximumSubSteps;
+  options.postSmooth = filter->Options->PostSmooth;
+  options.postSmoothIterations = filter->Options->PostSmoothIterations;
+  options.stepMemoryLimit = filter->Options->StepMemoryLimit;
+  options.createMorpher = [filter] { return filter->CreateMorpher(); };
   return options;
 }
 
@@ -283,36 +294,48 @@ std::string vtkMorphAlgorithm::vtkInternals::Morph(vtkUnstructuredGrid* grid,
 {
   this->IsOnRanks = false;
   vtkPointSet* displaced = filters::Input::RequireBoundary(boundary);
-  this->Session.SetGrid(grid, monitor);
-  this->Session.SetFeatureLines(this->Filter->Options->FeatureLines);
+  this->Kept.Take(grid, monitor);
+  this->Session.setMesh(this->Kept.Rest());
+  this->Kept.SetFeatureLines(this->Filter->Options->FeatureLines);
   const double fraction = this->Steps.Any() ? this->Steps.Fraction(this->Step) : 1;
-  const filters::Session::Options options = this->Options(grid, displaced);
-  this->Session.ReportMesh(options, monitor);
-  std::shared_ptr<filters::StepResult> single; // a series keeps its steps
-  std::shared_ptr<const filters::StepResult> result;
+  const filters::MotionOptions options = this->Options(grid, displaced);
+  this->Results.SetInteger(
+    "MirroredBodies", static_cast<vtkIdType>(this->Session.mesh().mirroredBodies()));
+  this->Session.reportMesh(options, monitor);
+  std::shared_ptr<morph::StepResult> single; // a series keeps its steps
+  std::shared_ptr<const morph::StepResult> result;
+  morph::ProgressRange morphing(monitor, 0, 0.9), writing(monitor, 0.9, 1);
   if (this->IsSeries())
   {
-    result = this->MorphSeries(displaced, options, monitor);
+    result = this->MorphSeries(displaced, options, morphing);
   }
   else
   {
-    result = single = this->Session.Morph(displaced, fraction, options, monitor);
+    const morph::BoundaryTargets match = this->Match(displaced, fraction, options, morphing);
+    std::optional<morph::Session::AffineHandle> handle;
+    if (options.Matching.displacementArray.empty())
+    {
+      handle = filters::BoundaryMatch::FindHandle(displaced, match, this->Session.mesh().mesh(),
+        options.Matching.scaleFactor * fraction,
+        filters::Output::IsFloat(grid, this->Filter->Options->OutputPointsPrecision));
+    }
+    result = single = this->Session.morph(match, options, morphing, handle ? &*handle : nullptr);
   }
+  this->NoteEffort();
   // Of a step that was kept, too; inverted cells on the way there are no news.
-  if (!result->Valid.Warning.empty())
+  if (!result->valid.warning.empty())
   {
-    monitor.warn(result->Valid.Warning);
+    monitor.warn(result->valid.warning);
   }
-  morph::ProgressRange writing(monitor, 0.9, 1);
-  filters::MorphOutput::WriteMesh(this->Session, result->Moved,
-    this->Filter->Options->OutputPointsPrecision, grid, output, writing);
+  filters::MorphOutput::WriteMesh(
+    this->Kept, result->moved, this->Filter->Options->OutputPointsPrecision, grid, output, writing);
   if (single)
   {
-    single->Moved.resize(0, 3); // 24 bytes a node, which the measures need
+    single->moved.resize(0, 3); // 24 bytes a node, which the measures need
   }
-  filters::MorphOutput::WriteMeasures(this->Session, *result, this->Measures(), displaced,
+  filters::MorphOutput::WriteMeasures(this->Kept, *result, this->Measures(), displaced,
     this->Results, output, badCells, surface, writing);
-  return result->Valid.Error;
+  return result->valid.error;
 }
 
 filters::OnRanks::Morphing& vtkMorphAlgorithm::vtkInternals::OnRanks()
@@ -329,35 +352,53 @@ std::string vtkMorphAlgorithm::vtkInternals::MorphOnRanks(vtkUnstructuredGrid* g
   vtkDataObject* boundary, vtkUnstructuredGrid* output, vtkUnstructuredGrid* badCells,
   vtkPolyData* surface, morph::Monitor& monitor)
 {
-  filters::Session::Options options;
+  filters::MotionOptions options;
   filters::Ranks::Together([&] { options = this->Options(grid, boundary); });
   const double fraction = this->Steps.Any() ? this->Steps.Fraction(this->Step) : 1;
   // All processes ask for the same steps, whatever time the boundary has here.
-  const filters::Session::Motion motion = this->Motion(
+  const filters::OnRanks::Motion motion = { this->Step, this->Steps.FromBoundary(),
+    [this](int step) { return this->Steps.Fraction(step); },
     [&](int step)
     {
       return filters::Input::RequireBoundary(
         this->Steps.FromBoundary() ? this->Ports.Fetch(1, this->Steps.Time(step)) : boundary);
-    });
+    } };
   return this->OnRanks().Run({ grid, boundary, fraction, this->IsSeries() ? &motion : nullptr,
                                this->Filter->Options->OutputPointsPrecision, this->Measures(),
                                this->Filter->Options->FeatureLines, output, badCells, surface },
     options, monitor);
 }
 
-filters::Session::Motion vtkMorphAlgorithm::vtkInternals::Motion(
-  std::function<vtkPointSet*(int step)> boundary) const
+void vtkMorphAlgorithm::vtkInternals::NoteEffort()
 {
-  filters::Session::Motion motion;
-  motion.Step = this->Step;
-  motion.Varies = this->Steps.FromBoundary();
-  motion.Fraction = [this](int step) { return this->Steps.Fraction(step); };
-  motion.Boundary = std::move(boundary);
-  return motion;
+  const morph::Session::Effort effort = std::exchange(this->Session.effort, {});
+  if (!std::isnan(effort.prepareSeconds))
+  {
+    this->Results.SetNumber("PrepareSeconds", effort.prepareSeconds);
+  }
+  if (!std::isnan(effort.evaluateSeconds))
+  {
+    this->Results.SetNumber("EvaluateSeconds", effort.evaluateSeconds);
+  }
+  this->Results.SetInteger(
+    "PrepareCount", this->Results.Integer("PrepareCount") + effort.preparations);
 }
 
-std::shared_ptr<const filters::StepResult> vtkMorphAlgorithm::vtkInternals::MorphSeries(
-  vtkPointSet* displaced, const filters::Session::Options& options, morph::Monitor& monitor)
+morph::BoundaryTargets vtkMorphAlgorithm::vtkInternals::Match(vtkPointSet* boundary,
+  double fraction, const filters::MotionOptions& options, morph::Monitor& monitor) const
+{
+  filters::BoundaryMatch::Options matching = options.Matching;
+  matching.scaleFactor *= fraction;
+  const morph::UndeformedMesh& rest = this->Session.mesh();
+  morph::BoundaryTargets match =
+    filters::BoundaryMatch::Match(boundary, rest.mesh(), rest.outerFaces(), rest.size(), matching);
+  morph::warnOf(match, monitor);
+  monitor.check();
+  return match;
+}
+
+std::shared_ptr<const morph::StepResult> vtkMorphAlgorithm::vtkInternals::MorphSeries(
+  vtkPointSet* displaced, const filters::MotionOptions& options, morph::Monitor& monitor)
 {
   // A process without cells has no series, and would not know which step to ask the boundary for.
   if (this->Steps.FromBoundary() && filters::Ranks::Processes() > 1)
@@ -366,17 +407,46 @@ std::shared_ptr<const filters::StepResult> vtkMorphAlgorithm::vtkInternals::Morp
                        "on several MPI processes, or a single process. Distribute the mesh, or set "
                        "Stepping to Absolute.");
   }
-  const filters::Session::Motion motion = this->Motion(
-    [&](int step)
+  const bool varies = this->Steps.FromBoundary();
+  const auto boundaryOf = [&](int step)
+  {
+    if (varies && step != this->BoundaryStep)
     {
-      if (this->Steps.FromBoundary() && step != this->BoundaryStep)
-      {
-        displaced = filters::Input::RequireBoundary(this->Ports.Fetch(1, this->Steps.Time(step)));
-        this->BoundaryStep = step;
-      }
-      return displaced;
-    });
-  return this->Session.MorphSeries(motion, options, monitor);
+      displaced = filters::Input::RequireBoundary(this->Ports.Fetch(1, this->Steps.Time(step)));
+      this->BoundaryStep = step;
+    }
+    return morph::inStep(
+      step, [&] { return this->Match(displaced, this->Steps.Fraction(step), options, monitor); });
+  };
+  morph::BoundaryTargets whole;
+  if (!varies)
+  {
+    whole = this->Match(displaced, 1, options, monitor);
+  }
+  return this->Session.morphSeries(
+    this->Step, boundaryOf, varies ? nullptr : &whole, options, monitor);
+}
+
+void vtkMorphAlgorithm::vtkInternals::Transpose(vtkUnstructuredGrid* rest, vtkDataObject* boundary,
+  vtkDataArray* gradient, vtkDoubleArray* boundaryGradient, morph::Monitor& monitor)
+{
+  const filters::MotionOptions options = this->Options(rest, boundary);
+  morph::Points nodes = filters::Gradient::Require(gradient, rest->GetNumberOfPoints());
+  vtkPointSet* displaced = filters::Input::RequireBoundary(boundary);
+  this->Kept.Take(rest, monitor);
+  this->Session.setMesh(this->Kept.Rest());
+  const morph::BoundaryTargets match = this->Match(displaced, 1, options, monitor);
+  const morph::Points prescribed =
+    this->Session.transpose(match.ids, std::move(nodes), options, monitor);
+  this->NoteEffort();
+  const std::string& status = this->Results.Text("MorphStatus");
+  if (options.postSmooth || status == "SubStepped" || status == "Repaired" || status == "Partial")
+  {
+    monitor.warn("PostSmooth or Validity changes the mesh after the method has made it; the "
+                 "gradient is that of the method alone.");
+  }
+  filters::Gradient::Gather(options.Matching.scaleFactor * prescribed, match.sources,
+    displaced->GetNumberOfPoints(), boundaryGradient);
 }
 
 bool vtkMorphAlgorithm::ApplyTranspose(vtkUnstructuredGrid* rest, vtkPointSet* boundary,
@@ -410,13 +480,12 @@ void vtkMorphAlgorithm::Transpose(vtkUnstructuredGrid* rest, vtkDataObject* boun
   }
   if (onRanks)
   {
-    filters::Session::Options options;
+    filters::MotionOptions options;
     filters::Ranks::Together([&] { options = kept.Options(rest, boundary); });
     kept.OnRanks().Transpose(rest, boundary, gradient, options, boundaryGradient, monitor);
     return;
   }
-  kept.Session.Transpose(
-    rest, boundary, gradient, kept.Options(rest, boundary), boundaryGradient, monitor);
+  kept.Transpose(rest, boundary, gradient, boundaryGradient, monitor);
 }
 
 double vtkMorphAlgorithm::GetNumber(const char* name) const

@@ -6,6 +6,7 @@
 #include "BoundaryMorphing/SurfaceMeshSmoothing.h"
 #include "BoundaryMorphing/SurfaceMorph.h"
 #include "BoundaryMorphing/SurfaceSmoothing.h"
+#include "Mesh/Extent.h"
 #include "Mesh/Topology.h"
 #include "Private/Data/Directions.h"
 #include "Private/Data/Geometry.h"
@@ -76,7 +77,7 @@ private:
     const std::vector<Index>& BodyOfNode;
     const std::vector<std::int8_t>* Orientation; ///< as for Surface::Write()
     double Size;
-    std::function<filters::BoundaryMatch::Result()> Match;
+    std::function<morph::BoundaryTargets()> Match;
     vtkPolyData* Target;
   };
 
@@ -96,31 +97,31 @@ namespace
 using morph::Index;
 
 /// The nodes of `match` whose geometry has at most `dimension`.
-filters::BoundaryMatch::Result upTo(
-  const filters::BoundaryMatch::Result& match, const morph::Classification& geometry, int dimension)
+morph::BoundaryTargets upTo(
+  const morph::BoundaryTargets& match, const morph::Classification& geometry, int dimension)
 {
-  filters::BoundaryMatch::Result result;
+  morph::BoundaryTargets result;
   std::vector<Index> rows;
-  for (std::size_t i = 0; i < match.Ids.size(); ++i)
+  for (std::size_t i = 0; i < match.ids.size(); ++i)
   {
-    const std::int8_t own = geometry.dimension[match.Ids[i]];
+    const std::int8_t own = geometry.dimension[match.ids[i]];
     if (own >= 0 && own <= dimension)
     {
-      result.Ids.push_back(match.Ids[i]);
+      result.ids.push_back(match.ids[i]);
       rows.push_back(static_cast<Index>(i));
     }
   }
-  result.Targets.resize(static_cast<Index>(rows.size()), 3);
+  result.targets.resize(static_cast<Index>(rows.size()), 3);
   for (std::size_t i = 0; i < rows.size(); ++i)
   {
-    result.Targets.row(static_cast<Index>(i)) = match.Targets.row(rows[i]);
+    result.targets.row(static_cast<Index>(i)) = match.targets.row(rows[i]);
   }
   if (rows.empty())
   {
     const char* what = dimension == 0   ? "vertex"
                        : dimension == 1 ? "vertex or curve"
                                         : "vertex, curve or surface";
-    throw morph::Error("None of the " + std::to_string(match.Ids.size()) +
+    throw morph::Error("None of the " + std::to_string(match.ids.size()) +
                        " nodes that the boundary names is on a " + what + " of the mesh (it has " +
                        std::to_string(geometry.vertices.size()) + " vertices, " +
                        std::to_string(geometry.curves.size()) + " curves and " +
@@ -276,10 +277,10 @@ void vtkMorphBoundary::vtkInternals::Morph(vtkUnstructuredGrid* grid, vtkDataObj
   vtkPointSet* given = filters::Input::RequireBoundary(boundary);
   vtkPolyData* surface = target ? filters::Input::RequirePolyData(target, "The target") : nullptr;
   const morph::Mesh mesh = filters::GridMesh::FromGrid(grid);
-  filters::Input::RequireVolumeCells(mesh);
+  morph::requireVolumeCells(mesh);
   const morph::BoundaryFaces faces = morph::boundaryFaces(mesh, monitor);
   const std::vector<Index> bodyOfNode = morph::connectedComponents(mesh).ofNode;
-  const double size = filters::GridMesh::Size(mesh);
+  const double size = morph::meshSize(mesh);
   const auto match = [&]
   { return filters::BoundaryMatch::Match(given, mesh, faces, size, this->Matching()); };
   this->Run({ grid, mesh, faces, bodyOfNode, nullptr, size, match, surface }, output, monitor);
@@ -305,7 +306,7 @@ void vtkMorphBoundary::vtkInternals::MorphOnRanks(vtkUnstructuredGrid* piece,
       surface = target ? filters::Input::RequirePolyData(target, "The target") : nullptr;
     });
   this->Whole->Take(piece, monitor);
-  const filters::BoundaryMatch::Result match = whole.Match(points, this->Matching());
+  const morph::BoundaryTargets match = whole.Match(points, this->Matching());
   if (surface)
   {
     surface = filters::WholeSurface::Gather(surface);
@@ -324,10 +325,10 @@ filters::BoundaryMatch::Options vtkMorphBoundary::vtkInternals::Matching() const
 {
   filters::BoundaryMatch::Options matching;
   matching.BoundaryIdArray = filters::Input::ArrayName(this->Filter->Options->BoundaryIdArray);
-  matching.DisplacementArray = filters::Input::ArrayName(this->Filter->Options->DisplacementArray);
-  matching.ScaleFactor = this->Filter->Options->ScaleFactor;
-  matching.MatchTolerance = this->Filter->Options->MatchTolerance;
-  matching.FixUnnamedBoundary = false;
+  matching.displacementArray = filters::Input::ArrayName(this->Filter->Options->DisplacementArray);
+  matching.scaleFactor = this->Filter->Options->ScaleFactor;
+  matching.matchTolerance = this->Filter->Options->MatchTolerance;
+  matching.fixUnnamedBoundary = false;
   return matching;
 }
 
@@ -347,12 +348,12 @@ void vtkMorphBoundary::vtkInternals::Run(
   const morph::Classification geometry =
     filters::Geometry::Classify(task.Grid, mesh, faces, options, monitor);
 
-  const filters::BoundaryMatch::Result named = task.Match();
-  for (const std::string& warning : named.Warnings)
+  const morph::BoundaryTargets named = task.Match();
+  for (const std::string& warning : named.warnings)
   {
     monitor.warn(warning);
   }
-  const filters::BoundaryMatch::Result match =
+  const morph::BoundaryTargets match =
     upTo(named, geometry, this->Filter->Options->PrescribedDimension);
 
   morph::SurfaceMorphOptions how;
@@ -361,8 +362,8 @@ void vtkMorphBoundary::vtkInternals::Run(
   how.neighbors = this->Filter->Options->NumberOfNeighbors;
   how.unattached = static_cast<morph::UnattachedMotion>(this->Filter->Options->UnattachedMotion);
   morph::BoundaryMotion motion =
-    morph::beginMotion(mesh.points, task.BodyOfNode, faces, geometry, match.Ids, match.Targets);
-  this->Results.SetInteger("GivenPoints", static_cast<vtkIdType>(match.Ids.size()));
+    morph::beginMotion(mesh.points, task.BodyOfNode, faces, geometry, match.ids, match.targets);
+  this->Results.SetInteger("GivenPoints", static_cast<vtkIdType>(match.ids.size()));
   this->Results.SetInteger("FixedVertices", motion.count(morph::BoundaryMotion::Held));
   this->Results.SetInteger("ProjectedPoints", 0);
   this->Results.SetInteger("UnprojectedPoints", 0);

@@ -2,6 +2,7 @@
 #include "vtkScaledJacobian.h"
 
 #include "Mesh/CellShape.h"
+#include "Mesh/SharedCorners.h"
 #include "Mesh/Topology.h"
 #include "Private/Blocks/Blocks.h"
 #include "Private/Data/GridMesh.h"
@@ -223,7 +224,7 @@ void vtkScaledJacobian::Measure(
     filters::Quality::Write(report, output);
     results.Set(report);
   }
-  results.SetInteger("MirroredBodies", filters::Quality::MirroredBodies(bodies, orientation));
+  results.SetInteger("MirroredBodies", morph::mirroredBodies(bodies, orientation));
   results.Write(output);
 
   reportUnmeasured(this, filters::Quality::Unmeasured(mesh, quality, skip, input), results);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ReadProblem.h"
 
+#include "Mesh/Extent.h"
 #include "Mesh/Topology.h"
 #include "Private/Data/GridMesh.h"
 
@@ -41,7 +42,7 @@ Problem readProblem(const std::string& file)
   morph::Monitor monitor;
   problem.partition =
     morph::partitionNodes(problem.mesh, morph::boundaryFaces(problem.mesh, monitor).nodes);
-  problem.size = morph::filters::GridMesh::Size(problem.mesh);
+  problem.size = morph::meshSize(problem.mesh);
   const morph::Points moved = problem.mesh.points + morph::filters::GridMesh::FromVectors(motion);
   const std::vector<morph::Index>& prescribed = problem.partition.prescribed;
   problem.target.resize(static_cast<morph::Index>(prescribed.size()), 3);

@@ -4,7 +4,6 @@
 #include "MorphFilters.h"
 #include "TestGrids.h"
 
-#include "Private/Morph/Series.h"
 #include "vtkFEMWarpMorph.h"
 #include "vtkInversionFreeMorph.h"
 #include "vtkMorphAlgorithm.h"
@@ -427,44 +426,4 @@ TEST(MorphStepsOfARange, AreEqualPartsOfIt)
   filter->SetSteppingToAbsolute();
   filter->UpdateTimeStep(0.6);
   EXPECT_EQ(boundary->Delivered.back(), 0.5);
-}
-
-TEST(MorphSeries, AMillionStepsAreKeptInTimeLinearInTheirNumber)
-{
-  // A walk over all that is kept, for each step, takes hours.
-  constexpr int Steps = 1000000;
-  const auto step = std::make_shared<const morph::filters::StepResult>();
-  for (const double megabytes : { 1000., 1e-3, 0. })
-  {
-    morph::filters::Series series;
-    for (int i = 0; i <= Steps; ++i)
-    {
-      series.Keep(i, step, megabytes);
-    }
-    EXPECT_EQ(series.LastUntil(Steps).first, Steps);
-    const int kept = series.LastUntil(Steps / 2 + 1).first;
-    EXPECT_GE(kept, megabytes > 1   ? Steps / 2 + 1
-                    : megabytes > 0 ? Steps / 2 - 2 * Steps / 1000
-                                    : -1);
-  }
-}
-
-TEST(MorphSeries, WhatIsBetweenStridesIsKeptOnlyWhileItIsTheLast)
-{
-  auto step = std::make_shared<morph::filters::StepResult>();
-  step->Moved.resize(1000, 3); // 24,000 bytes
-  morph::filters::Series series;
-  for (int i = 0; i <= 9; ++i)
-  {
-    series.Keep(i, step, 0.072); // three of them
-  }
-  EXPECT_EQ(series.LastUntil(9).first, 9);
-  EXPECT_EQ(series.LastUntil(8).first, 8);
-  EXPECT_EQ(series.LastUntil(7).first, 4);
-  EXPECT_EQ(series.LastUntil(3).first, 0);
-  series.Keep(5, step, 0.072);
-  EXPECT_EQ(series.LastUntil(9).first, 8);
-  EXPECT_EQ(series.LastUntil(7).first, 5);
-  series.Keep(6, step, 0.072);
-  EXPECT_EQ(series.LastUntil(5).first, 4);
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Grids with polyhedra through the filters.
 #include "../Core/Meshes.h"
-#include "../Core/Motions.h"
 #include "../Core/PolyhedralMeshes.h"
 #include "AllFilters.h"
 #include "BlockGrids.h"
@@ -10,8 +9,6 @@
 #include "TestGrids.h"
 
 #include "Private/Data/Version.h"
-#include "Private/Morph/PolyhedralRepair.h"
-#include "Quality/ScaledJacobian.h"
 #include "vtkExtractMorphBoundary.h"
 #include "vtkFEMWarpMorph.h"
 #include "vtkInversionFreeMorph.h"
@@ -470,25 +467,4 @@ TEST(PolyhedraInFilters, FacesInTwoCellArraysAreReadAndWritten)
   }
   SetCells(written.Get(), types.Get(), grid->GetCells(), mesh.faceOffsets, mesh.faces);
   expectSameCells(written, grid);
-}
-
-TEST(PolyhedraInFilters, WhereTheBoundaryInvertsAllThatIsLeftNothingStartsAgain)
-{
-  const morph::Mesh mesh = meshes::asPolyhedra(meshes::hexes(3, 3, 3));
-  const std::vector<std::int8_t> signs(mesh.numberOfCells(), 1);
-  morph::Points moved = mesh.points;
-  moved.row(0).setConstant(1.5);
-  const morph::Points start = moved;
-  morph::Monitor monitor;
-  int asked = 0;
-  const auto bad = [&](const morph::Points& points)
-  {
-    ++asked;
-    return morph::invertedCells(mesh, points, signs, monitor);
-  };
-  EXPECT_FALSE(morph::filters::PolyhedralRepair::Run(
-    mesh, mesh.points, motions::outerPartition(mesh), bad, moved, monitor));
-  EXPECT_EQ(asked, 1);
-  EXPECT_EQ(moved, start);
-  EXPECT_EQ(bad(moved), std::vector<morph::Index>{ 0 });
 }

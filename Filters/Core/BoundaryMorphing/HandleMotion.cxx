@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "BoundaryMorphing/HandleMotion.h"
 
+#include "Mesh/Extent.h"
 #include "Support/Error.h"
 
 #include <Eigen/LU>
@@ -14,14 +15,8 @@ namespace morph
 {
 namespace
 {
-constexpr double Largest = 1e50;
 constexpr double SamePlace = 1e-10; // of the handles' extent
 constexpr double LargestResidual = 1e-9;
-
-bool isModerate(const Eigen::RowVector3d& x)
-{
-  return x.allFinite() && x.cwiseAbs().maxCoeff() <= Largest;
-}
 
 void require(const std::vector<Handle>& handles)
 {
@@ -39,7 +34,7 @@ void require(const std::vector<Handle>& handles)
   {
     const Handle& handle = handles[i];
     if (!isModerate(handle.place) || !isModerate(handle.displacement) ||
-        !(handle.radius >= 0 && handle.radius <= Largest))
+        !(handle.radius >= 0 && handle.radius <= LargestLength))
     {
       bad.push_back(static_cast<Index>(i));
     }

@@ -3,10 +3,10 @@
 
 #include "Geometry/SpatialOrder.h"
 #include "Support/ProgressRange.h"
+#include "Support/Stopwatch.h"
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <sstream>
 #include <utility>
 
@@ -25,18 +25,17 @@ constexpr Index PartialSums = 32;
 template <typename Work>
 void inStretches(Index blocks, Monitor& monitor, Work&& work)
 {
-  using Clock = std::chrono::steady_clock;
   Index length = 16;
   for (Index begin = 0, end = 0; begin < blocks; begin = end)
   {
     monitor.check();
     end = std::min(begin + length, blocks);
-    const auto start = Clock::now();
+    const Stopwatch watch;
     monitor.parallelFor(
       end - begin, 1, [&](Index first, Index last) { work(begin + first, begin + last); });
     monitor.progress(static_cast<double>(end) / static_cast<double>(blocks));
-    const std::chrono::duration<double> taken = Clock::now() - start;
-    length = taken.count() < 0.02 ? 2 * length : taken.count() < 0.05 ? length : (length + 1) / 2;
+    const double taken = watch.seconds();
+    length = taken < 0.02 ? 2 * length : taken < 0.05 ? length : (length + 1) / 2;
   }
 }
 

@@ -225,4 +225,17 @@ std::vector<Index> touchingNodes(const Mesh& mesh, const BoundaryFaces& faces)
   }
   return { touching.begin(), touching.end() };
 }
+
+Index mirroredBodies(const ConnectedComponents& bodies, const std::vector<std::int8_t>& orientation)
+{
+  std::set<Index> mirrored;
+  for (std::size_t c = 0; c < orientation.size(); ++c)
+  {
+    if (orientation[c] < 0)
+    {
+      mirrored.insert(bodies.ofCell[c]);
+    }
+  }
+  return static_cast<Index>(mirrored.size());
+}
 }

@@ -19,4 +19,9 @@ std::vector<Index> repeatedCells(const Mesh& mesh, Monitor& monitor);
 /// several of the other side there. `faces`: the mesh's boundaryFaces(). Cost: a pass over the
 /// faces and, where there may be such nodes, one over the cells.
 std::vector<Index> touchingNodes(const Mesh& mesh, const BoundaryFaces& faces);
+
+/// The number of mirrored bodies: those that have cells of orientation -1. `orientation`: #cells,
+/// see cellSigns().
+Index mirroredBodies(
+  const ConnectedComponents& bodies, const std::vector<std::int8_t>& orientation);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Morpher/PolyhedralMorpher.h"
 
+#include "Mesh/Polyhedra.h"
 #include "Mesh/PolyhedronPieces.h"
 #include "Morpher/CellStiffness.h"
 
@@ -170,6 +171,11 @@ std::unique_ptr<Morpher> morpherForPolyhedra(std::unique_ptr<Morpher> method, bo
       std::unique_ptr<LinearMorpher>(linear), cutsAll);
   }
   return std::make_unique<PolyhedralMorpher<Morpher>>(std::move(method), cutsAll);
+}
+
+std::unique_ptr<Morpher> morpherForCells(const Mesh& mesh, std::unique_ptr<Morpher> method)
+{
+  return hasPolyhedra(mesh) ? morpherForPolyhedra(std::move(method)) : std::move(method);
 }
 
 Morpher& methodOf(Morpher& morpher)

@@ -15,6 +15,9 @@ namespace morph
 /// pieces.
 std::unique_ptr<Morpher> morpherForPolyhedra(std::unique_ptr<Morpher> method, bool cutsAll = false);
 
+/// Returns this for a mesh with polyhedra, and `method` itself for others.
+std::unique_ptr<Morpher> morpherForCells(const Mesh& mesh, std::unique_ptr<Morpher> method);
+
 /// Returns the method that works on the pieces, or `morpher` itself if it is no such wrapper.
 Morpher& methodOf(Morpher& morpher);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Private/Data/DataCheck.h"
 
+#include "Mesh/Extent.h"
 #include "Private/Data/Version.h"
 #include "Support/Error.h"
 
@@ -19,10 +20,8 @@
 #include <vtkUnstructuredGrid.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <limits>
-#include <sstream>
 #include <string>
 
 namespace morph::filters
@@ -121,14 +120,14 @@ void requireTypes(vtkUnstructuredGrid* grid, const std::string& subject)
   }
 }
 
-/// The bounds of the finite points, and the points beyond Largest.
+/// The bounds of the finite points, and the points beyond LargestLength.
 class Range
 {
 public:
   void Add(Index point, int axis, double value)
   {
     const double size = std::abs(value);
-    if (size <= DataCheck::Largest)
+    if (size <= morph::LargestLength)
     {
       this->Low[axis] = std::min(this->Low[axis], value);
       this->High[axis] = std::max(this->High[axis], value);
@@ -170,7 +169,7 @@ bool addModerate(const Value* values, vtkIdType points, Range& range)
     for (int j = 0; j < 3; ++j)
     {
       const Value value = values[3 * i + j];
-      isModerate &= std::abs(value) <= DataCheck::Largest; // a NaN is not
+      isModerate &= std::abs(value) <= morph::LargestLength; // a NaN is not
       low[j] = std::min(low[j], value);
       high[j] = std::max(high[j], value);
     }
@@ -231,7 +230,7 @@ void requirePoints(vtkDataArray* points, const std::string& subject)
     throw Error(subject + " has coordinates above 1e50, at point ids " +
                 morph::listIds(range.Beyond()) + ". Use another unit, or correct them.");
   }
-  DataCheck::RequireExtent(range.LargestSide(), subject.c_str());
+  morph::requireExtent(range.LargestSide(), subject.c_str());
 }
 }
 
@@ -277,61 +276,10 @@ void RequireLengths(vtkDataSet* data, const char* subject)
   requireLengths(data->GetCellData(), data->GetNumberOfCells(), subject, "cell");
 }
 
-bool IsModerate(const Eigen::RowVector3d& x)
-{
-  // Written so that a NaN is not moderate.
-  return (x.array().abs() <= Largest).all();
-}
-
-std::vector<Index> Immoderate(const morph::Points& x, morph::Monitor* monitor)
-{
-  std::vector<Index> rows;
-  // Nearly always none: told without a branch for each value.
-  std::atomic<bool> areModerate = true;
-  morph::Monitor serial;
-  (monitor ? *monitor : serial)
-    .parallelFor(x.size(), 16384,
-      [&](Index first, Index last)
-      {
-        bool isModerate = true;
-        for (const double* value = x.data() + first; value != x.data() + last; ++value)
-        {
-          isModerate &= std::abs(*value) <= Largest; // a NaN is not
-        }
-        if (!isModerate)
-        {
-          areModerate = false;
-        }
-      });
-  if (areModerate)
-  {
-    return rows;
-  }
-  for (Index i = 0; i < x.rows(); ++i)
-  {
-    if (!IsModerate(x.row(i)))
-    {
-      rows.push_back(i);
-    }
-  }
-  return rows;
-}
-
 bool IsMissing(const Eigen::RowVector3d& value, vtkDataArray* mask, morph::Index point)
 {
   return value.hasNaN() ||
          (mask && point < mask->GetNumberOfTuples() && mask->GetComponent(point, 0) == 0);
-}
-
-void RequireExtent(double size, const char* subject)
-{
-  if (size > 0 && size < Smallest)
-  {
-    std::ostringstream text;
-    text << subject << " is only " << size
-         << " long, less than 1e-50. Use another unit, or correct its coordinates.";
-    throw Error(text.str());
-  }
 }
 }
 }

@@ -289,20 +289,6 @@ int Dimension(std::uint8_t type)
   return cell ? cell->GetCellDimension() : 0;
 }
 
-double Size(const morph::Mesh& mesh)
-{
-  Eigen::AlignedBox3d box;
-  for (morph::Index c = 0; c < mesh.numberOfCells(); ++c)
-  {
-    const morph::CellShape* shape = morph::cellShape(mesh.types[c]);
-    for (morph::Index k = 0; shape && shape->dimension == 3 && k < mesh.cellSize(c); ++k)
-    {
-      box.extend(mesh.points.row(mesh.cell(c)[k]).transpose());
-    }
-  }
-  return box.isEmpty() ? 0 : box.diagonal().norm();
-}
-
 bool SameCells(vtkUnstructuredGrid* grid, const morph::Mesh& mesh)
 {
   if (grid->GetNumberOfCells() != mesh.numberOfCells())

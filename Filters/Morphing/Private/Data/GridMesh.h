@@ -40,9 +40,6 @@ morph::Points FromVectors(vtkDataArray* vectors);
 /// The dimension of cells of this VTK type; VTK is asked for those that the core does not know.
 int Dimension(std::uint8_t type);
 
-/// The diagonal of the bounding box of the nodes that volume cells use.
-double Size(const morph::Mesh& mesh);
-
 /// Whether the grid's cells (points) are still, number by number, the ones that `mesh` was copied
 /// from. Ends at the first difference; allocates a byte a cell.
 bool SameCells(vtkUnstructuredGrid* grid, const morph::Mesh& mesh);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Private/Data/Output.h"
 
-#include "Private/Data/DataCheck.h"
+#include "Mesh/Extent.h"
 #include "Private/Data/Directions.h"
 #include "Support/Error.h"
 
@@ -53,7 +53,7 @@ struct Written
     auto *to = written.Coordinates->GetPointer(0), *by = written.Displacement->GetPointer(0);
     using Value = std::remove_pointer_t<decltype(to)>;
     const double most =
-      std::min(DataCheck::Largest, static_cast<double>(std::numeric_limits<Value>::max()));
+      std::min(morph::LargestLength, static_cast<double>(std::numeric_limits<Value>::max()));
     std::atomic<bool> isWritable = true;
     monitor.parallelFor(moved.rows(), Grain,
       [&](morph::Index first, morph::Index last)
@@ -129,7 +129,7 @@ void RequireWritable(const morph::Points& rest, const morph::Points& moved, bool
     }
     return morph::listIds(rows);
   };
-  if (const auto wrong = DataCheck::Immoderate(moved); !wrong.empty())
+  if (const auto wrong = morph::immoderateRows(moved); !wrong.empty())
   {
     throw morph::Error(std::string("The motion takes ") + what +
                        " to places that are not finite or beyond 1e50: node ids " + list(wrong) +

@@ -171,20 +171,6 @@ std::vector<morph::Index> Unmeasured(const morph::Mesh& mesh, const morph::Quali
   return count;
 }
 
-morph::Index MirroredBodies(
-  const morph::ConnectedComponents& bodies, const std::vector<std::int8_t>& orientation)
-{
-  std::vector<bool> mirrored(bodies.count, false);
-  for (std::size_t c = 0; c < orientation.size(); ++c)
-  {
-    if (orientation[c] < 0)
-    {
-      mirrored[bodies.ofCell[c]] = true;
-    }
-  }
-  return std::count(mirrored.begin(), mirrored.end(), true);
-}
-
 Judged Judge(
   const morph::InvertedBefore& before, const morph::Quality& quality, vtkUnstructuredGrid* output)
 {

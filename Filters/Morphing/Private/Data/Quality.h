@@ -40,11 +40,6 @@ morph::Quality Measure(const morph::Mesh& mesh, vtkUnstructuredGrid* output,
 std::vector<morph::Index> Unmeasured(const morph::Mesh& mesh, const morph::Quality& quality,
   std::vector<std::uint8_t> skip, vtkUnstructuredGrid* grid);
 
-/// The number of mirrored bodies: those that have cells of orientation -1. `orientation`: #cells
-/// (Topology.h).
-morph::Index MirroredBodies(
-  const morph::ConnectedComponents& bodies, const std::vector<std::int8_t>& orientation);
-
 /// Whether measuring the points as written gives the same result as measuring the computed ones,
 /// which are in double precision.
 bool IsThatOfComputed(vtkUnstructuredGrid* output);

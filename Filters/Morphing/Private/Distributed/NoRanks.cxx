@@ -24,7 +24,7 @@ Morphing::Morphing(Results&)
 
 Morphing::~Morphing() = default;
 
-std::string Morphing::Run(const Task&, const Session::Options&, morph::Monitor&)
+std::string Morphing::Run(const Task&, const MotionOptions&, morph::Monitor&)
 {
   refuse();
 }
@@ -33,8 +33,8 @@ void Morphing::CheckSeries(vtkMTimeType, bool, vtkMTimeType)
 {
 }
 
-void Morphing::Transpose(vtkUnstructuredGrid*, vtkDataObject*, vtkDataArray*,
-  const Session::Options&, vtkDoubleArray*, morph::Monitor&)
+void Morphing::Transpose(vtkUnstructuredGrid*, vtkDataObject*, vtkDataArray*, const MotionOptions&,
+  vtkDoubleArray*, morph::Monitor&)
 {
   refuse();
 }

@@ -96,7 +96,7 @@ const std::vector<std::int64_t>& WholeSurface::CellIds() const
   refuse();
 }
 
-BoundaryMatch::Result WholeSurface::Match(vtkPointSet*, const BoundaryMatch::Options&) const
+morph::BoundaryTargets WholeSurface::Match(vtkPointSet*, const BoundaryMatch::Options&) const
 {
   refuse();
 }

@@ -1,27 +1,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Private/Morph/BoundaryMatch.h"
 #include "Private/Morph/ModeSolver.h"
 #include "Private/Morph/MorphOutput.h"
-#include "Private/Morph/Session.h"
 #include "Quality/Certificate.h"
 #include "Quality/ScaledJacobian.h"
 
+#include <vtkType.h>
+
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
 
-class vtkDataArray;
 class vtkDataObject;
 class vtkDoubleArray;
 class vtkPolyData;
 class vtkUnstructuredGrid;
-
-namespace morph
-{
-class Monitor;
-}
 
 namespace morph::filters
 {
@@ -32,11 +29,22 @@ class Results;
 /// or none of them. Not to be called unless Ranks::TakePieces().
 namespace OnRanks
 {
+/// The steps of a motion, each of which starts from the mesh of the step before.
+struct Motion
+{
+  int Step;    ///< the one that is asked for
+  bool Varies; ///< the boundary varies in time
+  std::function<double(int step)> Fraction;
+  /// All processes call it for the same steps.
+  std::function<vtkPointSet*(int step)> Boundary;
+};
+
 /// A distributed mesh and the method that is prepared for it, kept from one motion to the next.
 class Morphing
 {
 public:
-  /// `results`: as for Session. All processes get the numbers of the whole mesh.
+  /// `results`: gets the seconds, the number of preparations and of mirrored bodies. All processes
+  /// get the numbers of the whole mesh.
   explicit Morphing(Results& results);
   ~Morphing();
 
@@ -45,10 +53,8 @@ public:
     vtkUnstructuredGrid* Grid; ///< this process's piece
     vtkDataObject* Boundary;   ///< this process's part of the boundary
     double Fraction;           ///< of the motion
-    /// the relative steps instead of Boundary and Fraction, or null; all processes call
-    /// Motion::Boundary for the same steps
-    const Session::Motion* Series;
-    int Precision; ///< of the points, see MorphOutput::Write()
+    const Motion* Series;      ///< the relative steps instead of Boundary and Fraction, or null
+    int Precision;             ///< of the points, see MorphOutput::Write()
     MorphOutput::Measures Measures;
     bool FeatureLines;
     vtkUnstructuredGrid* Output;
@@ -57,16 +63,16 @@ public:
   };
   /// Moves the mesh and writes the outputs. Names the options that need one rank. Returns an error
   /// that comes with a result, on one process, or nothing.
-  std::string Run(const Task& task, const Session::Options& options, morph::Monitor& monitor);
+  std::string Run(const Task& task, const MotionOptions& options, morph::Monitor& monitor);
   /// The outer faces of this process's cells, if `grid` has the cells of the mesh, or else nothing.
   /// Not collective.
   void WriteUndeformedSurface(vtkUnstructuredGrid* grid, vtkPolyData* surface) const;
-  /// See Series::Check(). Not collective.
+  /// See Series::check(). Not collective.
   void CheckSeries(vtkMTimeType options, bool varies, vtkMTimeType boundary);
-  /// Session::Transpose(). `gradient`: of the piece's points, those of copies as of the node.
-  /// Points of several processes that stand for one node get the same derivatives.
+  /// vtkMorphAlgorithm::ApplyTranspose(). `gradient`: of the piece's points, those of copies as of
+  /// the node. Points of several processes that stand for one node get the same derivatives.
   void Transpose(vtkUnstructuredGrid* rest, vtkDataObject* boundary, vtkDataArray* gradient,
-    const Session::Options& options, vtkDoubleArray* boundaryGradient, morph::Monitor& monitor);
+    const MotionOptions& options, vtkDoubleArray* boundaryGradient, morph::Monitor& monitor);
 
 private:
   class Internals;

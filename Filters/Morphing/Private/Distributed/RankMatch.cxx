@@ -72,7 +72,7 @@ Way wayOf(vtkPointSet* boundary, const DistributedMesh& mesh, bool areCopies,
                   "global, or make the boundary with Extract Morph Boundary.");
     }
   }
-  if (options.DisplacementArray.empty())
+  if (options.displacementArray.empty())
   {
     throw Error("Nothing says which nodes the boundary's points are: there is no point array "
                 "MorphPointId. Make the boundary with Extract Morph Boundary, or set "
@@ -106,14 +106,14 @@ std::array<double, 3> rowOf(const morph::Points& points, Index row)
 }
 
 /// This rank's points; `node`: of each, or -1.
-std::vector<Traveller> travellers(const BoundaryMatch::NamedPoints& named,
+std::vector<Traveller> travellers(const morph::NamedPoints& named,
   const std::vector<std::pair<Index, std::int64_t>>& pairs, int rank)
 {
   std::vector<Traveller> result;
   for (const auto& [point, id] : pairs)
   {
-    result.push_back({ id, rank, point, named.IsFree.empty() ? 0 : named.IsFree[point],
-      rowOf(named.Positions, point), rowOf(named.Rest, point), rowOf(named.Displacements, point) });
+    result.push_back({ id, rank, point, named.isFree.empty() ? 0 : named.isFree[point],
+      rowOf(named.positions, point), rowOf(named.rest, point), rowOf(named.displacements, point) });
   }
   return result;
 }
@@ -181,7 +181,7 @@ Index countUnmatched(const Ranks& ranks, Index sent, const std::vector<Traveller
 /// The points that the nodes of this process follow. `points`: of all processes, in their order;
 /// `pairs`: those of the points and the nodes that they stand for.
 std::vector<RankMatch::Follower> followersOf(const DistributedMesh& mesh,
-  const BoundaryMatch::Result& result, const std::vector<Traveller>& points,
+  const morph::BoundaryTargets& result, const std::vector<Traveller>& points,
   const std::vector<std::pair<Index, Index>>& pairs)
 {
   std::map<Index, std::vector<Index>> ofNode; // the first point of each process
@@ -196,45 +196,45 @@ std::vector<RankMatch::Follower> followersOf(const DistributedMesh& mesh,
     }
   }
   std::vector<RankMatch::Follower> followers;
-  for (std::size_t k = 0; k < result.Ids.size(); ++k)
+  for (std::size_t k = 0; k < result.ids.size(); ++k)
   {
-    if (result.Sources[k] < 0 || !mesh.owns(result.Ids[k]))
+    if (result.sources[k] < 0 || !mesh.owns(result.ids[k]))
     {
       continue;
     }
-    for (const Index point : ofNode[result.Ids[k]])
+    for (const Index point : ofNode[result.ids[k]])
     {
-      followers.push_back({ result.Ids[k], points[point].rank, points[point].point });
+      followers.push_back({ result.ids[k], points[point].rank, points[point].point });
     }
   }
   return followers;
 }
 
 /// The owners' choice for all local nodes.
-void takeOwners(const DistributedMesh& mesh, BoundaryMatch::Result& result)
+void takeOwners(const DistributedMesh& mesh, morph::BoundaryTargets& result)
 {
   constexpr std::int64_t Held = 1, Named = 2;
   const Index nodes = mesh.mesh().numberOfNodes();
   std::vector<std::int64_t> isPrescribed(nodes, 0);
   morph::Points targets = mesh.mesh().points;
-  for (std::size_t i = 0; i < result.Ids.size(); ++i)
+  for (std::size_t i = 0; i < result.ids.size(); ++i)
   {
-    isPrescribed[result.Ids[i]] = result.Sources[i] < 0 ? Held : Named;
-    targets.row(result.Ids[i]) = result.Targets.row(static_cast<Index>(i));
+    isPrescribed[result.ids[i]] = result.sources[i] < 0 ? Held : Named;
+    targets.row(result.ids[i]) = result.targets.row(static_cast<Index>(i));
   }
   mesh.halo().update(mesh.ranks(), isPrescribed);
   mesh.halo().update(mesh.ranks(), targets);
-  result.Ids.clear();
-  result.Sources.clear();
+  result.ids.clear();
+  result.sources.clear();
   for (Index n = 0; n < nodes; ++n)
   {
     if (isPrescribed[n] != 0)
     {
-      result.Ids.push_back(n);
-      result.Sources.push_back(isPrescribed[n] == Named ? 0 : -1);
+      result.ids.push_back(n);
+      result.sources.push_back(isPrescribed[n] == Named ? 0 : -1);
     }
   }
-  result.Targets = targets(result.Ids, morph::allColumns);
+  result.targets = targets(result.ids, morph::allColumns);
 }
 
 /// What the ranks have of a boundary.
@@ -264,7 +264,8 @@ Given read(
   const Ranks& ranks = mesh.ranks();
   const bool areCopies = ranks.sum(Index(boundary->GetNumberOfPoints() != mesh.pieceNodes())) == 0;
   Way way = Way::None;
-  BoundaryMatch::NamedPoints named;
+  morph::NamedPoints named;
+  Precision precision;
   std::vector<std::pair<Index, std::int64_t>> pairs;
   ranks.together(
     [&]
@@ -274,7 +275,7 @@ Given read(
       {
         return;
       }
-      named = BoundaryMatch::ReadPoints(boundary, options);
+      named = BoundaryMatch::ReadPoints(boundary, options, precision);
       if (way == Way::Ids)
       {
         pairs = BoundaryMatch::FindByIds(BoundaryMatch::FindIds(boundary, options), MostIds);
@@ -288,7 +289,7 @@ Given read(
       }
       else
       {
-        for (Index i = 0; i < named.Positions.rows(); ++i)
+        for (Index i = 0; i < named.positions.rows(); ++i)
         {
           pairs.emplace_back(i, -1);
         }
@@ -296,9 +297,9 @@ Given read(
     });
   const bool isEmpty = way == Way::None;
   way = agree(ranks, way);
-  const bool hasRest = ranks.sum(Index(!isEmpty && named.Rest.rows() == 0)) == 0;
-  return { way, hasRest, travellers(named, pairs, ranks.rank()),
-    together(ranks, named.PointPrecision), ranks.sum(named.Valueless) };
+  const bool hasRest = ranks.sum(Index(!isEmpty && named.rest.rows() == 0)) == 0;
+  return { way, hasRest, travellers(named, pairs, ranks.rank()), together(ranks, precision),
+    ranks.sum(named.valueless) };
 }
 
 /// Throws on all ranks where one has points of nodes that the mesh does not have.
@@ -316,35 +317,34 @@ void requireKnown(const Ranks& ranks, const std::vector<Index>& unknown)
     });
 }
 
-/// All of NamedPoints but Pairs; sorts `points` by where they come from.
-BoundaryMatch::NamedPoints named(
+/// All of NamedPoints but pairs; sorts `points` by where they come from.
+morph::NamedPoints named(
   std::vector<Traveller>& points, const Given& given, const BoundaryMatch::Options& options)
 {
   std::sort(points.begin(), points.end(),
     [](const Traveller& a, const Traveller& b)
     { return std::tie(a.rank, a.point) < std::tie(b.rank, b.point); });
   const Index count = static_cast<Index>(points.size());
-  BoundaryMatch::NamedPoints here;
-  here.PointPrecision = given.PointPrecision;
-  here.Valueless = given.Valueless;
-  here.Positions.resize(count, 3);
-  here.Rest.resize(given.HasRest ? count : 0, 3);
-  here.Displacements.resize(options.DisplacementArray.empty() ? 0 : count, 3);
-  here.IsFree.resize(count);
+  morph::NamedPoints here;
+  here.valueless = given.Valueless;
+  here.positions.resize(count, 3);
+  here.rest.resize(given.HasRest ? count : 0, 3);
+  here.displacements.resize(options.displacementArray.empty() ? 0 : count, 3);
+  here.isFree.resize(count);
   for (Index i = 0; i < count; ++i)
   {
     const auto row = [](const std::array<double, 3>& x)
     { return Eigen::RowVector3d(x[0], x[1], x[2]); };
-    here.Positions.row(i) = row(points[i].position);
+    here.positions.row(i) = row(points[i].position);
     if (given.HasRest)
     {
-      here.Rest.row(i) = row(points[i].rest);
+      here.rest.row(i) = row(points[i].rest);
     }
-    if (here.Displacements.rows() > 0)
+    if (here.displacements.rows() > 0)
     {
-      here.Displacements.row(i) = row(points[i].displacement);
+      here.displacements.row(i) = row(points[i].displacement);
     }
-    here.IsFree[i] = points[i].isFree != 0;
+    here.isFree[i] = points[i].isFree != 0;
   }
   return here;
 }
@@ -352,11 +352,11 @@ BoundaryMatch::NamedPoints named(
 
 namespace RankMatch
 {
-BoundaryMatch::Result Match(vtkPointSet* boundary, const DistributedMesh& mesh,
+morph::BoundaryTargets Match(vtkPointSet* boundary, const DistributedMesh& mesh,
   const BoundaryMatch::Options& options, std::vector<Follower>* followers)
 {
   const Ranks& ranks = mesh.ranks();
-  const double tolerance = options.MatchTolerance * mesh.size();
+  const double tolerance = options.matchTolerance * mesh.size();
   const Given given = read(boundary, mesh, options);
   const bool byPosition = given.How == Way::Positions;
   std::vector<Traveller> points, unknown;
@@ -374,10 +374,10 @@ BoundaryMatch::Result Match(vtkPointSet* boundary, const DistributedMesh& mesh,
     ids.push_back(point.id);
   }
   requireKnown(ranks, ids);
-  BoundaryMatch::NamedPoints here = named(points, given, options);
+  morph::NamedPoints here = named(points, given, options);
   for (std::size_t i = 0; !byPosition && i < points.size(); ++i)
   {
-    here.Pairs.emplace_back(static_cast<Index>(i), mesh.nodeOf(points[i].id));
+    here.pairs.emplace_back(static_cast<Index>(i), mesh.nodeOf(points[i].id));
   }
   Index unmatched = 0;
   if (byPosition)
@@ -388,18 +388,20 @@ BoundaryMatch::Result Match(vtkPointSet* boundary, const DistributedMesh& mesh,
       {
         if (!points.empty())
         {
-          here.Pairs = BoundaryMatch::FindByPosition(
-            here.Positions, mesh.mesh(), mesh.outerNodes().nodes, tolerance, ignored);
+          here.pairs = BoundaryMatch::FindByPosition(
+            here.positions, mesh.mesh(), mesh.outerNodes().nodes, tolerance, ignored);
         }
       });
-    unmatched = countUnmatched(ranks, static_cast<Index>(given.Mine.size()), points, here.Pairs);
+    unmatched = countUnmatched(ranks, static_cast<Index>(given.Mine.size()), points, here.pairs);
   }
-  const std::vector<std::pair<Index, Index>> found = here.Pairs;
-  BoundaryMatch::Result result;
+  const std::vector<std::pair<Index, Index>> found = here.pairs;
+  morph::BoundaryTargets result;
+  Index rounded = 0;
   ranks.together(
     [&]
     {
-      result = BoundaryMatch::FindTargets(
+      rounded = BoundaryMatch::TakeBackRounding(given.PointPrecision, mesh.mesh(), here);
+      result = morph::findTargets(
         std::move(here), mesh.mesh(), mesh.outerNodes(), mesh.size(), options, &mesh.nodeIds());
     });
   if (followers)
@@ -407,16 +409,15 @@ BoundaryMatch::Result Match(vtkPointSet* boundary, const DistributedMesh& mesh,
     *followers = followersOf(mesh, result, points, found);
   }
   takeOwners(mesh, result);
-  BoundaryMatch::CountStaying(
+  morph::countStaying(
     mesh.mesh(), mesh.outerNodes(), [&](Index node) { return mesh.owns(node); }, result);
-  result.Points = ranks.sum(static_cast<Index>(given.Mine.size()));
-  result.Unmatched = unmatched;
-  for (Index* count :
-    { &result.Freed, &result.Following, &result.Staying, &result.Open, &result.Rounded })
+  result.points = ranks.sum(static_cast<Index>(given.Mine.size()));
+  result.unmatched = unmatched;
+  for (Index* count : { &result.freed, &result.following, &result.staying, &result.open, &rounded })
   {
     *count = ranks.sum(*count);
   }
-  BoundaryMatch::Conclude(mesh.size(), options, result);
+  BoundaryMatch::Conclude(mesh.size(), options, given.PointPrecision, rounded, result);
   return result;
 }
 
@@ -474,9 +475,10 @@ Gathered Gather(
   requireKnown(ranks, unknown);
   std::vector<Traveller> points = ranks.gather(given.Mine);
   result.Points = named(points, given, options);
+  result.PointPrecision = given.PointPrecision;
   for (std::size_t i = 0; !result.ByPosition && i < points.size(); ++i)
   {
-    result.Points.Pairs.emplace_back(static_cast<Index>(i), points[i].id);
+    result.Points.pairs.emplace_back(static_cast<Index>(i), points[i].id);
   }
   return result;
 }

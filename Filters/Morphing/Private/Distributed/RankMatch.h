@@ -34,7 +34,7 @@ struct Follower
 ///
 /// `followers`: null, or becomes the points that the nodes of this process follow: for each process
 /// with such a point the first of them.
-BoundaryMatch::Result Match(vtkPointSet* boundary, const morph::distributed::DistributedMesh& mesh,
+morph::BoundaryTargets Match(vtkPointSet* boundary, const morph::distributed::DistributedMesh& mesh,
   const BoundaryMatch::Options& options, std::vector<Follower>* followers = nullptr);
 
 /// Sums the derivatives of prescribed nodes for each boundary point, as Gradient::Gather() does.
@@ -47,7 +47,8 @@ void SendBack(const morph::distributed::Ranks& ranks, const std::vector<morph::I
 struct Gathered
 {
   /// Pairs of a point and its node's global id, which some process has; none where ByPosition.
-  BoundaryMatch::NamedPoints Points;
+  morph::NamedPoints Points;
+  Precision PointPrecision; ///< of all processes' points, as ReadPoints() gives it
   bool ByPosition = false;
 };
 /// Gathers the boundary. It finds ids as Match() does, and throws as that does. 120 bytes a point.

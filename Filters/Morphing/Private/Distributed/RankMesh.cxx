@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Private/Distributed/RankMesh.h"
 
+#include "Mesh/Extent.h"
 #include "Mesh/Polyhedra.h"
-#include "Private/Data/DataCheck.h"
 #include "Private/Data/GridMesh.h"
-#include "Private/Data/MeshNotes.h"
 #include "Private/Data/Surface.h"
 #include "Private/Distributed/RankQuality.h"
 #include "Private/RankBlocks/GlobalRanks.h"
+#include "Session/UndeformedMesh.h"
 #include "Support/Error.h"
 
 #include <vtkCellData.h>
@@ -177,7 +177,7 @@ void RankMesh::WarnOfShared(morph::Monitor& monitor) const
   std::sort(nodes.begin(), nodes.end());
   if (this->Processes.rank() == 0)
   {
-    MeshNotes::WarnOfShared(cells, nodes, monitor);
+    morph::warnOfShared(cells, nodes, monitor);
   }
 }
 
@@ -188,7 +188,7 @@ void RankMesh::RequireVolumeCells() const
     throw morph::Error("None of the input's cells is a volume cell. Tetrahedra, hexahedra, wedges "
                        "or pyramids are needed.");
   }
-  DataCheck::RequireExtent(this->Distributed->size(), "The input's volume mesh");
+  morph::requireExtent(this->Distributed->size(), "The input's volume mesh");
 }
 
 void RankMesh::WriteUndeformedSurface(vtkUnstructuredGrid* grid, vtkPolyData* output) const

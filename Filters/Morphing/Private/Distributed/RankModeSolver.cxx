@@ -61,7 +61,7 @@ public:
   {
     return this->Pieces.Whole().nodeId(node);
   }
-  BoundaryMatch::Result Match(
+  morph::BoundaryTargets Match(
     vtkPointSet* boundary, const BoundaryMatch::Options& options) const override
   {
     return RankMatch::Match(boundary, this->Pieces.Whole(), options);

@@ -5,9 +5,10 @@
 #include "Distributed/Method.h"
 #include "Distributed/Methods.h"
 #include "Distributed/PolyhedralMethod.h"
+#include "Mesh/Extent.h"
 #include "Mesh/NodePartition.h"
-#include "Private/Data/DataCheck.h"
 #include "Private/Data/Gradient.h"
+#include "Private/Data/Results.h"
 #include "Private/Distributed/OnRanks.h"
 #include "Private/Distributed/RankMatch.h"
 #include "Private/Distributed/RankMesh.h"
@@ -15,13 +16,12 @@
 #include "Private/Distributed/RankPolyhedra.h"
 #include "Private/Distributed/RankQuality.h"
 #include "Private/Distributed/RankValidity.h"
-#include "Private/Morph/PolyhedralRepair.h"
-#include "Private/Morph/Series.h"
 #include "Private/Pipeline/Input.h"
 #include "Quality/MovableQuality.h"
+#include "Session/Series.h"
 #include "Support/Error.h"
 #include "Support/ProgressRange.h"
-#include "vtkMorphAlgorithm.h"
+#include "Support/Stopwatch.h"
 
 #include <vtkDataArray.h>
 #include <vtkDoubleArray.h>
@@ -31,7 +31,6 @@
 #include <vtkUnstructuredGrid.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -41,14 +40,8 @@ namespace morph::filters::OnRanks
 {
 namespace
 {
-using Clock = std::chrono::steady_clock;
 using morph::distributed::DistributedMesh;
 using morph::distributed::Method;
-
-double secondsSince(Clock::time_point start)
-{
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 /// A copy with zeros where another process owns the node. A set's points may be such nodes, which
 /// have no values here.
@@ -89,31 +82,29 @@ public:
 
   filters::Results& Results;
   RankMesh Mesh;
-  Series Steps;
-  BoundaryMatch::Result WholeMotion; ///< for Steps, of a boundary that does not vary
+  morph::Series Steps;
+  morph::BoundaryTargets WholeMotion; ///< for Steps, of a boundary that does not vary
 
   /// Takes the mesh that the method works on, and reports mirrored bodies.
-  void Take(vtkUnstructuredGrid* grid, const Session::Options& options, morph::Monitor& monitor);
-  BoundaryMatch::Result Match(vtkDataObject* boundary, double fraction,
-    const Session::Options& options, std::vector<RankMatch::Follower>* followers,
+  void Take(vtkUnstructuredGrid* grid, const MotionOptions& options, morph::Monitor& monitor);
+  morph::BoundaryTargets Match(vtkDataObject* boundary, double fraction,
+    const MotionOptions& options, std::vector<RankMatch::Follower>* followers,
     morph::Monitor& monitor) const;
   /// Prepares the method for the undeformed mesh, unless it is prepared.
-  Method& Prepare(const morph::NodePartition& partition, const Session::Options& options,
-    morph::Monitor& monitor);
+  Method& Prepare(
+    const morph::NodePartition& partition, const MotionOptions& options, morph::Monitor& monitor);
   /// `from`: null for the undeformed mesh.
-  StepResult Step(const DistributedMesh* from, const BoundaryMatch::Result& match,
-    const Session::Options& options, morph::Monitor& monitor);
-  std::shared_ptr<const StepResult> MorphSeries(
-    const Session::Motion& motion, const Session::Options& options, morph::Monitor& monitor);
+  morph::StepResult Step(const DistributedMesh* from, const morph::BoundaryTargets& match,
+    const MotionOptions& options, morph::Monitor& monitor);
+  std::shared_ptr<const morph::StepResult> MorphSeries(
+    const Motion& motion, const MotionOptions& options, morph::Monitor& monitor);
 
 private:
-  /// The serial method with its options.
-  std::unique_ptr<morph::Morpher> Settings(const Session::Options& options) const;
-  std::unique_ptr<Method> Make(const Session::Options& options) const;
+  std::unique_ptr<Method> Make(const MotionOptions& options) const;
   morph::NodePartition PartitionOf(
     const std::vector<morph::Index>& prescribed, morph::Monitor& monitor) const;
   /// The last step until `number` that all ranks keep.
-  std::pair<int, Series::Step> LastUntil(int number) const;
+  std::pair<int, morph::Series::Step> LastUntil(int number) const;
 
   std::unique_ptr<Method> Prepared;
   std::vector<morph::Index> PreparedFor; ///< the prescribed nodes of Prepared
@@ -129,7 +120,7 @@ Morphing::~Morphing() = default;
 
 void Morphing::CheckSeries(vtkMTimeType options, bool varies, vtkMTimeType boundary)
 {
-  this->Own->Steps.Check(options, varies, boundary);
+  this->Own->Steps.check(options, varies, boundary);
 }
 
 void Morphing::WriteUndeformedSurface(vtkUnstructuredGrid* grid, vtkPolyData* surface) const
@@ -138,19 +129,19 @@ void Morphing::WriteUndeformedSurface(vtkUnstructuredGrid* grid, vtkPolyData* su
 }
 
 void Morphing::Internals::Take(
-  vtkUnstructuredGrid* grid, const Session::Options& options, morph::Monitor& monitor)
+  vtkUnstructuredGrid* grid, const MotionOptions& options, morph::Monitor& monitor)
 {
-  const std::unique_ptr<Method> sample = morph::distributed::makeMethod(options.CreateMorpher());
+  const std::unique_ptr<Method> sample = morph::distributed::makeMethod(options.createMorpher());
   if (!sample)
   {
-    throw morph::Error(options.Method +
+    throw morph::Error(options.method +
                        " needs one MPI rank, and the mesh is distributed over several. Run on one, "
                        "or use another method, Morph Inversion Free for instance.");
   }
   if (this->Mesh.Take(grid, sample->layers(), GridMesh::UnknownCells::Refuse, monitor))
   {
     this->Prepared.reset();
-    this->Steps.Clear();
+    this->Steps.clear();
   }
   this->Mesh.RequireVolumeCells();
   const auto& ranks = this->Mesh.Ranks();
@@ -165,44 +156,28 @@ void Morphing::Internals::Take(
   }
 }
 
-BoundaryMatch::Result Morphing::Internals::Match(vtkDataObject* boundary, double fraction,
-  const Session::Options& options, std::vector<RankMatch::Follower>* followers,
+morph::BoundaryTargets Morphing::Internals::Match(vtkDataObject* boundary, double fraction,
+  const MotionOptions& options, std::vector<RankMatch::Follower>* followers,
   morph::Monitor& monitor) const
 {
   const auto& ranks = this->Mesh.Ranks();
   vtkPointSet* displaced = nullptr;
   ranks.together([&] { displaced = Input::RequireBoundary(boundary); });
   BoundaryMatch::Options matching = options.Matching;
-  matching.ScaleFactor *= fraction;
-  BoundaryMatch::Result match =
+  matching.scaleFactor *= fraction;
+  morph::BoundaryTargets match =
     RankMatch::Match(displaced, this->Mesh.Whole(), matching, followers);
-  for (const std::string& warning : match.Warnings)
-  {
-    if (ranks.rank() == 0)
-    {
-      monitor.warn(warning);
-    }
-  }
   if (ranks.rank() == 0)
   {
-    BoundaryMatch::WarnIfNothingStays(match, monitor);
+    morph::warnOf(match, monitor);
   }
   return match;
 }
 
-std::unique_ptr<morph::Morpher> Morphing::Internals::Settings(const Session::Options& options) const
+std::unique_ptr<Method> Morphing::Internals::Make(const MotionOptions& options) const
 {
-  std::unique_ptr<morph::Morpher> settings = options.CreateMorpher();
-  if (this->Mesh.HasPolyhedra())
-  {
-    PolyhedralRepair::Adapt(*settings);
-  }
-  return settings;
-}
-
-std::unique_ptr<Method> Morphing::Internals::Make(const Session::Options& options) const
-{
-  std::unique_ptr<Method> method = morph::distributed::makeMethod(this->Settings(options));
+  std::unique_ptr<Method> method =
+    morph::distributed::makeMethod(options.settings(this->Mesh.HasPolyhedra()));
   if (this->Mesh.HasPolyhedra())
   {
     method = std::make_unique<morph::distributed::PolyhedralMethod>(std::move(method));
@@ -224,42 +199,43 @@ morph::NodePartition Morphing::Internals::PartitionOf(
 }
 
 Method& Morphing::Internals::Prepare(
-  const morph::NodePartition& partition, const Session::Options& options, morph::Monitor& monitor)
+  const morph::NodePartition& partition, const MotionOptions& options, morph::Monitor& monitor)
 {
   const auto& ranks = this->Mesh.Ranks();
   this->Results.SetNumber("PrepareSeconds", 0);
-  std::unique_ptr<morph::Morpher> settings = this->Settings(options);
+  std::unique_ptr<morph::Morpher> settings = options.settings(this->Mesh.HasPolyhedra());
   const bool same = this->Prepared && this->PreparedFor == partition.prescribed &&
                     this->PreparedLike->preparesLike(*settings);
   if (ranks.sum(morph::Index(!same)) > 0)
   {
-    const auto start = Clock::now();
+    const morph::Stopwatch watch;
     this->Prepared.reset();
     std::unique_ptr<Method> method = this->Make(options);
     method->prepare(this->Mesh.Whole(), partition, monitor);
     this->Prepared = std::move(method);
     this->PreparedFor = partition.prescribed;
     this->Results.SetInteger("PrepareCount", this->Results.Integer("PrepareCount") + 1);
-    this->Results.SetNumber("PrepareSeconds", ranks.maximum(secondsSince(start)));
+    this->Results.SetNumber("PrepareSeconds", ranks.maximum(watch.seconds()));
   }
   this->Prepared->takeEvaluateOptions(*settings);
   this->PreparedLike = std::move(settings);
   return *this->Prepared;
 }
 
-StepResult Morphing::Internals::Step(const DistributedMesh* from,
-  const BoundaryMatch::Result& match, const Session::Options& options, morph::Monitor& monitor)
+morph::StepResult Morphing::Internals::Step(const DistributedMesh* from,
+  const morph::BoundaryTargets& match, const MotionOptions& options, morph::Monitor& monitor)
 {
   const DistributedMesh& whole = from ? *from : this->Mesh.Whole();
   const auto& ranks = whole.ranks();
-  const morph::NodePartition partition = this->PartitionOf(match.Ids, monitor);
+  const morph::NodePartition partition = this->PartitionOf(match.ids, monitor);
   static const morph::InvertedBefore none{};
   const morph::InvertedBefore& before =
-    options.MeasureAll ? Validity::BeforeFor(options.Validity, this->Mesh.Before(monitor)) : none;
+    options.measureAll ? morph::Validity::beforeFor(options.validity, this->Mesh.Before(monitor))
+                       : none;
   const RankValidity validity{ options, whole, this->Mesh.Whole().mesh().points, before, partition,
-    match.Targets, this->Mesh.HasPolyhedra(), [&] { return this->Make(options); } };
-  StepResult result;
-  result.BoundaryInverted = validity.RequireFeasible();
+    match.targets, this->Mesh.HasPolyhedra(), [&] { return this->Make(options); } };
+  morph::StepResult result;
+  result.boundaryInverted = validity.RequireFeasible();
 
   morph::ProgressRange preparing(monitor, 0.05, 0.5), evaluating(monitor, 0.5, 0.8),
     checking(monitor, 0.8, 1);
@@ -268,24 +244,24 @@ StepResult Morphing::Internals::Step(const DistributedMesh* from,
   {
     ofStep = this->Make(options);
     ofStep->setReference(this->Mesh.Whole().mesh().points);
-    const auto begin = Clock::now();
+    const morph::Stopwatch watch;
     ofStep->prepare(whole, partition, preparing);
     this->Results.SetInteger("PrepareCount", this->Results.Integer("PrepareCount") + 1);
-    this->Results.SetNumber("PrepareSeconds", ranks.maximum(secondsSince(begin)));
+    this->Results.SetNumber("PrepareSeconds", ranks.maximum(watch.seconds()));
   }
   const Method& method = from ? *ofStep : this->Prepare(partition, options, preparing);
-  const auto start = Clock::now();
-  const morph::EvaluateReport report = method.evaluate(match.Targets, result.Moved, evaluating);
+  const morph::Stopwatch watch;
+  const morph::EvaluateReport report = method.evaluate(match.targets, result.moved, evaluating);
   const morph::Index followers =
     ranks.sum(static_cast<morph::Index>(partition.higherOrderNodes.size()));
   if (isInversionFree(method) && (followers > 0 || this->Mesh.HasPolyhedra()))
   {
     // The method has moved corners of cells or pieces; nodes between them have followed.
     RankPolyhedra::Repair(whole, this->Mesh.Whole().mesh().points, partition,
-      this->Mesh.HasPolyhedra(), {}, result.Moved, evaluating);
+      this->Mesh.HasPolyhedra(), {}, result.moved, evaluating);
   }
-  result.Statistics = report.statistics;
-  const std::vector<morph::Index> wrong = DataCheck::Immoderate(result.Moved);
+  result.statistics = report.statistics;
+  const std::vector<morph::Index> wrong = morph::immoderateRows(result.moved);
   ranks.together(
     [&]
     {
@@ -297,64 +273,63 @@ StepResult Morphing::Internals::Step(const DistributedMesh* from,
           ". Check the boundary for huge values, and the mesh for cells without volume.");
       }
     });
-  if (options.PostSmooth)
+  if (options.postSmooth)
   {
-    result.Statistics.push_back({ "PostSmoothSteps",
+    result.statistics.push_back({ "PostSmoothSteps",
       RankPolyhedra::Smooth(whole, this->Mesh.Whole().mesh().points, partition,
-        this->Mesh.HasPolyhedra(), options.PostSmoothIterations, result.Moved, evaluating) });
+        this->Mesh.HasPolyhedra(), options.postSmoothIterations, result.moved, evaluating) });
   }
-  double seconds = secondsSince(start);
-  if (options.MeasureAll)
+  double seconds = watch.seconds();
+  if (options.measureAll)
   {
-    result.Valid = validity.Ensure(result.Moved, checking);
-    if (result.Valid.Status != "Valid" && result.Valid.Status != "Inverted")
+    result.valid = validity.Ensure(result.moved, checking);
+    if (result.valid.status != "Valid" && result.valid.status != "Inverted")
     {
-      seconds = secondsSince(start);
+      seconds = watch.seconds();
     }
     double minimum = 0;
     ranks.together(
       [&]
       {
         minimum = morph::MovableQuality(whole.mesh(), whole.orientation(), partition.free)
-                    .fixedMinimum(result.Moved);
+                    .fixedMinimum(result.moved);
       });
     minimum = ranks.minimum(minimum);
-    result.BoundaryMinimum =
+    result.boundaryMinimum =
       std::isfinite(minimum) ? minimum : std::numeric_limits<double>::quiet_NaN();
   }
   else
   {
-    result.Valid.Status = "Unmeasured";
-    result.Valid.LargestValidStep = std::numeric_limits<double>::quiet_NaN();
+    result.valid = { "Unmeasured", std::numeric_limits<double>::quiet_NaN() };
   }
   this->Results.SetNumber("EvaluateSeconds", ranks.maximum(seconds));
-  if (options.MeasureAll && result.Valid.Status != "Inverted")
+  if (options.measureAll && result.valid.status != "Inverted")
   {
-    result.BoundaryInverted = 0;
+    result.boundaryInverted = 0;
   }
   const morph::AttachedNodes attached =
     morph::distributed::attachedNodes(this->Mesh.Whole(), partition);
-  attached.apply(result.Moved);
-  whole.copyToDoubles(result.Moved);
-  result.Attached = static_cast<morph::Index>(attached.nodes().size());
-  result.Loose = attached.loose();
-  result.Iterations = report.iterations;
+  attached.apply(result.moved);
+  whole.copyToDoubles(result.moved);
+  result.attached = static_cast<morph::Index>(attached.nodes().size());
+  result.loose = attached.loose();
+  result.iterations = report.iterations;
   morph::Index prescribed = 0;
-  for (const morph::Index node : match.Ids)
+  for (const morph::Index node : match.ids)
   {
     prescribed += whole.owns(node);
   }
-  result.Prescribed = ranks.sum(prescribed);
-  result.Unmatched = match.Unmatched;
+  result.prescribed = ranks.sum(prescribed);
+  result.unmatched = match.unmatched;
   return result;
 }
 
-std::pair<int, Series::Step> Morphing::Internals::LastUntil(int number) const
+std::pair<int, morph::Series::Step> Morphing::Internals::LastUntil(int number) const
 {
   // Ranks have meshes of different sizes, and may keep different steps.
   while (true)
   {
-    const auto kept = this->Steps.LastUntil(number);
+    const auto kept = this->Steps.lastUntil(number);
     const auto least = static_cast<int>(this->Mesh.Ranks().minimum(morph::Index(kept.first)));
     if (this->Mesh.Ranks().sum(morph::Index(kept.first != least)) == 0)
     {
@@ -364,8 +339,8 @@ std::pair<int, Series::Step> Morphing::Internals::LastUntil(int number) const
   }
 }
 
-std::shared_ptr<const StepResult> Morphing::Internals::MorphSeries(
-  const Session::Motion& motion, const Session::Options& options, morph::Monitor& monitor)
+std::shared_ptr<const morph::StepResult> Morphing::Internals::MorphSeries(
+  const Motion& motion, const MotionOptions& options, morph::Monitor& monitor)
 {
   const auto& ranks = this->Mesh.Ranks();
   // Of a last step that is kept.
@@ -379,13 +354,13 @@ std::shared_ptr<const StepResult> Morphing::Internals::MorphSeries(
   };
   if (!motion.Varies)
   {
-    BoundaryMatch::Result whole =
+    morph::BoundaryTargets whole =
       this->Match(boundaryOf(motion.Step), 1, options, nullptr, monitor);
     const bool differs =
-      whole.Ids != this->WholeMotion.Ids || whole.Targets != this->WholeMotion.Targets;
+      whole.ids != this->WholeMotion.ids || whole.targets != this->WholeMotion.targets;
     if (ranks.sum(morph::Index(differs)) > 0)
     {
-      this->Steps.Clear();
+      this->Steps.clear();
       this->WholeMotion = std::move(whole);
     }
   }
@@ -399,71 +374,63 @@ std::shared_ptr<const StepResult> Morphing::Internals::MorphSeries(
     std::unique_ptr<DistributedMesh> from;
     if (result)
     {
-      from = std::make_unique<DistributedMesh>(this->Mesh.Whole().at(result->Moved));
+      from = std::make_unique<DistributedMesh>(this->Mesh.Whole().at(result->moved));
     }
-    try
+    result = morph::inStep(step,
+      [&, step = step]
+      {
+        const morph::BoundaryTargets match =
+          this->Match(boundaryOf(step), motion.Fraction(step), options, nullptr, part);
+        return std::make_shared<const morph::StepResult>(
+          this->Step(from.get(), match, options, part));
+      });
+    if (step < motion.Step && !result->valid.error.empty() && ranks.rank() == 0)
     {
-      const BoundaryMatch::Result match =
-        this->Match(boundaryOf(step), motion.Fraction(step), options, nullptr, part);
-      result = std::make_shared<StepResult>(this->Step(from.get(), match, options, part));
+      monitor.warn("Step " + std::to_string(step) + ": " + result->valid.error);
     }
-    catch (const Validity::Infeasible& infeasible)
-    {
-      throw Validity::Infeasible(
-        "Step " + std::to_string(step) + ": " + infeasible.what(), infeasible.Cells);
-    }
-    catch (const morph::Error& error)
-    {
-      throw morph::Error(error.kind(), "Step " + std::to_string(step) + ": " + error.what());
-    }
-    if (step < motion.Step && !result->Valid.Error.empty() && ranks.rank() == 0)
-    {
-      monitor.warn("Step " + std::to_string(step) + ": " + result->Valid.Error);
-    }
-    this->Steps.Keep(step, result, options.StepMemoryLimit);
+    this->Steps.keep(step, result, options.stepMemoryLimit);
   }
   return result;
 }
 
-std::string Morphing::Run(
-  const Task& task, const Session::Options& options, morph::Monitor& monitor)
+std::string Morphing::Run(const Task& task, const MotionOptions& options, morph::Monitor& monitor)
 {
   Internals& own = *this->Own;
   own.Take(task.Grid, options, monitor);
   own.Mesh.SetFeatureLines(task.FeatureLines, monitor);
   const bool isFirst = own.Mesh.Ranks().rank() == 0;
   own.Mesh.WarnOfShared(monitor);
-  if (options.MeasureAll)
+  if (options.measureAll)
   {
-    const std::string note = Validity::Note(
-      options.Validity, RankQuality::GatherIds(own.Mesh.Whole(), own.Mesh.Before(monitor).cells()));
+    const std::string note = morph::Validity::note(
+      options.validity, RankQuality::GatherIds(own.Mesh.Whole(), own.Mesh.Before(monitor).cells()));
     if (!note.empty() && isFirst)
     {
       monitor.warn(note);
     }
   }
   morph::ProgressRange morphing(monitor, 0.02, 0.9), writing(monitor, 0.9, 1);
-  std::shared_ptr<const StepResult> step;
+  std::shared_ptr<const morph::StepResult> step;
   if (task.Series)
   {
     step = own.MorphSeries(*task.Series, options, morphing);
   }
   else
   {
-    const BoundaryMatch::Result match =
+    const morph::BoundaryTargets match =
       own.Match(task.Boundary, task.Fraction, options, nullptr, monitor);
-    step = std::make_shared<StepResult>(own.Step(nullptr, match, options, morphing));
+    step = std::make_shared<morph::StepResult>(own.Step(nullptr, match, options, morphing));
   }
-  if (!step->Valid.Warning.empty() && isFirst)
+  if (!step->valid.warning.empty() && isFirst)
   {
-    monitor.warn(step->Valid.Warning);
+    monitor.warn(step->valid.warning);
   }
   RankOutput::Write(own.Mesh, task, *step, own.Results, writing);
-  return isFirst ? step->Valid.Error : "";
+  return isFirst ? step->valid.error : "";
 }
 
 void Morphing::Transpose(vtkUnstructuredGrid* rest, vtkDataObject* boundary, vtkDataArray* gradient,
-  const Session::Options& options, vtkDoubleArray* boundaryGradient, morph::Monitor& monitor)
+  const MotionOptions& options, vtkDoubleArray* boundaryGradient, morph::Monitor& monitor)
 {
   Internals& own = *this->Own;
   own.Take(rest, options, monitor);
@@ -480,13 +447,13 @@ void Morphing::Transpose(vtkUnstructuredGrid* rest, vtkDataObject* boundary, vtk
       }
     });
   std::vector<RankMatch::Follower> followers;
-  const BoundaryMatch::Result match = own.Match(boundary, 1, options, &followers, monitor);
+  const morph::BoundaryTargets match = own.Match(boundary, 1, options, &followers, monitor);
   morph::NodePartition partition;
-  ranks.together([&] { partition = morph::partitionNodes(whole.mesh(), match.Ids); });
+  ranks.together([&] { partition = morph::partitionNodes(whole.mesh(), match.ids); });
   morph::ProgressRange preparing(monitor, 0.05, 0.5), applying(monitor, 0.5, 1);
   const Method& method = own.Prepare(partition, options, preparing);
   const std::string& status = own.Results.Text("MorphStatus");
-  if ((options.PostSmooth || status == "SubStepped" || status == "Repaired" ||
+  if ((options.postSmooth || status == "SubStepped" || status == "Repaired" ||
         status == "Partial") &&
       ranks.rank() == 0)
   {
@@ -497,8 +464,8 @@ void Morphing::Transpose(vtkUnstructuredGrid* rest, vtkDataObject* boundary, vtk
   morph::distributed::attachedNodes(whole, partition).applyTranspose(nodes);
   whole.halo().add(ranks, nodes);
   method.applyTranspose(nodes, prescribed, applying);
-  prescribed *= options.Matching.ScaleFactor;
-  RankMatch::SendBack(ranks, match.Ids, prescribed, followers,
+  prescribed *= options.Matching.scaleFactor;
+  RankMatch::SendBack(ranks, match.ids, prescribed, followers,
     Input::RequireBoundary(boundary)->GetNumberOfPoints(), boundaryGradient);
 }
 }

@@ -3,12 +3,12 @@
 
 #include "Distributed/Quality.h"
 #include "Private/Data/BadCells.h"
-#include "Private/Data/MeshNotes.h"
 #include "Private/Data/Output.h"
 #include "Private/Data/Quality.h"
 #include "Private/Data/Results.h"
 #include "Private/Distributed/RankCrossings.h"
 #include "Private/Morph/MorphOutput.h"
+#include "Session/UndeformedMesh.h"
 
 #include <vtkPolyData.h>
 #include <vtkUnstructuredGrid.h>
@@ -21,7 +21,8 @@ namespace
 {
 /// Writes what follows from the quality of all cells.
 void writeMeasured(const RankMesh& mesh, const OnRanks::Morphing::Task& task,
-  const StepResult& step, const morph::Quality& mine, Results& results, morph::Monitor& monitor)
+  const morph::StepResult& step, const morph::Quality& mine, Results& results,
+  morph::Monitor& monitor)
 {
   const auto& ranks = mesh.Ranks();
   const morph::Quality whole = morph::distributed::reduce(ranks, mine, mesh.Whole().cellIds());
@@ -31,7 +32,7 @@ void writeMeasured(const RankMesh& mesh, const OnRanks::Morphing::Task& task,
   Quality::Write(mine, task.Output);
   results.Set(whole);
   results.SetNumber("WorstMeanScaledJacobian", morph::distributed::worstMean(ranks, mine));
-  results.SetNumber("BoundaryMinimum", step.BoundaryMinimum);
+  results.SetNumber("BoundaryMinimum", step.boundaryMinimum);
   if (task.Measures.Certify)
   {
     const morph::CertificateReport report = Certify(mesh, task.Output, mesh.Unmeasured(), monitor);
@@ -117,12 +118,12 @@ morph::Index WriteParts(const RankMesh& mesh, const morph::Quality& mine, bool a
   return mesh.Ranks().sum(inverted);
 }
 
-void Write(const RankMesh& mesh, const OnRanks::Morphing::Task& task, const StepResult& step,
+void Write(const RankMesh& mesh, const OnRanks::Morphing::Task& task, const morph::StepResult& step,
   Results& results, morph::Monitor& monitor)
 {
   const bool all = task.Measures.All;
   const morph::Quality mine =
-    WritePoints(mesh, task.Grid, step.Moved, task.Precision, all, task.Output, monitor);
+    WritePoints(mesh, task.Grid, step.moved, task.Precision, all, task.Output, monitor);
   if (all)
   {
     writeMeasured(mesh, task, step, mine, results, monitor);
@@ -135,7 +136,7 @@ void Write(const RankMesh& mesh, const OnRanks::Morphing::Task& task, const Step
     "SurfaceInvertedCells", WriteParts(mesh, mine, all, task.Output, task.BadCells, task.Surface));
   if (mesh.Ranks().rank() == 0)
   {
-    MeshNotes::WarnOfLoose(step.Loose, monitor);
+    morph::warnOfLoose(step.loose, monitor);
   }
   MorphOutput::WriteCounts(step, results, task.Output);
 }

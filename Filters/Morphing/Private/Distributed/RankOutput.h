@@ -4,13 +4,13 @@
 #include "Private/Data/Quality.h"
 #include "Private/Distributed/OnRanks.h"
 #include "Private/Distributed/RankMesh.h"
-#include "Private/Morph/Series.h"
+#include "Session/Series.h"
 
 namespace morph::filters::RankOutput
 {
-/// MorphOutput on several MPI processes. `step`: with Moved of the local nodes, and
+/// MorphOutput on several MPI processes. `step`: with `moved` of the local nodes, and
 /// numbers of the whole mesh. Collective.
-void Write(const RankMesh& mesh, const OnRanks::Morphing::Task& task, const StepResult& step,
+void Write(const RankMesh& mesh, const OnRanks::Morphing::Task& task, const morph::StepResult& step,
   Results& results, morph::Monitor& monitor);
 
 /// The parts of Write(). Collective.

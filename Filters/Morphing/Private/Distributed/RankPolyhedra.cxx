@@ -4,7 +4,7 @@
 #include "Distributed/CutMesh.h"
 #include "Distributed/SmoothMesh.h"
 #include "Private/Distributed/RankQuality.h"
-#include "Private/Morph/PostSmoothing.h"
+#include "Session/AfterMotion.h"
 
 #include <utility>
 
@@ -62,7 +62,7 @@ morph::Index Smooth(const DistributedMesh& mesh, const morph::Points& rest,
   const morph::NodePartition& partition, bool hasPolyhedra, int iterationLimit,
   morph::Points& moved, morph::Monitor& monitor)
 {
-  const morph::SmoothingOptions options = postSmoothing(iterationLimit);
+  const morph::SmoothingOptions options = morph::postSmoothing(iterationLimit);
   morph::SmoothingReport report;
   if (!hasPolyhedra)
   {

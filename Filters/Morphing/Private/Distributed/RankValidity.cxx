@@ -7,7 +7,6 @@
 #include "Quality/BoundaryDetermined.h"
 #include "Support/Error.h"
 #include "Support/ProgressRange.h"
-#include "vtkMorphAlgorithm.h"
 
 #include <algorithm>
 #include <limits>
@@ -68,24 +67,22 @@ std::vector<morph::Index> RankValidity::ForbiddenBy(
 morph::Index RankValidity::RequireFeasible() const
 {
   const std::vector<morph::Index> determined = this->DeterminedBy(this->Targets);
-  Validity::RequireFeasible(this->Options.Validity, determined);
+  morph::Validity::requireFeasible(this->Options.validity, determined);
   return static_cast<morph::Index>(determined.size());
 }
 
-Validity::Outcome RankValidity::Remaining(
+morph::Validity::Outcome RankValidity::Remaining(
   const morph::Points& moved, const std::string& reason, morph::Monitor& monitor) const
 {
-  Validity::Outcome outcome;
-  outcome.Status = "Inverted";
-  outcome.LargestValidStep = std::numeric_limits<double>::quiet_NaN();
-  outcome.Error = "No valid mesh was found, and the result is the best that was: " +
+  morph::Validity::Outcome outcome{ "Inverted", std::numeric_limits<double>::quiet_NaN() };
+  outcome.error = "No valid mesh was found, and the result is the best that was: " +
                   RankQuality::Found(this->Mesh,
                     RankQuality::Measure(this->Mesh, moved, this->Before, monitor), moved) +
                   reason;
   return outcome;
 }
 
-Validity::Outcome RankValidity::SubStep(morph::Points& moved, morph::Monitor& monitor) const
+morph::Validity::Outcome RankValidity::SubStep(morph::Points& moved, morph::Monitor& monitor) const
 {
   const morph::Points& rest = this->Mesh.mesh().points;
   const auto inverted = [&](const morph::Points& points)
@@ -104,11 +101,11 @@ Validity::Outcome RankValidity::SubStep(morph::Points& moved, morph::Monitor& mo
   }
   const morph::BoundaryPath path = morph::straightPath(rest, this->Partition, this->Targets);
   morph::SubStepLimits limits;
-  limits.attempts = this->Options.MaximumSubSteps;
-  const bool repairs = Validity::Repairs(this->Options.Validity);
+  limits.attempts = this->Options.maximumSubSteps;
+  const bool repairs = morph::Validity::repairs(this->Options.validity);
   if (repairs)
   {
-    limits.failures = Validity::RepairFailures;
+    limits.failures = morph::Validity::repairFailures;
   }
   limits.forbidden = [&](double time) { return this->ForbiddenBy(path(time), monitor); };
   const auto attempt = [&](const morph::Points& from, double time, morph::Monitor& part)
@@ -130,24 +127,23 @@ Validity::Outcome RankValidity::SubStep(morph::Points& moved, morph::Monitor& mo
   };
   const morph::SubStepResult result = morph::takeSubSteps(rest, limits, attempt, monitor);
   moved = result.moved;
-  return Validity::OfSubSteps(
+  return morph::Validity::ofSubSteps(
     result, "leaves", ": cell ids " + morph::listIds(result.inverted) + ". ");
 }
 
-Validity::Outcome RankValidity::Ensure(morph::Points& moved, morph::Monitor& monitor) const
+morph::Validity::Outcome RankValidity::Ensure(morph::Points& moved, morph::Monitor& monitor) const
 {
-  Validity::Outcome outcome;
   const RankQuality::Measured measured =
     RankQuality::Measure(this->Mesh, moved, this->Before, monitor);
   if (measured.AddedOfAll == 0)
   {
-    return outcome;
+    return {};
   }
-  const int mode = this->Options.Validity;
+  const morph::Validity::Mode mode = this->Options.validity;
   const morph::Index free =
     this->Mesh.ranks().sum(static_cast<morph::Index>(this->Partition.free.size()));
-  const bool repairs = Validity::Repairs(mode);
-  if (free == 0 && (repairs || mode == vtkMorphAlgorithm::VALIDITY_SUB_STEP))
+  const bool repairs = morph::Validity::repairs(mode);
+  if (free == 0 && (repairs || mode == morph::Validity::Mode::SubStep))
   {
     return this->Remaining(
       moved, "Every node is prescribed, so the boundary alone decides.", monitor);
@@ -159,8 +155,7 @@ Validity::Outcome RankValidity::Ensure(morph::Points& moved, morph::Monitor& mon
       this->Mesh, this->Reference, this->Partition, this->HasPolyhedra, this->Before, moved, first);
     if (report.bad == 0)
     {
-      outcome.Status = "Repaired";
-      return outcome;
+      return { "Repaired" };
     }
     if (report.tooLarge > 0)
     {
@@ -174,23 +169,22 @@ Validity::Outcome RankValidity::Ensure(morph::Points& moved, morph::Monitor& mon
     }
     return this->SubStep(moved, second);
   }
-  if (mode == vtkMorphAlgorithm::VALIDITY_SUB_STEP)
+  if (mode == morph::Validity::Mode::SubStep)
   {
     return this->SubStep(moved, monitor);
   }
-  if (mode == vtkMorphAlgorithm::VALIDITY_REFUSE)
+  if (mode == morph::Validity::Mode::Refuse)
   {
     throw morph::Error("The morph is refused: " + RankQuality::Found(this->Mesh, measured, moved) +
                        "Set Validity to Repair or Sub Step, or move the boundary less.");
   }
-  if (mode == vtkMorphAlgorithm::VALIDITY_REPORT)
+  morph::Validity::Outcome outcome{ "Inverted", std::numeric_limits<double>::quiet_NaN() };
+  if (mode == morph::Validity::Mode::Report)
   {
-    outcome.Warning = RankQuality::Found(this->Mesh, measured, moved) +
+    outcome.warning = RankQuality::Found(this->Mesh, measured, moved) +
                       "The output Bad cells holds them all. Validity set to Repair keeps cells "
                       "valid.";
   }
-  outcome.Status = "Inverted";
-  outcome.LargestValidStep = std::numeric_limits<double>::quiet_NaN();
   return outcome;
 }
 }

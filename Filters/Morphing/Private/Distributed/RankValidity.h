@@ -4,8 +4,7 @@
 #include "Distributed/DistributedMesh.h"
 #include "Distributed/Method.h"
 #include "Mesh/NodePartition.h"
-#include "Private/Morph/Session.h"
-#include "Private/Morph/Validity.h"
+#include "Session/Session.h"
 
 #include <functional>
 #include <memory>
@@ -16,7 +15,7 @@ namespace morph::filters
 class RankValidity
 {
 public:
-  const Session::Options& Options;
+  const morph::Session::Options& Options;
   const morph::distributed::DistributedMesh& Mesh; ///< before the motion
   const morph::Points& Reference;                  ///< #local nodes x 3, the undeformed mesh
   const morph::InvertedBefore& Before;             ///< as of Validity, of the local mesh
@@ -29,17 +28,17 @@ public:
   /// Returns the number of cells that the targets themselves invert. Throws Validity::Infeasible on
   /// all processes where there are some and Options ask for a valid mesh.
   morph::Index RequireFeasible() const;
-  /// Makes `moved`, #local nodes x 3, the mesh that Options ask for; see Validity::Ensure(). A
-  /// folded boundary is not foreseen: sub-steps end before it inverts cells. Outcome::Measured is
+  /// Makes `moved`, #local nodes x 3, the mesh that Options ask for; see Validity::ensure(). A
+  /// folded boundary is not foreseen: sub-steps end before it inverts cells. Outcome::measured is
   /// empty.
-  Validity::Outcome Ensure(morph::Points& moved, morph::Monitor& monitor) const;
+  morph::Validity::Outcome Ensure(morph::Points& moved, morph::Monitor& monitor) const;
 
 private:
   std::vector<morph::Index> DeterminedBy(const morph::Points& targets) const;
   std::vector<morph::Index> ForbiddenBy(
     const morph::Points& targets, morph::Monitor& monitor) const;
-  Validity::Outcome SubStep(morph::Points& moved, morph::Monitor& monitor) const;
-  Validity::Outcome Remaining(
+  morph::Validity::Outcome SubStep(morph::Points& moved, morph::Monitor& monitor) const;
+  morph::Validity::Outcome Remaining(
     const morph::Points& moved, const std::string& reason, morph::Monitor& monitor) const;
 };
 }

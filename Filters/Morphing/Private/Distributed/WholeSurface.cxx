@@ -205,36 +205,38 @@ const std::vector<std::int64_t>& WholeSurface::CellIds() const
   return this->Own->Surface.CellIds;
 }
 
-BoundaryMatch::Result WholeSurface::Match(
+morph::BoundaryTargets WholeSurface::Match(
   vtkPointSet* boundary, const BoundaryMatch::Options& options) const
 {
   const Internals& own = *this->Own;
   RankMatch::Gathered gathered = RankMatch::Gather(boundary, own.Whole(), options);
-  BoundaryMatch::Result result;
+  morph::BoundaryTargets result;
   own.Mesh.Ranks().together(
     [&]
     {
-      BoundaryMatch::NamedPoints& named = gathered.Points;
+      morph::NamedPoints& named = gathered.Points;
       if (gathered.ByPosition)
       {
-        named.Pairs = BoundaryMatch::FindByPosition(named.Positions, own.Surface.Shell,
-          own.Surface.Faces.nodes, options.MatchTolerance * this->Size(), named.Unmatched);
+        named.pairs = BoundaryMatch::FindByPosition(named.positions, own.Surface.Shell,
+          own.Surface.Faces.nodes, options.matchTolerance * this->Size(), named.unmatched);
       }
       else
       {
         std::vector<std::pair<Index, Index>> pairs;
-        for (const auto& [point, id] : named.Pairs)
+        for (const auto& [point, id] : named.pairs)
         {
           if (const Index node = this->NodeOf(id); node >= 0)
           {
             pairs.emplace_back(point, node);
           }
         }
-        named.Pairs = std::move(pairs);
+        named.pairs = std::move(pairs);
       }
-      result = BoundaryMatch::FindTargets(std::move(named), own.Surface.Shell, own.Surface.Faces,
+      const Index rounded =
+        BoundaryMatch::TakeBackRounding(gathered.PointPrecision, own.Surface.Shell, named);
+      result = morph::findTargets(std::move(named), own.Surface.Shell, own.Surface.Faces,
         this->Size(), options, &own.Surface.NodeIds);
-      BoundaryMatch::Conclude(this->Size(), options, result);
+      BoundaryMatch::Conclude(this->Size(), options, gathered.PointPrecision, rounded, result);
     });
   return result;
 }

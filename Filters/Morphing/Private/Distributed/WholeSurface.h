@@ -15,14 +15,8 @@
 #include <utility>
 #include <vector>
 
-class vtkPointSet;
 class vtkPolyData;
 class vtkUnstructuredGrid;
-
-namespace morph
-{
-class Monitor;
-}
 
 namespace morph::filters
 {
@@ -78,7 +72,7 @@ public:
   ///@}
   /// BoundaryMatch::Match() for the nodes of Grid(). `boundary`: the points of this process. Inner
   /// nodes that it names are left out. Collective.
-  BoundaryMatch::Result Match(vtkPointSet* boundary, const BoundaryMatch::Options& options) const;
+  morph::BoundaryTargets Match(vtkPointSet* boundary, const BoundaryMatch::Options& options) const;
 
   /// Calls `work`, the same on each process, which must not communicate; throws as
   /// Ranks::Together() does. A message with ids says of what they are. Collective.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Private/Morph/BoundaryMatch.h"
 
+#include "Mesh/Extent.h"
+#include "Private/Data/AffineArrays.h"
 #include "Private/Data/DataCheck.h"
 #include "Private/Data/GridMesh.h"
 #include "Private/Data/Surface.h"
@@ -36,7 +38,7 @@ using morph::Error;
 using morph::Index;
 using morph::Points;
 
-using Pairs = std::vector<std::pair<Index, Index>>; // see BoundaryMatch::NamedPoints
+using Pairs = std::vector<std::pair<Index, Index>>; // see NamedPoints
 
 std::string quoted(const std::string& name)
 {
@@ -107,127 +109,6 @@ vtkDataArray* requireArray(
                 " needs " + std::to_string(components) + ".");
   }
   return array;
-}
-
-/// `points`: of the boundary; the array may be longer.
-Pairs byIds(vtkDataArray* ids, Index points, Index nodes)
-{
-  const std::string name = quoted(ids->GetName());
-  if (ids->GetNumberOfComponents() != 1)
-  {
-    throw Error("The boundary's point array " + name + " has " +
-                std::to_string(ids->GetNumberOfComponents()) + " components; ids have one.");
-  }
-  Pairs pairs;
-  pairs.reserve(points);
-  std::vector<Index> outside, fractional; // boundary points
-  for (Index i = 0; i < points; ++i)
-  {
-    const double value = ids->GetComponent(i, 0);
-    if (!(std::floor(value) == value))
-    {
-      fractional.push_back(i);
-    }
-    else if (value < 0 || value >= static_cast<double>(nodes))
-    {
-      outside.push_back(i);
-    }
-    else
-    {
-      pairs.emplace_back(i, static_cast<Index>(value));
-    }
-  }
-  if (!fractional.empty())
-  {
-    throw Error("The boundary's point array " + name +
-                " holds values that are not whole numbers, at its points " +
-                morph::listIds(fractional) +
-                ". A filter has interpolated the ids: use one that keeps the points.");
-  }
-  if (!outside.empty())
-  {
-    throw Error("The boundary's point array " + name + " holds ids outside the grid's 0 to " +
-                std::to_string(nodes - 1) + ", " + text(ids->GetComponent(outside.front(), 0)) +
-                " for instance, at its points " + morph::listIds(outside) +
-                ". Make the boundary from this grid, with Extract Morph Boundary.");
-  }
-  return pairs;
-}
-
-Pairs byPosition(const Points& positions, const morph::Mesh& rest, const std::vector<Index>& outer,
-  double tolerance, Index& unmatched)
-{
-  vtkNew<vtkDoubleArray> coordinates;
-  coordinates->SetNumberOfComponents(3);
-  // The locator only reads, and VTK has no constant arrays.
-  coordinates->SetArray(const_cast<double*>(rest.points.data()), rest.points.size(), 1);
-  vtkNew<vtkPoints> points;
-  points->SetData(coordinates);
-  vtkNew<vtkPolyData> nodes;
-  nodes->SetPoints(points);
-  vtkNew<vtkStaticPointLocator> locator;
-  locator->SetDataSet(nodes);
-  locator->BuildLocator();
-
-  Pairs pairs;
-  // The locator turns places into bucket numbers, and those far outside overflow.
-  const Eigen::AlignedBox3d box(
-    rest.points.colwise().minCoeff().transpose() - Eigen::Vector3d::Constant(tolerance),
-    rest.points.colwise().maxCoeff().transpose() + Eigen::Vector3d::Constant(tolerance));
-  std::vector<std::uint8_t> taken(rest.numberOfNodes(), 0);
-  for (Index i = 0; i < positions.rows(); ++i)
-  {
-    double distance2 = 0;
-    const vtkIdType closest =
-      box.contains(positions.row(i).transpose())
-        ? locator->FindClosestPointWithinRadius(tolerance, positions.row(i).data(), distance2)
-        : -1;
-    if (closest < 0)
-    {
-      ++unmatched;
-      continue;
-    }
-    pairs.emplace_back(i, closest);
-    taken[closest] = 1;
-  }
-
-  // Bodies that touch have a node each in the same place, but for rounding: an outer node that no
-  // point is closest to goes along with the nearest node that has one.
-  struct Companion
-  {
-    Index Node;
-    double Distance2;
-    Index Point;
-    bool operator<(const Companion& other) const
-    {
-      return std::tie(Node, Distance2, Point) < std::tie(other.Node, other.Distance2, other.Point);
-    }
-  };
-  std::vector<Companion> companions;
-  vtkNew<vtkIdList> near;
-  for (const auto& [point, closest] : pairs)
-  {
-    const auto center = rest.points.row(closest);
-    locator->FindPointsWithinRadius(tolerance, center.data(), near);
-    for (vtkIdType k = 0; k < near->GetNumberOfIds(); ++k)
-    {
-      const Index node = near->GetId(k);
-      if (!taken[node] && std::binary_search(outer.begin(), outer.end(), node))
-      {
-        companions.push_back({ node, (rest.points.row(node) - center).squaredNorm(), point });
-      }
-    }
-  }
-  std::sort(companions.begin(), companions.end());
-  for (const Companion& companion : companions)
-  {
-    if (!taken[companion.Node])
-    {
-      taken[companion.Node] = 1;
-      pairs.emplace_back(companion.Point, companion.Node);
-    }
-  }
-  return pairs;
 }
 
 /// Ids that nothing verifies, and that may number the boundary instead of the grid, show by naming
@@ -313,23 +194,25 @@ void requireCellsOfMesh(vtkPointSet* boundary, const Pairs& pairs, const morph::
 }
 
 /// Frees the points whose displacement is NaN, or where the mask, if there is one, is 0.
-void freeValueless(vtkDataArray* mask, BoundaryMatch::NamedPoints& named)
+void freeValueless(vtkDataArray* mask, morph::NamedPoints& named)
 {
-  named.IsFree.resize(named.Positions.rows(), 0);
-  for (Index i = 0; i < named.Positions.rows(); ++i)
+  named.isFree.resize(named.positions.rows(), 0);
+  for (Index i = 0; i < named.positions.rows(); ++i)
   {
-    if (DataCheck::IsMissing(named.Displacements.row(i), mask, i))
+    if (DataCheck::IsMissing(named.displacements.row(i), mask, i))
     {
-      named.IsFree[i] = 1;
-      ++named.Valueless;
+      named.isFree[i] = 1;
+      ++named.valueless;
     }
   }
 }
 
-Pairs findNodes(vtkPointSet* boundary, const Points& positions, const morph::Mesh& rest,
-  const std::vector<Index>& outer, double tolerance, const BoundaryMatch::Options& options,
-  BoundaryMatch::Result& result)
+/// `named`: without its pairs; gets the number of unmatched points.
+Pairs findNodes(vtkPointSet* boundary, const morph::Mesh& rest, const std::vector<Index>& outer,
+  double tolerance, const BoundaryMatch::Options& options, morph::NamedPoints& named,
+  std::vector<std::string>& warnings)
 {
+  const Points& positions = named.positions;
   const Index nodes = rest.numberOfNodes();
   const auto verified = [&](Pairs pairs)
   {
@@ -341,7 +224,7 @@ Pairs findNodes(vtkPointSet* boundary, const Points& positions, const morph::Mes
   };
   if (vtkDataArray* ids = BoundaryMatch::FindIds(boundary, options))
   {
-    return verified(byIds(ids, positions.rows(), nodes));
+    return verified(BoundaryMatch::FindByIds(ids, nodes));
   }
   if (positions.rows() == nodes)
   {
@@ -356,29 +239,29 @@ Pairs findNodes(vtkPointSet* boundary, const Points& positions, const morph::Mes
   }
   if (vtkDataArray* ids = findArray(boundary, "PointIds"))
   {
-    Pairs pairs = byIds(ids, positions.rows(), nodes);
-    warnOfInteriorNodes(ids, pairs, outer, result.Warnings);
+    Pairs pairs = BoundaryMatch::FindByIds(ids, nodes);
+    warnOfInteriorNodes(ids, pairs, outer, warnings);
     return verified(std::move(pairs));
   }
   if (vtkDataArray* ids = findArray(boundary, "vtkOriginalPointIds"))
   {
-    Pairs pairs = byIds(ids, positions.rows(), nodes);
-    warnOfInteriorNodes(ids, pairs, outer, result.Warnings);
-    result.Warnings.emplace_back(
+    Pairs pairs = BoundaryMatch::FindByIds(ids, nodes);
+    warnOfInteriorNodes(ids, pairs, outer, warnings);
+    warnings.emplace_back(
       "The boundary's points are matched by 'vtkOriginalPointIds', which filters pass on even "
       "where "
       "it numbers the points of another data set. Extract Morph Boundary writes ids that can be "
       "checked.");
     return verified(std::move(pairs));
   }
-  if (!options.DisplacementArray.empty())
+  if (!options.displacementArray.empty())
   {
-    Pairs pairs = byPosition(positions, rest, outer, tolerance, result.Unmatched);
+    Pairs pairs = BoundaryMatch::FindByPosition(positions, rest, outer, tolerance, named.unmatched);
     if (pairs.empty())
     {
       throw Error(
         "None of the boundary's " + std::to_string(positions.rows()) +
-        " points is within MatchTolerance (" + text(options.MatchTolerance) +
+        " points is within MatchTolerance (" + text(options.matchTolerance) +
         " of the grid's size) of a node of the grid. Where a DisplacementArray is set, the points "
         "have to be undeformed.");
     }
@@ -404,22 +287,132 @@ vtkDataArray* FindIds(vtkPointSet* boundary, const Options& options)
 
 Pairs FindByIds(vtkDataArray* ids, Index nodes)
 {
-  return byIds(ids, ids->GetNumberOfTuples(), nodes);
+  const std::string name = quoted(ids->GetName());
+  if (ids->GetNumberOfComponents() != 1)
+  {
+    throw Error("The boundary's point array " + name + " has " +
+                std::to_string(ids->GetNumberOfComponents()) + " components; ids have one.");
+  }
+  const Index points = ids->GetNumberOfTuples();
+  Pairs pairs;
+  pairs.reserve(points);
+  std::vector<Index> outside, fractional; // boundary points
+  for (Index i = 0; i < points; ++i)
+  {
+    const double value = ids->GetComponent(i, 0);
+    if (!(std::floor(value) == value))
+    {
+      fractional.push_back(i);
+    }
+    else if (value < 0 || value >= static_cast<double>(nodes))
+    {
+      outside.push_back(i);
+    }
+    else
+    {
+      pairs.emplace_back(i, static_cast<Index>(value));
+    }
+  }
+  if (!fractional.empty())
+  {
+    throw Error("The boundary's point array " + name +
+                " holds values that are not whole numbers, at its points " +
+                morph::listIds(fractional) +
+                ". A filter has interpolated the ids: use one that keeps the points.");
+  }
+  if (!outside.empty())
+  {
+    throw Error("The boundary's point array " + name + " holds ids outside the grid's 0 to " +
+                std::to_string(nodes - 1) + ", " + text(ids->GetComponent(outside.front(), 0)) +
+                " for instance, at its points " + morph::listIds(outside) +
+                ". Make the boundary from this grid, with Extract Morph Boundary.");
+  }
+  return pairs;
 }
 
 Pairs FindByPosition(const Points& positions, const morph::Mesh& rest,
   const std::vector<Index>& outer, double tolerance, Index& unmatched)
 {
-  return byPosition(positions, rest, outer, tolerance, unmatched);
+  vtkNew<vtkDoubleArray> coordinates;
+  coordinates->SetNumberOfComponents(3);
+  // The locator only reads, and VTK has no constant arrays.
+  coordinates->SetArray(const_cast<double*>(rest.points.data()), rest.points.size(), 1);
+  vtkNew<vtkPoints> points;
+  points->SetData(coordinates);
+  vtkNew<vtkPolyData> nodes;
+  nodes->SetPoints(points);
+  vtkNew<vtkStaticPointLocator> locator;
+  locator->SetDataSet(nodes);
+  locator->BuildLocator();
+
+  Pairs pairs;
+  // The locator turns places into bucket numbers, and those far outside overflow.
+  const Eigen::AlignedBox3d box(
+    rest.points.colwise().minCoeff().transpose() - Eigen::Vector3d::Constant(tolerance),
+    rest.points.colwise().maxCoeff().transpose() + Eigen::Vector3d::Constant(tolerance));
+  std::vector<std::uint8_t> taken(rest.numberOfNodes(), 0);
+  for (Index i = 0; i < positions.rows(); ++i)
+  {
+    double distance2 = 0;
+    const vtkIdType closest =
+      box.contains(positions.row(i).transpose())
+        ? locator->FindClosestPointWithinRadius(tolerance, positions.row(i).data(), distance2)
+        : -1;
+    if (closest < 0)
+    {
+      ++unmatched;
+      continue;
+    }
+    pairs.emplace_back(i, closest);
+    taken[closest] = 1;
+  }
+
+  // Bodies that touch have a node each in the same place, but for rounding: an outer node that no
+  // point is closest to goes along with the nearest node that has one.
+  struct Companion
+  {
+    Index Node;
+    double Distance2;
+    Index Point;
+    bool operator<(const Companion& other) const
+    {
+      return std::tie(Node, Distance2, Point) < std::tie(other.Node, other.Distance2, other.Point);
+    }
+  };
+  std::vector<Companion> companions;
+  vtkNew<vtkIdList> near;
+  for (const auto& [point, closest] : pairs)
+  {
+    const auto center = rest.points.row(closest);
+    locator->FindPointsWithinRadius(tolerance, center.data(), near);
+    for (vtkIdType k = 0; k < near->GetNumberOfIds(); ++k)
+    {
+      const Index node = near->GetId(k);
+      if (!taken[node] && std::binary_search(outer.begin(), outer.end(), node))
+      {
+        companions.push_back({ node, (rest.points.row(node) - center).squaredNorm(), point });
+      }
+    }
+  }
+  std::sort(companions.begin(), companions.end());
+  for (const Companion& companion : companions)
+  {
+    if (!taken[companion.Node])
+    {
+      taken[companion.Node] = 1;
+      pairs.emplace_back(companion.Point, companion.Node);
+    }
+  }
+  return pairs;
 }
 
-NamedPoints ReadPoints(vtkPointSet* boundary, const Options& options)
+morph::NamedPoints ReadPoints(vtkPointSet* boundary, const Options& options, Precision& precision)
 {
-  NamedPoints named;
-  named.Positions = GridMesh::FromPoints(boundary->GetPoints());
-  if (options.DisplacementArray.empty())
+  morph::NamedPoints named;
+  named.positions = GridMesh::FromPoints(boundary->GetPoints());
+  if (options.displacementArray.empty())
   {
-    named.PointPrecision = Precision::Of(boundary->GetPoints(), named.Positions);
+    precision = Precision::Of(boundary->GetPoints(), named.positions);
   }
   if (vtkDataArray* array = findArray(boundary, Surface::RestName))
   {
@@ -431,43 +424,125 @@ NamedPoints ReadPoints(vtkPointSet* boundary, const Options& options)
         " components; a position has three. Rename it, or make the boundary with Extract Morph "
         "Boundary.");
     }
-    named.Rest = GridMesh::FromVectors(array);
+    named.rest = GridMesh::FromVectors(array);
   }
   if (vtkDataArray* marks = findArray(boundary, Surface::FreeName))
   {
-    named.IsFree.resize(boundary->GetNumberOfPoints());
-    for (std::size_t i = 0; i < named.IsFree.size(); ++i)
+    named.isFree.resize(boundary->GetNumberOfPoints());
+    for (std::size_t i = 0; i < named.isFree.size(); ++i)
     {
-      named.IsFree[i] = marks->GetComponent(static_cast<vtkIdType>(i), 0) != 0;
+      named.isFree[i] = marks->GetComponent(static_cast<vtkIdType>(i), 0) != 0;
     }
   }
-  if (!options.DisplacementArray.empty())
+  if (!options.displacementArray.empty())
   {
-    named.Displacements = GridMesh::FromVectors(
-      requireArray(boundary, options.DisplacementArray, "DisplacementArray", 3));
+    named.displacements = GridMesh::FromVectors(
+      requireArray(boundary, options.displacementArray, "DisplacementArray", 3));
     freeValueless(findArray(boundary, DataCheck::MaskName), named);
   }
   return named;
 }
 
-Result Match(vtkPointSet* boundary, const morph::Mesh& rest, const morph::BoundaryFaces& outer,
-  double size, const Options& options)
+Index TakeBackRounding(
+  const Precision& precision, const morph::Mesh& rest, morph::NamedPoints& named)
+{
+  Index rounded = 0;
+  if (named.displacements.rows() > 0)
+  {
+    return rounded;
+  }
+  for (const auto& [point, node] : named.pairs)
+  {
+    const auto from = rest.points.row(node);
+    auto to = named.positions.row(point);
+    const bool isFree = !named.isFree.empty() && named.isFree[point] != 0;
+    for (int j = 0; j < 3 && !isFree && morph::isModerate(to); ++j)
+    {
+      if (to[j] != from[j] && precision.IsRounded(to[j], from[j]))
+      {
+        to[j] = from[j];
+        ++rounded;
+      }
+    }
+  }
+  return rounded;
+}
+
+void Conclude(double size, const Options& options, const Precision& precision, Index rounded,
+  morph::BoundaryTargets& result)
+{
+  morph::conclude(options, result);
+  if ((rounded > 0 || precision.IsFloat) && options.displacementArray.empty() &&
+      precision.Step() > 2 * options.matchTolerance * size)
+  {
+    result.warnings.push_back(
+      "The boundary has " + precision.Text() +
+      ". What is nearer to its old place than that stays, and what moves is as far off. Give the "
+      "boundary in double precision, or displacements (DisplacementArray), or coordinates with "
+      "an origin near the mesh.");
+  }
+}
+
+morph::BoundaryTargets Match(vtkPointSet* boundary, const morph::Mesh& rest,
+  const morph::BoundaryFaces& outer, double size, const Options& options)
 {
   if (boundary->GetNumberOfPoints() == 0)
   {
     throw Error("The boundary has no points, so nothing says where the mesh goes.");
   }
-  NamedPoints named = ReadPoints(boundary, options);
-  Result result;
-  named.Pairs = findNodes(
-    boundary, named.Positions, rest, outer.nodes, options.MatchTolerance * size, options, result);
-  named.Unmatched = result.Unmatched;
-  Result found = FindTargets(std::move(named), rest, outer, size, options);
-  found.Warnings = std::move(result.Warnings);
-  CountStaying(
+  Precision precision;
+  morph::NamedPoints named = ReadPoints(boundary, options, precision);
+  std::vector<std::string> warnings;
+  named.pairs =
+    findNodes(boundary, rest, outer.nodes, options.matchTolerance * size, options, named, warnings);
+  const Index rounded = TakeBackRounding(precision, rest, named);
+  morph::BoundaryTargets found = morph::findTargets(std::move(named), rest, outer, size, options);
+  found.warnings = std::move(warnings);
+  morph::countStaying(
     rest, outer, [](Index) { return true; }, found);
-  Conclude(size, options, found);
+  Conclude(size, options, precision, rounded, found);
   return found;
+}
+
+std::optional<morph::Session::AffineHandle> FindHandle(vtkPointSet* boundary,
+  const morph::BoundaryTargets& match, const morph::Mesh& rest, double scale, bool isFloat)
+{
+  const auto found = AffineArrays::Read(boundary);
+  if (!found || match.ids.empty())
+  {
+    return {};
+  }
+  morph::Session::AffineHandle handle;
+  handle.motion = scale * found->Motion;
+  handle.fields = morph::AffineFields::Zero(match.targets.rows(), 4);
+  double size = match.targets.cwiseAbs().maxCoeff(), before = 0;
+  for (const morph::Index node : match.ids)
+  {
+    before = std::max(before, rest.points.row(node).cwiseAbs().maxCoeff());
+  }
+  size += before;
+  const bool isSingle = isFloat && boundary->GetPoints()->GetDataType() == VTK_FLOAT;
+  const double tolerance = AffineArrays::Rounding(size, isSingle);
+  auto* doubles = vtkDoubleArray::FastDownCast(found->Fields);
+  const double* fields = doubles ? doubles->GetPointer(0) : nullptr;
+  for (morph::Index i = 0; i < handle.fields.rows(); ++i)
+  {
+    if (match.sources[i] >= 0 && fields)
+    {
+      std::copy_n(fields + 4 * match.sources[i], 4, handle.fields.row(i).data());
+    }
+    else if (match.sources[i] >= 0)
+    {
+      found->Fields->GetTuple(match.sources[i], handle.fields.row(i).data());
+    }
+    const Eigen::RowVector3d place = rest.points.row(match.ids[i]) +
+                                     morph::affineDisplacement(handle.motion, handle.fields.row(i));
+    if (!((place - match.targets.row(i)).cwiseAbs().maxCoeff() <= tolerance)) // NaN, too
+    {
+      return {};
+    }
+  }
+  return handle;
 }
 }
 }

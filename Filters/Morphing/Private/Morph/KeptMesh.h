@@ -1,28 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Mesh/Mesh.h"
-#include "Mesh/Topology.h"
 #include "Private/Data/MovedSurface.h"
 #include "Private/Data/Unchanged.h"
-#include "Quality/InvertedBefore.h"
+#include "Session/UndeformedMesh.h"
 
-#include <cstdint>
 #include <memory>
-#include <optional>
-#include <vector>
 
 class vtkPolyData;
 class vtkUnstructuredGrid;
 
-namespace morph
-{
-class Monitor;
-}
-
 namespace morph::filters
 {
-/// The undeformed mesh of a filter, kept from one execution to the next, with what follows from it.
+/// The grid of a filter as a mesh and its surface, kept from one execution to the next.
 class KeptMesh
 {
 public:
@@ -32,24 +22,13 @@ public:
   bool Take(vtkUnstructuredGrid* grid, morph::Monitor& monitor);
 
   /// Whether Surface() has lines along sharp edges; see MovedSurface. After Take().
-  void SetFeatureLines(bool on) { this->Polygons.SetFeatureLines(on, *this->Copy, this->Outer); }
+  void SetFeatureLines(bool on)
+  {
+    this->Polygons.SetFeatureLines(on, this->Copy->mesh(), this->Copy->outerFaces());
+  }
 
-  const morph::Mesh& Mesh() const { return *this->Copy; }
-  /// The same, for a method that keeps it.
-  const std::shared_ptr<const morph::Mesh>& SharedMesh() const { return this->Copy; }
-  const morph::BoundaryFaces& OuterFaces() const { return this->Outer; }
-  /// See GridMesh::Size.
-  double Size() const { return this->Diameter; }
-  /// #cells; see Topology.h.
-  const std::vector<std::int8_t>& Orientation() const { return this->Signs; }
-  morph::Index MirroredBodies() const { return this->Mirrored; }
-  /// Cells that are there twice, and nodes where bodies touch by chance; see SharedCorners.h.
-  ///@{
-  const std::vector<morph::Index>& RepeatedCells() const { return this->Repeated; }
-  const std::vector<morph::Index>& TouchingNodes() const { return this->Touching; }
-  ///@}
-  /// Cost of the first call: a measure of the mesh.
-  const morph::InvertedBefore& Before(morph::Monitor& monitor) const;
+  /// The same object while the grid stays the same.
+  const std::shared_ptr<const morph::UndeformedMesh>& Rest() const { return this->Copy; }
   /// The outer faces as polygons that are made once.
   const MovedSurface& Surface() const { return this->Polygons; }
   /// Fills `surface` with the outer faces of `grid`, which may be the kept mesh or another, without
@@ -58,13 +37,7 @@ public:
 
 private:
   Unchanged Taken; ///< the grid that is the same as Copy
-  std::shared_ptr<const morph::Mesh> Copy = std::make_shared<morph::Mesh>();
-  morph::BoundaryFaces Outer;
+  std::shared_ptr<const morph::UndeformedMesh> Copy = std::make_shared<morph::UndeformedMesh>();
   MovedSurface Polygons;
-  double Diameter = 0;
-  std::vector<std::int8_t> Signs;
-  morph::Index Mirrored = 0;
-  std::vector<morph::Index> Repeated, Touching;
-  mutable std::optional<morph::InvertedBefore> Inverted; ///< of Copy, once it was asked for
 };
 }

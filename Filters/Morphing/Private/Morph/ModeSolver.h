@@ -13,14 +13,8 @@
 #include <memory>
 #include <vector>
 
-class vtkPointSet;
 class vtkPolyData;
 class vtkUnstructuredGrid;
-
-namespace morph
-{
-class Monitor;
-}
 
 namespace morph::filters
 {
@@ -61,7 +55,7 @@ public:
   virtual std::int64_t NodeId(morph::Index node) const = 0;
 
   /// BoundaryMatch::Match(). Of Sources the signs alone are known on several processes.
-  virtual BoundaryMatch::Result Match(
+  virtual morph::BoundaryTargets Match(
     vtkPointSet* boundary, const BoundaryMatch::Options& options) const = 0;
   /// Prepares the method for these nodes of Mesh(), ascending.
   virtual void Prepare(std::unique_ptr<morph::LinearMorpher> method,

@@ -2,13 +2,14 @@
 #include "Private/Morph/MorphOutput.h"
 
 #include "Private/Data/BadCells.h"
-#include "Private/Data/MeshNotes.h"
 #include "Private/Data/Output.h"
 #include "Private/Data/Quality.h"
 #include "Private/Data/Results.h"
-#include "Private/Morph/Session.h"
+#include "Private/Morph/KeptMesh.h"
 #include "Private/Pipeline/Input.h"
 #include "Quality/ScaledJacobian.h"
+#include "Session/Series.h"
+#include "Session/UndeformedMesh.h"
 
 #include <vtkDataObject.h>
 #include <vtkPolyData.h>
@@ -23,34 +24,34 @@ namespace morph::filters::MorphOutput
 namespace
 {
 /// Measures all cells, and writes what follows from it.
-void measureAll(const Session& session, const StepResult& step, Measures measures,
+void measureAll(const KeptMesh& kept, const morph::StepResult& step, Measures measures,
   vtkPointSet* boundary, Results& results, vtkUnstructuredGrid* output,
   vtkUnstructuredGrid* badCells, vtkPolyData* surface, morph::Monitor& monitor)
 {
-  const KeptMesh& kept = session.GetKept();
+  const morph::UndeformedMesh& rest = *kept.Rest();
   const bool known =
-    !step.Valid.Measured.scaledJacobian.empty() && Quality::IsThatOfComputed(output);
+    !step.valid.measured.scaledJacobian.empty() && Quality::IsThatOfComputed(output);
   const morph::Quality measured =
-    known ? morph::Quality() : Quality::Measure(kept.Mesh(), output, kept.Orientation(), monitor);
-  const morph::Quality& quality = known ? step.Valid.Measured : measured;
-  const Quality::Judged judged = Quality::Judge(kept.Before(monitor), quality, output);
+    known ? morph::Quality() : Quality::Measure(rest.mesh(), output, rest.orientation(), monitor);
+  const morph::Quality& quality = known ? step.valid.measured : measured;
+  const Quality::Judged judged = Quality::Judge(rest.before(monitor), quality, output);
   SetStatus(step, judged.Added, results, &monitor);
   results.Set(judged);
   Quality::Write(quality, output);
   results.Set(quality);
   results.SetNumber("WorstMeanScaledJacobian", morph::worstMean(quality));
-  results.SetNumber("BoundaryMinimum", step.BoundaryMinimum);
+  results.SetNumber("BoundaryMinimum", step.boundaryMinimum);
   if (measures.Certify)
   {
     const morph::CertificateReport report =
-      Quality::Certify(kept.Mesh(), output, kept.Orientation(), {}, monitor);
+      Quality::Certify(rest.mesh(), output, rest.orientation(), {}, monitor);
     Quality::Write(report, output);
     results.Set(report);
   }
   if (measures.Cross)
   {
     const Crossings::Found found = Crossings::Find(
-      kept.Mesh(), kept.OuterFaces(), kept.Orientation(), output, boundary, monitor);
+      rest.mesh(), rest.outerFaces(), rest.orientation(), output, boundary, monitor);
     if (found.Faces > 0)
     {
       monitor.warn(found.Warning);
@@ -63,53 +64,54 @@ void measureAll(const Session& session, const StepResult& step, Measures measure
 }
 
 /// Measures the cells behind the outer faces alone.
-void measureSurface(const Session& session, Results& results, vtkUnstructuredGrid* output,
+void measureSurface(const KeptMesh& kept, Results& results, vtkUnstructuredGrid* output,
   vtkPolyData* surface, morph::Monitor& monitor)
 {
-  const KeptMesh& kept = session.GetKept();
+  const morph::UndeformedMesh& rest = *kept.Rest();
   const morph::Quality quality =
-    Quality::Measure(kept.Mesh(), output, kept.Orientation(), kept.Surface().OuterCells(), monitor);
+    Quality::Measure(rest.mesh(), output, rest.orientation(), kept.Surface().OuterCells(), monitor);
   results.SetInteger(
     "SurfaceInvertedCells", kept.Surface().Write(output->GetPoints(), quality, surface));
   results.SetText("MorphStatus", "Unmeasured");
 }
 }
 
-void WriteMesh(const Session& session, const morph::Points& moved, int precision,
+void WriteMesh(const KeptMesh& kept, const morph::Points& moved, int precision,
   vtkUnstructuredGrid* grid, vtkUnstructuredGrid* output, morph::Monitor& monitor)
 {
-  Output::Write(grid, session.GetKept().Mesh().points, moved, precision, output, monitor);
+  Output::Write(grid, kept.Rest()->mesh().points, moved, precision, output, monitor);
   Quality::Remove(output);
 }
 
-void WriteMeasures(const Session& session, const StepResult& step, Measures measures,
+void WriteMeasures(const KeptMesh& kept, const morph::StepResult& step, Measures measures,
   vtkPointSet* boundary, Results& results, vtkUnstructuredGrid* output,
   vtkUnstructuredGrid* badCells, vtkPolyData* surface, morph::Monitor& monitor)
 {
   if (measures.All)
   {
-    measureAll(session, step, measures, boundary, results, output, badCells, surface, monitor);
+    measureAll(kept, step, measures, boundary, results, output, badCells, surface, monitor);
   }
   else
   {
     badCells->Initialize();
-    measureSurface(session, results, output, surface, monitor);
+    measureSurface(kept, results, output, surface, monitor);
   }
-  MeshNotes::WarnOfLoose(step.Loose, monitor);
+  morph::warnOfLoose(step.loose, monitor);
   WriteCounts(step, results, output);
 }
 
-void SetStatus(const StepResult& step, morph::Index bad, Results& results, morph::Monitor* monitor)
+void SetStatus(
+  const morph::StepResult& step, morph::Index bad, Results& results, morph::Monitor* monitor)
 {
-  const bool isRounded = step.Valid.Status != "Inverted" && bad > 0;
+  const bool isRounded = step.valid.status != "Inverted" && bad > 0;
   if (isRounded && monitor)
   {
     monitor->warn("Rounding to single precision inverts " + std::to_string(bad) +
                   " cells. Set OutputPointsPrecision to double.");
   }
-  results.SetText("MorphStatus", isRounded ? "Inverted" : step.Valid.Status);
+  results.SetText("MorphStatus", isRounded ? "Inverted" : step.valid.status);
   results.SetNumber("LargestValidStep",
-    isRounded ? std::numeric_limits<double>::quiet_NaN() : step.Valid.LargestValidStep);
+    isRounded ? std::numeric_limits<double>::quiet_NaN() : step.valid.largestValidStep);
 }
 
 void SetCrossings(const Crossings::Found& found, Results& results)
@@ -123,15 +125,15 @@ void SetCrossings(const Crossings::Found& found, Results& results)
   }
 }
 
-void WriteCounts(const StepResult& step, Results& results, vtkDataObject* output)
+void WriteCounts(const morph::StepResult& step, Results& results, vtkDataObject* output)
 {
-  results.SetInteger("BoundaryInvertedCells", step.BoundaryInverted);
-  results.SetInteger("SubSteps", step.Valid.SubSteps);
-  results.SetInteger("SolverIterations", step.Iterations);
-  results.SetInteger("PrescribedPoints", step.Prescribed);
-  results.SetInteger("UnmatchedPoints", step.Unmatched);
-  results.SetInteger("AttachedPoints", step.Attached);
-  results.SetCounts(step.Statistics);
+  results.SetInteger("BoundaryInvertedCells", step.boundaryInverted);
+  results.SetInteger("SubSteps", step.valid.subSteps);
+  results.SetInteger("SolverIterations", step.iterations);
+  results.SetInteger("PrescribedPoints", step.prescribed);
+  results.SetInteger("UnmatchedPoints", step.unmatched);
+  results.SetInteger("AttachedPoints", step.attached);
+  results.SetCounts(step.statistics);
   results.Write(output);
 }
 

@@ -251,23 +251,6 @@ Mesh TakeMesh(vtkDataObject* input, Blocks& blocks, int coincidentPoints, Use us
   return mesh;
 }
 
-void RequireVolumeCells(const morph::Mesh& mesh)
-{
-  if (mesh.numberOfCells() == 0)
-  {
-    throw morph::Error("The input has no cells, so there is nothing to morph.");
-  }
-  if (std::none_of(mesh.types.begin(), mesh.types.end(),
-        [](std::uint8_t type) { return morph::cellShape(type)->dimension == 3; }))
-  {
-    throw morph::Error("None of the input's " + std::to_string(mesh.numberOfCells()) +
-                       " cells is a volume cell (the first is a " +
-                       morph::cellShape(mesh.types.front())->name +
-                       "). Tetrahedra, hexahedra, wedges or pyramids are needed.");
-  }
-  DataCheck::RequireExtent(GridMesh::Size(mesh), "The input's volume mesh");
-}
-
 std::string ArrayName(const std::string& name)
 {
   return name == "None" ? std::string() : name;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Mesh/Mesh.h"
+#include "Mesh/Extent.h"
 
 #include <string>
 
@@ -71,9 +71,11 @@ struct Mesh
 Mesh TakeMesh(vtkDataObject* input, Blocks& blocks, int coincidentPoints, Use use,
   const char* filter, morph::Monitor& monitor);
 
-/// Throws morph::Error unless there are cells of dimension 3 that are large enough to compute with
-/// (see DataCheck). All types have to be known to the core.
-void RequireVolumeCells(const morph::Mesh& mesh);
+/// See Mesh/Extent.h.
+inline void RequireVolumeCells(const morph::Mesh& mesh)
+{
+  morph::requireVolumeCells(mesh);
+}
 
 /// The name of an array as a property holds it. Empty for none, or "None", which ParaView's choice
 /// of an array offers.

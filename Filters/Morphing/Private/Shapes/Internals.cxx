@@ -7,11 +7,12 @@
 #include "LinearMethods/SimplexLinear.h"
 #include "LinearMethods/SimplexNaturalNeighbor.h"
 #include "LinearMethods/WeightedResidual.h"
-#include "Private/Data/MeshNotes.h"
 #include "Private/Pipeline/Input.h"
 #include "Private/Shapes/KeptModeSolver.h"
+#include "Session/UndeformedMesh.h"
 #include "Support/Error.h"
 #include "Support/ProgressRange.h"
+#include "Support/Stopwatch.h"
 
 #include <vtkCellData.h>
 #include <vtkDoubleArray.h>
@@ -24,7 +25,6 @@
 #include <vtkUnstructuredGrid.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <memory>
 #include <utility>
@@ -66,10 +66,10 @@ filters::ShapeModes::Options vtkMorphShapes::vtkInternals::Options() const
   filters::ShapeModes::Options options;
   options.Matching.BoundaryIdArray =
     filters::Input::ArrayName(this->Filter->Options->BoundaryIdArray);
-  options.Matching.DisplacementArray =
+  options.Matching.displacementArray =
     filters::Input::ArrayName(this->Filter->Options->DisplacementArray);
-  options.Matching.MatchTolerance = this->Filter->Options->MatchTolerance;
-  options.Matching.FixUnnamedBoundary = this->Filter->Options->FixUnnamedBoundary;
+  options.Matching.matchTolerance = this->Filter->Options->MatchTolerance;
+  options.Matching.fixUnnamedBoundary = this->Filter->Options->FixUnnamedBoundary;
   options.CreateMorpher = [filter = this->Filter]
   { return makeMethod(filter->Options->Method, filter->Options->Tolerance); };
   return options;
@@ -212,18 +212,17 @@ void vtkMorphShapes::vtkInternals::Morph(vtkUnstructuredGrid* grid,
   const std::vector<double> weights =
     this->PresentWeights(boundaries->GetNumberOfInformationObjects(), table, checking);
 
-  const auto start = std::chrono::steady_clock::now();
+  const morph::Stopwatch watch;
   const filters::RankGroup& group = this->Modes.Group();
   group.Together(
     [&] {
       morph::blend(this->Modes.Mesh().points, this->Modes.Weighted(weights), this->Moved, monitor);
     });
   this->Modes.GetSolver()->Attached().apply(this->Moved);
-  this->Results.SetNumber("EvaluateSeconds",
-    group.Maximum(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count()));
+  this->Results.SetNumber("EvaluateSeconds", group.Maximum(watch.seconds()));
   if (group.IsFirst())
   {
-    filters::MeshNotes::WarnOfLoose(this->Modes.GetSolver()->Attached().loose(), monitor);
+    morph::warnOfLoose(this->Modes.GetSolver()->Attached().loose(), monitor);
   }
   morph::ProgressRange writing(monitor, 0.8, 1);
   this->Write(grid, weights, outputs, writing);

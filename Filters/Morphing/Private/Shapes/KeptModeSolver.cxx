@@ -2,12 +2,11 @@
 #include "Private/Shapes/KeptModeSolver.h"
 
 #include "Mesh/NodePartition.h"
-#include "Mesh/Polyhedra.h"
 #include "Morpher/PolyhedralMorpher.h"
 #include "Private/Data/BadCells.h"
-#include "Private/Data/MeshNotes.h"
 #include "Private/Data/Output.h"
 #include "Private/Data/Quality.h"
+#include "Session/UndeformedMesh.h"
 
 #include <vtkPolyData.h>
 #include <vtkUnstructuredGrid.h>
@@ -16,23 +15,6 @@
 
 namespace morph::filters
 {
-namespace
-{
-/// The method, not prepared, for the cells of `mesh`.
-std::unique_ptr<morph::LinearMorpher> forCellsOf(
-  const morph::Mesh& mesh, std::unique_ptr<morph::LinearMorpher> method)
-{
-  if (!morph::hasPolyhedra(mesh))
-  {
-    return method;
-  }
-  // Of a linear method it is a linear one.
-  std::unique_ptr<morph::Morpher> onPieces = morph::morpherForPolyhedra(std::move(method));
-  return std::unique_ptr<morph::LinearMorpher>(
-    dynamic_cast<morph::LinearMorpher*>(onPieces.release()));
-}
-}
-
 bool KeptModeSolver::Take(vtkUnstructuredGrid* grid, const CreateMorpher&, morph::Monitor& monitor)
 {
   const bool isCopied = this->Kept.Take(grid, monitor);
@@ -46,24 +28,28 @@ bool KeptModeSolver::Take(vtkUnstructuredGrid* grid, const CreateMorpher&, morph
 
 void KeptModeSolver::ReportMesh(morph::Monitor& monitor) const
 {
-  MeshNotes::WarnOfShared(this->Kept.RepeatedCells(), this->Kept.TouchingNodes(), monitor);
+  morph::warnOfShared(
+    this->Kept.Rest()->repeatedCells(), this->Kept.Rest()->touchingNodes(), monitor);
 }
 
-BoundaryMatch::Result KeptModeSolver::Match(
+morph::BoundaryTargets KeptModeSolver::Match(
   vtkPointSet* boundary, const BoundaryMatch::Options& options) const
 {
-  return BoundaryMatch::Match(
-    boundary, this->Kept.Mesh(), this->Kept.OuterFaces(), this->Kept.Size(), options);
+  const morph::UndeformedMesh& rest = *this->Kept.Rest();
+  return BoundaryMatch::Match(boundary, rest.mesh(), rest.outerFaces(), rest.size(), options);
 }
 
 void KeptModeSolver::Prepare(std::unique_ptr<morph::LinearMorpher> method,
   const std::vector<morph::Index>& prescribed, morph::Monitor& monitor)
 {
   this->Method.reset();
-  method = forCellsOf(this->Kept.Mesh(), std::move(method));
-  const morph::NodePartition partition = morph::partitionNodes(this->Kept.Mesh(), prescribed);
-  method->prepare(this->Kept.Mesh(), partition, monitor);
-  this->Hanging = morph::AttachedNodes(this->Kept.Mesh(), partition);
+  std::unique_ptr<morph::Morpher> onPieces =
+    morph::morpherForCells(this->Mesh(), std::move(method));
+  // Of a linear method it is a linear one.
+  method.reset(dynamic_cast<morph::LinearMorpher*>(onPieces.release()));
+  const morph::NodePartition partition = morph::partitionNodes(this->Mesh(), prescribed);
+  method->prepare(this->Mesh(), partition, monitor);
+  this->Hanging = morph::AttachedNodes(this->Mesh(), partition);
   this->Method = std::move(method);
 }
 
@@ -76,7 +62,7 @@ std::vector<morph::Points> KeptModeSolver::Basis(const std::vector<morph::Points
 ModeSolver::Measured KeptModeSolver::Write(vtkUnstructuredGrid* grid, const morph::Points& moved,
   int precision, bool all, const Outputs& outputs, morph::Monitor& monitor) const
 {
-  const morph::Mesh& mesh = this->Kept.Mesh();
+  const morph::Mesh& mesh = this->Mesh();
   const MovedSurface& surface = this->Kept.Surface();
   vtkUnstructuredGrid* output = outputs.Mesh;
   Output::Write(grid, mesh.points, moved, precision, output, monitor);

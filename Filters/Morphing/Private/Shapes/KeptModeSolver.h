@@ -13,19 +13,22 @@ public:
   bool Take(
     vtkUnstructuredGrid* grid, const CreateMorpher& create, morph::Monitor& monitor) override;
   void SetFeatureLines(bool on, morph::Monitor&) override { this->Kept.SetFeatureLines(on); }
-  const morph::Mesh& Mesh() const override { return this->Kept.Mesh(); }
-  morph::Index GridNodes() const override { return this->Kept.Mesh().numberOfNodes(); }
-  const std::vector<std::int8_t>& Orientation() const override { return this->Kept.Orientation(); }
-  double Size() const override { return this->Kept.Size(); }
-  morph::Index MirroredBodies() const override { return this->Kept.MirroredBodies(); }
+  const morph::Mesh& Mesh() const override { return this->Kept.Rest()->mesh(); }
+  morph::Index GridNodes() const override { return this->Kept.Rest()->mesh().numberOfNodes(); }
+  const std::vector<std::int8_t>& Orientation() const override
+  {
+    return this->Kept.Rest()->orientation();
+  }
+  double Size() const override { return this->Kept.Rest()->size(); }
+  morph::Index MirroredBodies() const override { return this->Kept.Rest()->mirroredBodies(); }
   void ReportMesh(morph::Monitor& monitor) const override;
   const morph::InvertedBefore& Before(morph::Monitor& monitor) const override
   {
-    return this->Kept.Before(monitor);
+    return this->Kept.Rest()->before(monitor);
   }
   bool Owns(morph::Index) const override { return true; }
   std::int64_t NodeId(morph::Index node) const override { return node; }
-  BoundaryMatch::Result Match(
+  morph::BoundaryTargets Match(
     vtkPointSet* boundary, const BoundaryMatch::Options& options) const override;
   void Prepare(std::unique_ptr<morph::LinearMorpher> method,
     const std::vector<morph::Index>& prescribed, morph::Monitor& monitor) override;

@@ -6,9 +6,9 @@
 #include "Support/Error.h"
 #include "Support/ProgressRange.h"
 #include "Support/ReproducibleSum.h"
+#include "Support/Stopwatch.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <numeric>
@@ -20,7 +20,6 @@ namespace
 {
 using morph::Index;
 using morph::Points;
-using Clock = std::chrono::steady_clock;
 
 /// Calls `work`; an error of it gets the shape's name.
 template <typename Work>
@@ -37,16 +36,16 @@ auto named(const std::string& name, const Work& work)
 }
 
 /// The nodes that any of the shapes names, and those that all hold.
-std::vector<Index> prescribedNodes(const std::vector<BoundaryMatch::Result>& matches, Index nodes)
+std::vector<Index> prescribedNodes(const std::vector<morph::BoundaryTargets>& matches, Index nodes)
 {
   std::vector<std::uint8_t> isNamed(nodes, 0);
   std::vector<std::size_t> count(nodes, 0);
-  for (const BoundaryMatch::Result& match : matches)
+  for (const morph::BoundaryTargets& match : matches)
   {
-    for (std::size_t k = 0; k < match.Ids.size(); ++k)
+    for (std::size_t k = 0; k < match.ids.size(); ++k)
     {
-      ++count[match.Ids[k]];
-      isNamed[match.Ids[k]] |= match.Sources[k] >= 0;
+      ++count[match.ids[k]];
+      isNamed[match.ids[k]] |= match.sources[k] >= 0;
     }
   }
   std::vector<Index> ids;
@@ -62,20 +61,20 @@ std::vector<Index> prescribedNodes(const std::vector<BoundaryMatch::Result>& mat
 
 /// The displacement of each of the `prescribed` nodes, zero for those that the match does not have.
 Points displacementOf(
-  const BoundaryMatch::Result& match, const std::vector<Index>& prescribed, const Points& rest)
+  const morph::BoundaryTargets& match, const std::vector<Index>& prescribed, const Points& rest)
 {
   Points result = Points::Zero(static_cast<Index>(prescribed.size()), 3);
   std::size_t row = 0;
-  for (std::size_t k = 0; k < match.Ids.size(); ++k)
+  for (std::size_t k = 0; k < match.ids.size(); ++k)
   {
-    while (row < prescribed.size() && prescribed[row] < match.Ids[k])
+    while (row < prescribed.size() && prescribed[row] < match.ids[k])
     {
       ++row;
     }
-    if (row < prescribed.size() && prescribed[row] == match.Ids[k])
+    if (row < prescribed.size() && prescribed[row] == match.ids[k])
     {
       result.row(static_cast<Index>(row)) =
-        match.Targets.row(static_cast<Index>(k)) - rest.row(match.Ids[k]);
+        match.targets.row(static_cast<Index>(k)) - rest.row(match.ids[k]);
     }
   }
   return result;
@@ -100,17 +99,17 @@ bool ShapeModes::SetGrid(vtkUnstructuredGrid* grid, RankGroup::Of processes, con
   return isTaken;
 }
 
-std::vector<BoundaryMatch::Result> ShapeModes::Match(
+std::vector<morph::BoundaryTargets> ShapeModes::Match(
   const std::vector<Shape>& shapes, const Options& options, morph::Monitor& monitor)
 {
-  std::vector<BoundaryMatch::Result> matches;
+  std::vector<morph::BoundaryTargets> matches;
   this->Warnings.clear();
   this->Processes.Together([&] { monitor.check(); });
   for (const Shape& shape : shapes)
   {
     matches.push_back(
       named(shape.Name, [&] { return this->Solver->Match(shape.Boundary, options.Matching); }));
-    for (const std::string& warning : matches.back().Warnings)
+    for (const std::string& warning : matches.back().warnings)
     {
       if (this->Processes.IsFirst())
       {
@@ -168,7 +167,7 @@ std::pair<morph::AxisRotation, std::vector<Index>> ShapeModes::RotationOf(
   }
 }
 
-ShapeModes::Solved ShapeModes::Describe(const Shape& shape, const BoundaryMatch::Result& match,
+ShapeModes::Solved ShapeModes::Describe(const Shape& shape, const morph::BoundaryTargets& match,
   const std::vector<Index>& prescribed, double tolerance, std::vector<Mode>& modes) const
 {
   const Points& rest = this->Mesh().points;
@@ -240,21 +239,21 @@ std::vector<int> ShapeModes::FindKept(const std::vector<Mode>& modes) const
 ShapeModes::Effort ShapeModes::Solve(
   const std::vector<Shape>& shapes, const Options& options, morph::Monitor& monitor)
 {
-  const std::vector<BoundaryMatch::Result> matches = this->Match(shapes, options, monitor);
+  const std::vector<morph::BoundaryTargets> matches = this->Match(shapes, options, monitor);
   const std::vector<Index> prescribed = prescribedNodes(matches, this->Mesh().numberOfNodes());
   std::vector<Mode> modes;
   std::vector<Solved> solved;
   for (std::size_t i = 0; i < shapes.size(); ++i)
   {
     solved.push_back(this->Describe(shapes[i], matches[i], prescribed,
-      options.Matching.MatchTolerance * this->Solver->Size(), modes));
+      options.Matching.matchTolerance * this->Solver->Size(), modes));
   }
 
   Effort effort;
   effort.Prescribed = std::count_if(
     prescribed.begin(), prescribed.end(), [this](Index node) { return this->Solver->Owns(node); });
   this->Processes.Sum(&effort.Prescribed, 1);
-  const auto start = Clock::now();
+  const morph::Stopwatch watch;
   morph::ProgressRange preparing(monitor, 0, 0.5);
   this->Prepare(prescribed, options, effort, preparing);
   // The kept fields are replaced only once all are there: after an error or abort they stay.
@@ -285,8 +284,7 @@ ShapeModes::Effort ShapeModes::Solve(
   effort.Solved = static_cast<int>(open.size());
   if (effort.Preparations + effort.Solved > 0)
   {
-    effort.Seconds =
-      this->Processes.Maximum(std::chrono::duration<double>(Clock::now() - start).count());
+    effort.Seconds = this->Processes.Maximum(watch.seconds());
   }
   this->Modes = std::move(modes);
   this->Shapes = std::move(solved);

@@ -105,10 +105,10 @@ private:
     double Angle = 0;               ///< of a rotation in radians; 0 for a displacement
   };
 
-  std::vector<BoundaryMatch::Result> Match(
+  std::vector<morph::BoundaryTargets> Match(
     const std::vector<Shape>& shapes, const Options& options, morph::Monitor& monitor);
   /// Adds the boundary displacements of one shape to `modes`, not solved.
-  Solved Describe(const Shape& shape, const BoundaryMatch::Result& match,
+  Solved Describe(const Shape& shape, const morph::BoundaryTargets& match,
     const std::vector<morph::Index>& prescribed, double tolerance, std::vector<Mode>& modes) const;
   void Prepare(const std::vector<morph::Index>& prescribed, const Options& options, Effort& effort,
     morph::Monitor& monitor);

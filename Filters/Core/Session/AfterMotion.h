@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Mesh/Mesh.h"
+#include "Mesh/NodePartition.h"
+#include "Support/Monitor.h"
+#include "Untangling/SmoothMesh.h"
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+namespace morph
+{
+class Morpher;
+
+/// Sets what `method` needs on the pieces of polyhedra (PolyhedronPieces.h), if it is the
+/// inversion-free one.
+void adaptToPieces(Morpher& method);
+
+/// Repairs a mesh with polyhedra, its nodes at `moved`, #nodes x 3, in rounds: each puts the
+/// centers back to the means of their nodes and repairs the pieces. Keeps the mesh with the fewest
+/// bad polyhedra and other cells. Returns whether none are left. It ends where the boundary itself
+/// inverts a piece of each that is left. `reference`: see Morpher::setReference(). `bad`: returns
+/// their ids.
+bool repairPolyhedra(const Mesh& mesh, const Points& reference, const NodePartition& partition,
+  const std::function<std::vector<Index>(const Points& points)>& bad, Points& moved,
+  Monitor& monitor);
+
+/// How a mesh is smoothed after a motion: towards the undeformed shapes, and never to a worse mesh.
+SmoothingOptions postSmoothing(int iterationLimit);
+
+/// Smooths `moved`, #nodes x 3, so, and returns the steps that led to it, 0 where nothing is
+/// better. Polyhedra are smoothed by their pieces. `orientation`: #cells.
+Index smoothAfterwards(const Mesh& rest, const std::vector<std::int8_t>& orientation,
+  const NodePartition& partition, int iterationLimit, Points& moved, Monitor& monitor);
+}

@@ -1,0 +1,290 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Session/BoundaryTargets.h"
+
+#include "Mesh/Extent.h"
+#include "Support/Error.h"
+
+#include <algorithm>
+#include <sstream>
+#include <utility>
+
+namespace morph
+{
+namespace
+{
+/// Node ids as messages name them.
+std::string listNodes(std::vector<Index> nodes, const std::vector<std::int64_t>* globalIds)
+{
+  for (Index& node : nodes)
+  {
+    node = globalIds ? (*globalIds)[node] : node;
+  }
+  return listIds(nodes);
+}
+
+/// Ids that were made from another mesh, or went stale when a filter changed the points.
+void verifyRestPositions(const NamedPoints& named, const Mesh& rest, double tolerance,
+  const std::vector<std::int64_t>* globalIds)
+{
+  if (named.rest.rows() == 0)
+  {
+    return;
+  }
+  std::vector<Index> stale;
+  for (const auto& [point, node] : named.pairs)
+  {
+    // Written so that a NaN disagrees.
+    if (!((named.rest.row(point) - rest.points.row(node)).norm() <= tolerance))
+    {
+      stale.push_back(node);
+    }
+  }
+  if (!stale.empty())
+  {
+    throw Error(
+      "The boundary's ids are stale: its 'RestPosition' disagrees with the grid at node ids " +
+      listNodes(stale, globalIds) +
+      ". The boundary was made from another mesh, or a filter has interpolated its arrays. Apply "
+      "Extract Morph Boundary to this grid again.");
+  }
+}
+
+/// The positions asked for, the scale factor not yet applied.
+Points targetPositions(
+  const NamedPoints& named, const Mesh& rest, const std::vector<std::int64_t>* globalIds)
+{
+  Points targets(static_cast<Index>(named.pairs.size()), 3);
+  std::vector<Index> notFinite, huge;
+  for (std::size_t k = 0; k < named.pairs.size(); ++k)
+  {
+    const auto [point, node] = named.pairs[k];
+    const auto from = rest.points.row(node);
+    auto to = targets.row(static_cast<Index>(k));
+    to = named.positions.row(point);
+    if (named.displacements.rows() > 0)
+    {
+      to = from + named.displacements.row(point);
+    }
+    if (!to.allFinite())
+    {
+      notFinite.push_back(node);
+    }
+    else if (!isModerate(to))
+    {
+      huge.push_back(node);
+    }
+  }
+  if (!notFinite.empty())
+  {
+    throw Error(
+      "The boundary has coordinates or displacements that are not finite (NaN or infinite), "
+      "at node ids " +
+      listNodes(notFinite, globalIds) + ".");
+  }
+  if (!huge.empty())
+  {
+    throw Error("The boundary moves nodes beyond 1e50, at node ids " + listNodes(huge, globalIds) +
+                ". Use another unit, or correct the displacements.");
+  }
+  return targets;
+}
+
+/// What a node has that is in no row of the targets.
+constexpr Index Held = -1, Unnamed = -2, Free = -3;
+
+/// Marks the nodes of free points, and removes their pairs. Returns the number of these.
+Index takeFree(NamedPoints& named, std::vector<Index>& row)
+{
+  auto& pairs = named.pairs;
+  if (named.isFree.empty())
+  {
+    return 0;
+  }
+  const auto isFree = [&](const std::pair<Index, Index>& pair)
+  { return named.isFree[pair.first] != 0; };
+  for (const auto& pair : pairs)
+  {
+    if (isFree(pair))
+    {
+      row[pair.second] = Free;
+    }
+  }
+  const auto all = pairs.size();
+  pairs.erase(std::remove_if(pairs.begin(), pairs.end(), isFree), pairs.end());
+  return static_cast<Index>(all - pairs.size());
+}
+
+/// Marks the outer nodes without a row as held, but for mid-side and face nodes between corners one
+/// of which moves: those follow their cell, or edges would bend where corners alone are named. A
+/// motion of rounding is none: rotation about a node leaves such. ScaleFactor does not matter, so
+/// that changing it does not prepare again.
+void holdUnnamed(const BoundaryFaces& outer, const Mesh& rest, double size, const Points& targets,
+  std::vector<Index>& row)
+{
+  const auto moves = [&](Index node)
+  {
+    const auto from = rest.points.row(node);
+    const double rounding = 1e-12 * size + 1e-15 * from.cwiseAbs().maxCoeff();
+    return row[node] >= 0 && (targets.row(row[node]) - from).norm() > rounding;
+  };
+  for (std::size_t i = 0; i < outer.nodes.size(); ++i)
+  {
+    const Index node = outer.nodes[i], k = static_cast<Index>(i);
+    if (row[node] == Unnamed && std::none_of(outer.between.begin(k), outer.between.end(k), moves))
+    {
+      row[node] = Held;
+    }
+  }
+}
+}
+
+BoundaryTargets findTargets(NamedPoints named, const Mesh& rest, const BoundaryFaces& outer,
+  double size, const TargetOptions& options, const std::vector<std::int64_t>* globalIds)
+{
+  const double tolerance = options.matchTolerance * size;
+  BoundaryTargets result;
+  result.points = named.positions.rows();
+  result.unmatched = named.unmatched;
+  result.valueless = named.valueless;
+  verifyRestPositions(named, rest, tolerance, globalIds);
+  std::vector<Index> row(rest.numberOfNodes(), Unnamed);
+  result.freed = takeFree(named, row);
+  result.following = static_cast<Index>(named.pairs.size());
+  const Points targets = targetPositions(named, rest, globalIds);
+  const auto& pairs = named.pairs;
+
+  std::vector<Index> torn;
+  for (std::size_t k = 0; k < pairs.size(); ++k)
+  {
+    Index& r = row[pairs[k].second];
+    if (r < 0)
+    {
+      r = static_cast<Index>(k);
+    }
+    else if ((targets.row(r) - targets.row(static_cast<Index>(k))).norm() > tolerance)
+    {
+      torn.push_back(pairs[k].second);
+    }
+  }
+  if (!torn.empty())
+  {
+    throw Error(
+      "The boundary names the same node more than once with different targets, at node ids " +
+      listNodes(torn, globalIds) + ". Points that stand for one node have to move together.");
+  }
+
+  if (options.fixUnnamedBoundary)
+  {
+    holdUnnamed(outer, rest, size, targets, row);
+  }
+
+  result.ids.reserve(pairs.size() + outer.nodes.size());
+  result.sources.reserve(pairs.size() + outer.nodes.size());
+  for (Index node = 0; node < rest.numberOfNodes(); ++node)
+  {
+    if (row[node] != Unnamed && row[node] != Free)
+    {
+      result.ids.push_back(node);
+      result.sources.push_back(row[node] < 0 ? -1 : pairs[row[node]].first);
+    }
+  }
+  const double scale = options.scaleFactor;
+  std::vector<Index> huge;
+  result.targets.resize(static_cast<Index>(result.ids.size()), 3);
+  for (std::size_t k = 0; k < result.ids.size(); ++k)
+  {
+    const auto from = rest.points.row(result.ids[k]);
+    const Index r = row[result.ids[k]];
+    auto to = result.targets.row(static_cast<Index>(k));
+    // ScaleFactor 0 and 1 give the rest and the target positions bit for bit.
+    if (r < 0 || scale == 0)
+    {
+      to = from;
+    }
+    else if (scale == 1)
+    {
+      to = targets.row(r);
+    }
+    else
+    {
+      to = from + scale * (targets.row(r) - from);
+    }
+    if (!isModerate(to))
+    {
+      huge.push_back(result.ids[k]);
+    }
+  }
+  if (!huge.empty())
+  {
+    std::ostringstream text;
+    text << scale;
+    throw Error("ScaleFactor " + text.str() + " moves nodes beyond 1e50, at node ids " +
+                listNodes(huge, globalIds) + ". Lower it.");
+  }
+  return result;
+}
+
+void countStaying(const Mesh& rest, const BoundaryFaces& outer,
+  const std::function<bool(Index node)>& owns, BoundaryTargets& result)
+{
+  for (std::size_t i = 0; i < result.ids.size(); ++i)
+  {
+    result.staying += result.targets.row(static_cast<Index>(i)) == rest.points.row(result.ids[i]) &&
+                      owns(result.ids[i]);
+  }
+  for (std::size_t i = 0; i < outer.nodes.size(); ++i)
+  {
+    const Index node = outer.nodes[i], k = static_cast<Index>(i);
+    result.open += outer.between.begin(k) == outer.between.end(k) && owns(node) &&
+                   !std::binary_search(result.ids.begin(), result.ids.end(), node);
+  }
+}
+
+void conclude(const TargetOptions& options, BoundaryTargets& result)
+{
+  const auto ofPoints = [&](Index count)
+  {
+    return std::to_string(count) + " of the boundary's " + std::to_string(result.points) +
+           " points";
+  };
+  const bool areFree = result.following == 0 && result.freed > 0;
+  if (areFree && result.valueless > 0)
+  {
+    throw Error("No point of the boundary has a displacement, so nothing says where the mesh goes: "
+                "'" +
+                options.displacementArray + "' is NaN, or vtkValidPointMask 0, at " +
+                ofPoints(result.valueless) + ". Give displacements where the boundary is.");
+  }
+  if (areFree)
+  {
+    throw Error("All points of the boundary are free (its point array MorphFree is not 0), so "
+                "nothing says where the mesh goes. Let some of them stay or move.");
+  }
+  if (result.valueless > 0)
+  {
+    result.warnings.push_back(
+      ofPoints(result.valueless) + " have no displacement ('" + options.displacementArray +
+      "' is NaN, or vtkValidPointMask 0, there). Their nodes are free: they "
+      "are solved with the interior.");
+  }
+  if (result.unmatched > 0)
+  {
+    result.warnings.push_back(
+      ofPoints(result.unmatched) +
+      " are not within MatchTolerance of a node of the grid and were left out.");
+  }
+}
+
+void warnOf(const BoundaryTargets& result, Monitor& monitor)
+{
+  for (const std::string& warning : result.warnings)
+  {
+    monitor.warn(warning);
+  }
+  if (result.staying == 0 && result.open > 0)
+  {
+    monitor.warn("Nothing holds the mesh: all prescribed nodes move, and the other outer nodes are "
+                 "free, so that the whole mesh may go along. Hold a surface if that is not meant.");
+  }
+}
+}

@@ -1,0 +1,341 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Session/Session.h"
+
+#include "Mesh/Extent.h"
+#include "Mesh/Polyhedra.h"
+#include "Morpher/PolyhedralMorpher.h"
+#include "Quality/BoundaryDetermined.h"
+#include "Quality/ScaledJacobian.h"
+#include "Session/AfterMotion.h"
+#include "Support/Error.h"
+#include "Support/ProgressRange.h"
+#include "Support/Stopwatch.h"
+#include "Untangling/HigherOrderUntangling.h"
+#include "Untangling/InversionFree.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace morph
+{
+namespace
+{
+/// A method with these options, not prepared, for the cells of `mesh`.
+std::unique_ptr<Morpher> makeMethod(const Session::Options& options, const Mesh& mesh)
+{
+  return morpherForCells(mesh, options.settings(hasPolyhedra(mesh)));
+}
+
+void requireAscending(const std::vector<Index>& ids)
+{
+  if (!std::is_sorted(ids.begin(), ids.end()))
+  {
+    throw Error("The ids of prescribed nodes do not ascend. Sort them, and their targets alike.");
+  }
+}
+
+void requireRows(const char* what, Index rows, Index expected)
+{
+  if (rows != expected)
+  {
+    throw Error(std::string(what) + " has " + std::to_string(rows) + " rows where " +
+                std::to_string(expected) + " are expected.");
+  }
+}
+
+void requireTargets(const BoundaryTargets& boundary)
+{
+  requireAscending(boundary.ids);
+  requireRows(
+    "The array of targets", boundary.targets.rows(), static_cast<Index>(boundary.ids.size()));
+  std::vector<Index> wrong = immoderateRows(boundary.targets);
+  if (!wrong.empty())
+  {
+    for (Index& row : wrong)
+    {
+      row = boundary.ids[row];
+    }
+    throw Error("The targets are not finite or beyond 1e50, at node ids " + listIds(wrong) + ".");
+  }
+}
+}
+
+std::unique_ptr<Morpher> Session::Options::settings(bool onPieces) const
+{
+  auto method = this->createMorpher();
+  if (onPieces)
+  {
+    adaptToPieces(*method);
+  }
+  return method;
+}
+
+void Session::setMesh(Mesh mesh, Monitor& monitor)
+{
+  validate(mesh);
+  this->setMesh(std::make_shared<const UndeformedMesh>(std::move(mesh), nullptr, monitor));
+}
+
+void Session::setMesh(std::shared_ptr<const UndeformedMesh> mesh)
+{
+  if (mesh != this->mesh_)
+  {
+    this->method_.reset();
+    this->modes_.clear();
+    this->samples_.reset();
+    this->attached_ = {};
+    this->partition_ = std::make_shared<NodePartition>();
+    this->steps_.clear();
+    this->mesh_ = std::move(mesh);
+  }
+}
+
+void Session::reportMesh(const Options& options, Monitor& monitor) const
+{
+  const UndeformedMesh& mesh = *this->mesh_;
+  if (mesh.mirroredBodies() > 0)
+  {
+    const auto first = std::find(mesh.orientation().begin(), mesh.orientation().end(), -1);
+    monitor.warn(std::to_string(mesh.mirroredBodies()) +
+                 " bodies of the mesh are mirrored: in VTK's order of nodes all their cells of a "
+                 "type are inverted, the first is cell " +
+                 std::to_string(first - mesh.orientation().begin()) +
+                 ". They are morphed and measured as if they were not. Reverse their order of "
+                 "nodes if a solver expects VTK's.");
+  }
+  warnOfShared(mesh.repeatedCells(), mesh.touchingNodes(), monitor);
+  if (options.measureAll)
+  {
+    const std::string note = Validity::note(options.validity, mesh.before(monitor).cells());
+    if (!note.empty())
+    {
+      monitor.warn(note);
+    }
+  }
+}
+
+std::shared_ptr<StepResult> Session::morph(const BoundaryTargets& boundary, const Options& options,
+  Monitor& monitor, const AffineHandle* handle)
+{
+  return std::make_shared<StepResult>(
+    this->morphStep(this->mesh_->mesh(), boundary, handle, options, monitor));
+}
+
+std::shared_ptr<const StepResult> Session::morphSeries(int step,
+  const std::function<BoundaryTargets(int step)>& boundaryOf, const BoundaryTargets* whole,
+  const Options& options, Monitor& monitor)
+{
+  this->effort.prepareSeconds = this->effort.evaluateSeconds = 0; // of a last step that is kept
+  if (whole && (whole->ids != this->whole_.ids || whole->targets != this->whole_.targets))
+  {
+    this->steps_.clear();
+    this->whole_ = *whole;
+  }
+  auto [number, result] = this->steps_.lastUntil(step);
+  const double first = number, count = step - first;
+  constexpr int Most = 10; // messages about steps before the last; a million help nobody
+  int partial = 0;
+  while (number < step)
+  {
+    ++number;
+    const BoundaryTargets boundary = boundaryOf(number);
+    Mesh from = this->mesh_->mesh();
+    if (result)
+    {
+      from.points = result->moved;
+    }
+    ProgressRange part(monitor, (number - 1 - first) / count, (number - first) / count);
+    auto made = std::make_shared<StepResult>(
+      inStep(number, [&] { return this->morphStep(from, boundary, nullptr, options, part); }));
+    made->valid.measured = {}; // a series keeps meshes alone
+    result = std::move(made);
+    if (number < step && !result->valid.error.empty() && ++partial <= Most)
+    {
+      monitor.warn("Step " + std::to_string(number) + ": " + result->valid.error);
+    }
+    this->steps_.keep(number, result, options.stepMemoryLimit);
+  }
+  if (partial > Most)
+  {
+    monitor.warn(std::to_string(partial - Most) + " more steps came only part of the way.");
+  }
+  return result;
+}
+
+StepResult Session::morphStep(const Mesh& from, const BoundaryTargets& boundary,
+  const AffineHandle* handle, const Options& options, Monitor& monitor)
+{
+  const Mesh& rest = this->mesh_->mesh();
+  const std::vector<std::int8_t>& orientation = this->mesh_->orientation();
+  const auto part = [&](double first, double last) { return ProgressRange(monitor, first, last); };
+  requireTargets(boundary);
+  const NodePartition& partition = this->partitionOf(boundary.ids);
+  static const InvertedBefore none{};
+  const InvertedBefore& before =
+    options.measureAll ? Validity::beforeFor(options.validity, this->mesh_->before(monitor)) : none;
+  const Validity validity{ options.validity, options.maximumSubSteps, from, rest.points, before,
+    partition, orientation, boundary.targets, this->mesh_->outerFaces(),
+    dynamic_cast<InversionFree*>(options.createMorpher().get()) != nullptr,
+    [&options, &from] { return makeMethod(options, from); } };
+  validity.requireFeasible();
+
+  auto preparing = part(0.05, 0.45);
+  this->prepare(from, options, preparing);
+
+  auto evaluating = part(0.45, 0.75);
+  const Stopwatch watch;
+  StepResult result;
+  const EvaluateReport report = this->evaluate(boundary.targets, handle, result.moved, evaluating);
+  if (validity.isInversionFree && hasPolyhedra(from))
+  {
+    auto repairing = part(0.7, 0.75);
+    const auto bad = [&](const Points& points)
+    { return invertedCells(from, points, orientation, repairing); };
+    repairPolyhedra(from, rest.points, partition, bad, result.moved, repairing);
+  }
+  if (validity.isInversionFree)
+  {
+    auto untangling = part(0.74, 0.75);
+    untangleHigherOrder(from, partition, orientation, result.moved, untangling);
+  }
+  if (const auto wrong = immoderateRows(result.moved, &evaluating); !wrong.empty())
+  {
+    throw Error("The method gave positions that are not finite or beyond 1e50, at node ids " +
+                listIds(wrong) +
+                ". Check the boundary for huge values, and the mesh for cells without "
+                "volume.");
+  }
+  result.statistics = report.statistics;
+  if (options.postSmooth)
+  {
+    auto smoothing = part(0.75, 0.85);
+    result.statistics.push_back(
+      { "PostSmoothSteps", smoothAfterwards(rest, orientation, partition,
+                             options.postSmoothIterations, result.moved, smoothing) });
+  }
+  double seconds = watch.seconds();
+  auto checking = part(options.postSmooth ? 0.85 : 0.75, 1);
+  if (options.measureAll)
+  {
+    result.valid = validity.ensure(result.moved, checking);
+    if (!this->samples_)
+    {
+      this->samples_ = std::make_unique<MovableQuality>(rest, orientation, partition.free);
+    }
+    const double minimum = this->samples_->fixedMinimum(result.moved);
+    result.boundaryMinimum =
+      std::isfinite(minimum) ? minimum : std::numeric_limits<double>::quiet_NaN();
+  }
+  else
+  {
+    result.valid = { "Unmeasured", std::numeric_limits<double>::quiet_NaN() };
+  }
+  this->attached_.apply(result.moved);
+  result.attached = static_cast<Index>(this->attached_.nodes().size());
+  result.loose = this->attached_.loose();
+  const std::string& status = result.valid.status;
+  if (status != "Valid" && status != "Inverted" && status != "Unmeasured")
+  {
+    seconds = watch.seconds(); // cells were not measured alone, but repaired
+  }
+  this->effort.evaluateSeconds = seconds;
+  if (status == "Inverted")
+  {
+    result.boundaryInverted = static_cast<Index>(
+      before.without(boundaryDeterminedInversions(from, partition, orientation, result.moved))
+        .size());
+  }
+  result.iterations = report.iterations;
+  result.prescribed = static_cast<Index>(boundary.ids.size());
+  result.unmatched = boundary.unmatched;
+  return result;
+}
+
+EvaluateReport Session::evaluate(
+  const Points& targets, const AffineHandle* handle, Points& moved, Monitor& monitor)
+{
+  const auto* linear = dynamic_cast<const LinearMorpher*>(this->method_.get());
+  if (!handle || !linear)
+  {
+    return this->method_->evaluate(targets, moved, monitor);
+  }
+  // Always, not from the second motion on: a result must not depend on what ran before.
+  if (!this->modes_.isPreparedFor(*linear, handle->fields))
+  {
+    this->modes_.prepare(*linear, handle->fields, monitor);
+  }
+  return this->modes_.evaluate(*linear, handle->motion, targets, moved, monitor);
+}
+
+const NodePartition& Session::partitionOf(const std::vector<Index>& prescribed)
+{
+  if (this->partition_->prescribed.empty() || this->partition_->prescribed != prescribed)
+  {
+    this->samples_.reset();
+    this->partition_ =
+      std::make_shared<NodePartition>(partitionNodes(this->mesh_->mesh(), prescribed));
+    this->attached_ = AttachedNodes(this->mesh_->mesh(), *this->partition_);
+  }
+  return *this->partition_;
+}
+
+void Session::prepare(const Mesh& from, const Options& options, Monitor& monitor)
+{
+  const Mesh& rest = this->mesh_->mesh();
+  this->effort.prepareSeconds = 0;
+  // setMesh() drops the method with the mesh that it is prepared for.
+  const bool isOfMesh = &from == &rest;
+  std::unique_ptr<Morpher> settings = options.settings(hasPolyhedra(from));
+  if (this->method_ && this->settings_->preparesLike(*settings) &&
+      this->method_->partition().prescribed == this->partition_->prescribed &&
+      ((isOfMesh && this->methodIsOfMesh_) || this->method_->restPoints() == from.points))
+  {
+    methodOf(*this->method_).takeEvaluateOptions(*settings);
+    return;
+  }
+  const Stopwatch watch;
+  this->method_.reset();
+  this->modes_.clear();
+  std::unique_ptr<Morpher> morpher = makeMethod(options, from);
+  if (!isOfMesh && from.points != rest.points)
+  {
+    morpher->setReference(rest.points);
+  }
+  if (isOfMesh)
+  {
+    morpher->prepare(std::shared_ptr<const Mesh>(this->mesh_, &rest), this->partition_, monitor);
+  }
+  else
+  {
+    morpher->prepare(from, *this->partition_, monitor);
+  }
+  this->method_ = std::move(morpher);
+  this->methodIsOfMesh_ = isOfMesh;
+  this->settings_ = std::move(settings);
+  ++this->effort.preparations;
+  this->effort.prepareSeconds = watch.seconds();
+}
+
+Points Session::transpose(
+  const std::vector<Index>& ids, Points gradient, const Options& options, Monitor& monitor)
+{
+  requireAscending(ids);
+  requireRows("The gradient", gradient.rows(), this->mesh_->mesh().numberOfNodes());
+  ProgressRange preparing(monitor, 0.05, 0.5), applying(monitor, 0.5, 1);
+  this->partitionOf(ids);
+  this->prepare(this->mesh_->mesh(), options, preparing);
+  const auto* linear = dynamic_cast<const LinearMorpher*>(this->method_.get());
+  if (!linear)
+  {
+    throw Error(options.method +
+                " is not a linear method, so it has no adjoint that is the same for all "
+                "motions. Use one that is, FEMWARP for instance.");
+  }
+  Points prescribed;
+  this->attached_.applyTranspose(gradient);
+  linear->applyTranspose(gradient, prescribed, applying);
+  return prescribed;
+}
+}

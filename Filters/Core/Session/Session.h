@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "LinearMethods/AttachedNodes.h"
+#include "Mesh/Mesh.h"
+#include "Mesh/NodePartition.h"
+#include "Morpher/AffineModes.h"
+#include "Morpher/Morpher.h"
+#include "Quality/MovableQuality.h"
+#include "Session/BoundaryTargets.h"
+#include "Session/Series.h"
+#include "Session/UndeformedMesh.h"
+#include "Session/Validity.h"
+
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace morph
+{
+/// A mesh, the method prepared for it, and the steps of a series, kept from one motion to the next:
+///
+///     Session session;
+///     session.setMesh(mesh, monitor);
+///     Session::Options options;
+///     options.createMorpher = [] { return std::make_unique<FemWarp>(); };
+///     options.validity = Validity::Mode::Repair;
+///     const auto step = session.morph({ ids, targets }, options, monitor);
+///     // step->moved has the new points, step->valid.status says how it ended
+///
+/// A result depends on the mesh, the options and the motion alone, never on the motions before it.
+/// Lengths are in the unit of the mesh. What is wrong throws Error, which names node or cell ids
+/// and what to do; a warning goes to the monitor. One thread at a time may use a session; a monitor
+/// gives it more.
+class Session
+{
+public:
+  struct Options
+  {
+    /// Makes a method with all its options, not prepared.
+    std::function<std::unique_ptr<Morpher>()> createMorpher;
+    std::string method = "The method"; ///< in messages
+    Validity::Mode validity = Validity::Mode::Report;
+    /// Whether cells are measured; false only with a validity that changes nothing.
+    bool measureAll = true;
+    Index maximumSubSteps = 64;
+    /// Whether the mesh is smoothed before its validity is seen to, and by how many steps at most.
+    ///@{
+    bool postSmooth = false;
+    int postSmoothIterations = 20;
+    ///@}
+    double stepMemoryLimit = 1000; ///< 10^6 bytes; see Series::keep()
+
+    /// Returns createMorpher(). `onPieces`: for the pieces of polyhedra; see adaptToPieces().
+    std::unique_ptr<Morpher> settings(bool onPieces) const;
+  };
+
+  /// A boundary's own description of its motion: the targets are the undeformed places and
+  /// affineDisplacement(). A linear method keeps its answer to the fields, so that a motion with
+  /// the same fields costs one pass over the nodes.
+  struct AffineHandle
+  {
+    AffineFields fields; ///< #ids x 4
+    AffineMotion motion;
+  };
+
+  /// The cost of morph(), morphSeries() and transpose(), until the caller takes it by setting it
+  /// back to {}: the seconds of the last motion or step, NaN for what was not reached.
+  struct Effort
+  {
+    double prepareSeconds = std::numeric_limits<double>::quiet_NaN();  ///< 0: it was prepared
+    double evaluateSeconds = std::numeric_limits<double>::quiet_NaN(); ///< with all that follows
+    int preparations = 0;
+  };
+  Effort effort;
+
+  /// Takes a mesh, and forgets all that was kept unless it is the same object. The first throws
+  /// Error as validate(), both as UndeformedMesh; the kept mesh stays then.
+  ///@{
+  void setMesh(Mesh mesh, Monitor& monitor);
+  void setMesh(std::shared_ptr<const UndeformedMesh> mesh);
+  ///@}
+  const UndeformedMesh& mesh() const { return *this->mesh_; }
+  /// Warns of what is odd about the mesh: bodies that are mirrored, cells that were inverted before
+  /// or are there twice, and nodes where bodies touch.
+  void reportMesh(const Options& options, Monitor& monitor) const;
+
+  /// Moves the mesh. `handle`: of the boundary, or null. Nodes that the boundary does not prescribe
+  /// are free, those of the outer faces, too. Throws Error for ids that do not exist, occur twice
+  /// or do not ascend, and for another number of targets. Also where targets or results are not
+  /// finite or beyond 1e50, and as the method and Validity do. Cost: Morpher::prepare(), if the
+  /// prescribed nodes or the method's options are others than before; Morpher::evaluate();
+  /// Validity::ensure().
+  std::shared_ptr<StepResult> morph(const BoundaryTargets& boundary, const Options& options,
+    Monitor& monitor, const AffineHandle* handle = nullptr);
+  /// Takes the steps up to `step` >= 0, from the last one that is kept: each starts from the mesh
+  /// of the step before. `boundaryOf`: returns the boundary of a step. `whole`: the whole motion,
+  /// whose change drops what is kept, or null: then the caller tells changes by Series::check().
+  /// Errors name the step, but for those of `boundaryOf`. Memory: a mesh, and the steps that are
+  /// kept.
+  std::shared_ptr<const StepResult> morphSeries(int step,
+    const std::function<BoundaryTargets(int step)>& boundaryOf, const BoundaryTargets* whole,
+    const Options& options, Monitor& monitor);
+  /// The steps that are kept.
+  Series& steps() { return this->steps_; }
+
+  /// The adjoint of a linear method with these prescribed nodes. `gradient`: #nodes x 3, the
+  /// derivatives of an objective with respect to the positions of the moved nodes. Returns #ids x
+  /// 3, those with respect to the targets, of the method alone: smoothing and repairs have none.
+  /// Throws Error for a method that is not linear, and as morph(). Cost: as morph().
+  Points transpose(
+    const std::vector<Index>& ids, Points gradient, const Options& options, Monitor& monitor);
+
+private:
+  StepResult morphStep(const Mesh& from, const BoundaryTargets& boundary,
+    const AffineHandle* handle, const Options& options, Monitor& monitor);
+  /// Moves the mesh by the prepared method, by its modes where a handle has some.
+  EvaluateReport evaluate(
+    const Points& targets, const AffineHandle* handle, Points& moved, Monitor& monitor);
+  /// The partition with these prescribed nodes, kept while they stay.
+  const NodePartition& partitionOf(const std::vector<Index>& prescribed);
+  /// Prepares the method for the mesh, with its own points or others, and for partition_, unless it
+  /// is prepared. Sets its other options.
+  void prepare(const Mesh& from, const Options& options, Monitor& monitor);
+
+  std::shared_ptr<const UndeformedMesh> mesh_ = std::make_shared<UndeformedMesh>();
+  /// of mesh_, or empty
+  std::shared_ptr<const NodePartition> partition_ = std::make_shared<NodePartition>();
+  AttachedNodes attached_;                  ///< of mesh_ and partition_
+  std::unique_ptr<MovableQuality> samples_; ///< of the same, or null
+  std::unique_ptr<Morpher> method_;         ///< prepared for mesh_ under settings_, or null
+  bool methodIsOfMesh_ = false;             ///< not of a step's points
+  std::unique_ptr<const Morpher> settings_;
+  AffineModes modes_; ///< of method_
+
+  Series steps_;
+  BoundaryTargets whole_; ///< the whole motion, for steps_, of one that has it
+};
+}

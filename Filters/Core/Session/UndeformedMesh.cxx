@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Session/UndeformedMesh.h"
+
+#include "Mesh/Extent.h"
+#include "Mesh/SharedCorners.h"
+#include "Support/Error.h"
+
+#include <string>
+#include <utility>
+
+namespace morph
+{
+UndeformedMesh::UndeformedMesh(Mesh mesh, const UndeformedMesh* sameCells, Monitor& monitor)
+  : mesh_(std::move(mesh))
+{
+  requireVolumeCells(this->mesh_);
+  const ConnectedComponents bodies = connectedComponents(this->mesh_, monitor);
+  this->orientation_ = cellSigns(this->mesh_, bodies, monitor);
+  this->mirrored_ = morph::mirroredBodies(bodies, this->orientation_);
+  this->outer_ = sameCells ? sameCells->outer_ : boundaryFaces(this->mesh_, monitor);
+  this->repeated_ = sameCells ? sameCells->repeated_ : morph::repeatedCells(this->mesh_, monitor);
+  this->touching_ =
+    sameCells ? sameCells->touching_ : morph::touchingNodes(this->mesh_, this->outer_);
+  this->size_ = meshSize(this->mesh_);
+}
+
+const InvertedBefore& UndeformedMesh::before(Monitor& monitor) const
+{
+  if (!this->before_)
+  {
+    this->before_.emplace(this->mesh_, this->orientation_,
+      measureQuality(this->mesh_, this->mesh_.points, this->orientation_, {}, monitor));
+  }
+  return *this->before_;
+}
+
+void warnOfShared(const std::vector<Index>& repeatedCells, const std::vector<Index>& touchingNodes,
+  Monitor& monitor)
+{
+  if (!repeatedCells.empty())
+  {
+    monitor.warn("Cells are there twice, which makes the mesh stiffer at one place, and its outer "
+                 "faces wrong: cell ids " +
+                 listIds(repeatedCells) + ". Remove one of each.");
+  }
+  if (!touchingNodes.empty())
+  {
+    monitor.warn(std::to_string(touchingNodes.size()) +
+                 " nodes belong to parts of the mesh that share no face there, and so move as one: "
+                 "point ids " +
+                 listIds(touchingNodes) +
+                 ". Give each part a node of its own if they only touch by chance.");
+  }
+}
+
+void warnOfLoose(const std::vector<Index>& nodes, Monitor& monitor)
+{
+  if (!nodes.empty())
+  {
+    monitor.warn(std::to_string(nodes.size()) +
+                 " nodes stay: they belong to cells of lower dimension that share no node with a "
+                 "volume cell, directly or by others of their kind. Point ids " +
+                 listIds(nodes) + ". Give them nodes of the volume where they are attached to it.");
+  }
+}
+}

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Mesh/Mesh.h"
+#include "Mesh/Topology.h"
+#include "Quality/InvertedBefore.h"
+#include "Support/Monitor.h"
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace morph
+{
+/// A mesh to be morphed, with what follows from it alone: made once for all motions.
+class UndeformedMesh
+{
+public:
+  /// No cells: it cannot be morphed.
+  UndeformedMesh() = default;
+  /// `mesh`: as validate() wants it. `sameCells`: null, or a mesh with the same cells and other
+  /// points. Throws Error as requireVolumeCells(). Cost: the bodies, and the search of the outer
+  /// faces unless `sameCells` has them.
+  UndeformedMesh(Mesh mesh, const UndeformedMesh* sameCells, Monitor& monitor);
+  UndeformedMesh(const UndeformedMesh&) = delete;
+
+  const Mesh& mesh() const { return this->mesh_; }
+  const BoundaryFaces& outerFaces() const { return this->outer_; }
+  /// See meshSize().
+  double size() const { return this->size_; }
+  /// #cells; see cellSigns().
+  const std::vector<std::int8_t>& orientation() const { return this->orientation_; }
+  Index mirroredBodies() const { return this->mirrored_; }
+  /// Cells that are there twice, and nodes where bodies touch by chance; see SharedCorners.h.
+  ///@{
+  const std::vector<Index>& repeatedCells() const { return this->repeated_; }
+  const std::vector<Index>& touchingNodes() const { return this->touching_; }
+  ///@}
+  /// Cost of the first call: a measure of the mesh.
+  const InvertedBefore& before(Monitor& monitor) const;
+
+private:
+  Mesh mesh_;
+  BoundaryFaces outer_;
+  double size_ = 0;
+  std::vector<std::int8_t> orientation_;
+  Index mirrored_ = 0;
+  std::vector<Index> repeated_, touching_;
+  mutable std::optional<InvertedBefore> before_; ///< once it was asked for
+};
+
+/// Warns of cells that are there twice, and of nodes where bodies touch; see SharedCorners.h. Ids
+/// are those of the whole mesh, ascending.
+void warnOfShared(const std::vector<Index>& repeatedCells, const std::vector<Index>& touchingNodes,
+  Monitor& monitor);
+/// Warns of nodes of shells, beams or links that hang on nothing; see AttachedNodes.h. Ids as
+/// above.
+void warnOfLoose(const std::vector<Index>& nodes, Monitor& monitor);
+}

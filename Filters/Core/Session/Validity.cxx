@@ -1,0 +1,304 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Session/Validity.h"
+
+#include "Mesh/Polyhedra.h"
+#include "Morpher/IncrementalMorph.h"
+#include "Morpher/PolyhedralMorpher.h"
+#include "Quality/BoundaryDetermined.h"
+#include "Quality/ScaledJacobian.h"
+#include "Session/AfterMotion.h"
+#include "Support/Error.h"
+#include "Support/ProgressRange.h"
+#include "Untangling/BoundaryCheck.h"
+#include "Untangling/InversionFree.h"
+
+#include <algorithm>
+#include <limits>
+#include <sstream>
+#include <utility>
+
+namespace morph
+{
+namespace
+{
+/// The mesh without some cells, whose nodes keep their numbers.
+Mesh withoutCells(const Mesh& mesh, const InvertedBefore& left)
+{
+  Mesh rest;
+  rest.points = mesh.points;
+  rest.offsets = { 0 };
+  for (Index c = 0; c < mesh.numberOfCells(); ++c)
+  {
+    if (!left.positivePlaces(c))
+    {
+      rest.types.push_back(mesh.types[c]);
+      rest.connectivity.insert(
+        rest.connectivity.end(), mesh.cell(c), mesh.cell(c) + mesh.cellSize(c));
+      rest.offsets.push_back(static_cast<Index>(rest.connectivity.size()));
+    }
+  }
+  return rest;
+}
+}
+
+const InvertedBefore& Validity::beforeFor(Mode mode, const InvertedBefore& before)
+{
+  static const InvertedBefore none{};
+  return mode == Mode::RepairAll ? none : before;
+}
+
+void Validity::requireFeasible(Mode mode, const std::vector<Index>& determined)
+{
+  if (asksForValidMesh(mode) && !determined.empty())
+  {
+    throw Infeasible(
+      "The boundary itself inverts " + std::to_string(determined.size()) +
+        " cells, at corners that no free node can mend, so no valid mesh exists: "
+        "cell ids " +
+        listIds(determined) +
+        ". Move the boundary less there, leave some of its nodes free, or set Validity "
+        "to Report to see the mesh.",
+      static_cast<Index>(determined.size()));
+  }
+}
+
+std::string Validity::note(Mode mode, const std::vector<Index>& ids)
+{
+  if (mode == Mode::None || mode == Mode::RepairAll || ids.empty())
+  {
+    return {};
+  }
+  return std::to_string(ids.size()) +
+         " cells of the undeformed mesh are inverted or degenerate. Unless they become worse, they "
+         "do not count as inverted by the motion: cell ids " +
+         listIds(ids) + ". Validity set to Repair all repairs them, too.";
+}
+
+void Validity::requireFeasible() const
+{
+  if (!asksForValidMesh(this->mode))
+  {
+    return;
+  }
+  Points points = this->mesh.points;
+  points(this->partition.prescribed, allColumns) = this->targets;
+  requireFeasible(this->mode, this->before.without(boundaryDeterminedInversions(
+                                this->mesh, this->partition, this->orientation, points)));
+}
+
+std::vector<Index> Validity::inverted(const Quality& quality, const Points& points) const
+{
+  return this->before.added(points, invertedCells(quality));
+}
+
+std::vector<Index> Validity::inverted(const Points& points, Monitor& monitor) const
+{
+  return this->before.added(points, invertedCells(this->mesh, points, this->orientation, monitor));
+}
+
+std::string Validity::describe(
+  const std::vector<Index>& inverted, const Quality& quality, const Points& points) const
+{
+  constexpr std::size_t Most = 10;
+  std::vector<Index> worst = inverted;
+  std::stable_sort(worst.begin(), worst.end(),
+    [&](Index a, Index b) { return quality.scaledJacobian[a] < quality.scaledJacobian[b]; });
+  worst.resize(std::min(worst.size(), Most));
+  std::ostringstream text;
+  for (Index cell : worst)
+  {
+    Eigen::RowVector3d center = Eigen::RowVector3d::Zero();
+    const Index corners = cornerCount(this->mesh, cell, *cellShape(this->mesh.types[cell]));
+    for (Index k = 0; k < corners; ++k)
+    {
+      center += points.row(this->mesh.cell(cell)[k]) / static_cast<double>(corners);
+    }
+    text << "\n  cell " << cell << " at (" << center[0] << ", " << center[1] << ", " << center[2]
+         << "), scaled Jacobian " << quality.scaledJacobian[cell];
+  }
+  text << (inverted.size() > worst.size() ? "\n  ...\n" : "\n");
+  return text.str();
+}
+
+std::string Validity::found(const Quality& quality, const Points& points) const
+{
+  const std::vector<Index> inverted = this->inverted(quality, points);
+  const bool countsAll = inverted.size() == invertedCells(quality).size();
+  return std::to_string(inverted.size()) + " cells are inverted or degenerate" +
+         (countsAll ? "" : " by the motion") +
+         ". The worst, with their centers:" + this->describe(inverted, quality, points);
+}
+
+Validity::Outcome Validity::ofSubSteps(
+  const SubStepResult& result, const char* room, const std::string& cells)
+{
+  Outcome outcome{ "SubStepped", result.reached, result.attempts };
+  if (result.reached < 1)
+  {
+    std::ostringstream text;
+    text << "No valid mesh was found for the whole motion: " << result.attempts
+         << " steps came as far as " << result.reached
+         << " of it, and the result is the valid mesh there. ";
+    if (result.isForbidden)
+    {
+      text << "The boundary then " << room << " no room to ";
+    }
+    else
+    {
+      text << "The next step inverted ";
+    }
+    text << result.inverted.size() << " cells" << cells
+         << (result.isForbidden
+                ? "Mend the boundary there, move it less, or give it another path by steps of its "
+                  "own."
+                : "Move the boundary less, or refine the mesh there.");
+    outcome.status = "Partial";
+    outcome.error = text.str();
+  }
+  return outcome;
+}
+
+bool Validity::repair(Points& moved, Monitor& monitor) const
+{
+  const auto bad = [&](const Points& points) { return this->inverted(points, monitor); };
+  if (hasPolyhedra(this->mesh))
+  {
+    return repairPolyhedra(this->mesh, this->reference, this->partition, bad, moved, monitor);
+  }
+  std::size_t least = bad(moved).size();
+  // Near the inverted cells at first: the linear methods of the whole mesh take far longer. Cells
+  // that were inverted before are not seen there: they would be repaired, too, or nothing would.
+  const bool leavesSome = !this->before.cells().empty();
+  const Mesh others = leavesSome ? withoutCells(this->mesh, this->before) : Mesh();
+  const NodePartition ofOthers =
+    leavesSome ? partitionNodes(others, this->partition.prescribed) : NodePartition();
+  const double end[] = { 0, 0.2, 1 };
+  for (int attempt = 0; attempt < 2 && least > 0; ++attempt)
+  {
+    const double begin = end[attempt], middle = begin + 0.3 * (end[attempt + 1] - begin);
+    ProgressRange first(monitor, begin, middle), second(monitor, middle, end[attempt + 1]);
+    InversionFree repair;
+    repair.setReference(this->reference);
+    repair.setNearOnly(attempt == 0);
+    const bool seesOthers = leavesSome && attempt == 0;
+    repair.prepare(
+      seesOthers ? others : this->mesh, seesOthers ? ofOthers : this->partition, first);
+    Points repaired = moved;
+    repair.repair(repaired, second);
+    const std::size_t left = bad(repaired).size();
+    if (left < least)
+    {
+      moved.swap(repaired);
+      least = left;
+    }
+  }
+  return least == 0;
+}
+
+Validity::Outcome Validity::remaining(
+  const Points& moved, const std::string& reason, Monitor& monitor) const
+{
+  Outcome outcome{ "Inverted", std::numeric_limits<double>::quiet_NaN() };
+  outcome.measured = measureQuality(this->mesh, moved, this->orientation, {}, monitor);
+  outcome.error = "No valid mesh was found, and the result is the best that was: " +
+                  this->found(outcome.measured, moved) + reason;
+  return outcome;
+}
+
+Validity::Outcome Validity::subStep(
+  const std::function<std::unique_ptr<Morpher>()>& make, Points& moved, Monitor& monitor) const
+{
+  const bool repairs = this->isInversionFree || Validity::repairs(this->mode);
+  const std::vector<Index> atRest = this->inverted(this->mesh.points, monitor);
+  if (!atRest.empty())
+  {
+    return this->remaining(moved,
+      "The undeformed mesh has inverted or degenerate cells, too, so there is no valid mesh to "
+      "take steps from: cell ids " +
+        listIds(atRest) +
+        (repairs ? ". Mend the mesh or the boundary there, or leave more nodes free."
+                 : ". Repair it first, its boundary held, by Morph Inversion Free."),
+      monitor);
+  }
+  const BoundaryPath path = straightPath(this->mesh.points, this->partition, this->targets);
+  const BoundaryCheck check(this->mesh, this->partition, this->orientation, this->faces, monitor);
+  SubStepLimits limits;
+  limits.attempts = this->maximumSubSteps;
+  if (repairs)
+  {
+    limits.failures = repairFailures;
+  }
+  limits.forbidden = [&](double time) { return check.at(path(time)).all(this->before); };
+  const SubStepResult result = morphIncrementally(this->mesh, this->reference, this->partition,
+    this->orientation, this->before, path, make, limits, monitor);
+  moved = result.moved;
+  if (result.reached >= 1)
+  {
+    return ofSubSteps(result, "", "");
+  }
+  Outcome outcome = ofSubSteps(result, "folds, or leaves",
+    ", at the result's places:" +
+      this->describe(result.inverted,
+        measureQuality(this->mesh, result.moved, this->orientation, {}, monitor), result.moved));
+  if (!result.isForbidden && !this->isInversionFree && this->mode == Mode::SubStep)
+  {
+    outcome.error += " Validity set to Repair often goes all the way where sub-steps stop.";
+  }
+  return outcome;
+}
+
+Validity::Outcome Validity::ensure(Points& moved, Monitor& monitor) const
+{
+  Quality quality = measureQuality(this->mesh, moved, this->orientation, {}, monitor);
+  if (this->inverted(quality, moved).empty())
+  {
+    Outcome valid;
+    valid.measured = std::move(quality);
+    return valid;
+  }
+  if (asksForValidMesh(this->mode) && this->mode != Mode::Refuse && this->partition.free.empty())
+  {
+    return this->remaining(
+      moved, "Every node is prescribed, so the boundary alone decides.", monitor);
+  }
+  Outcome outcome{ "Inverted", std::numeric_limits<double>::quiet_NaN() };
+  switch (this->mode)
+  {
+    case Mode::SubStep:
+      return this->subStep(this->make, moved, monitor);
+    case Mode::Repair:
+    case Mode::RepairAll:
+    {
+      ProgressRange first(monitor, 0, 0.5), second(monitor, 0.5, 1);
+      if (this->repair(moved, first))
+      {
+        return { "Repaired" };
+      }
+      const auto make = [this]
+      { return morpherForCells(this->mesh, std::make_unique<InversionFree>()); };
+      return this->subStep(make, moved, second);
+    }
+    case Mode::Refuse:
+    {
+      const std::string text =
+        "The morph is refused: " + this->found(quality, moved) +
+        (this->isInversionFree
+            ? "Set Validity to Sub Step, or move the boundary less."
+            : "Set Validity to Repair or Sub Step, move the boundary less, or use Morph Inversion "
+              "Free.");
+      throw Error(text);
+    }
+    case Mode::Report:
+      outcome.warning =
+        this->found(quality, moved) + "The output Bad cells holds them all. " +
+        (this->isInversionFree
+            ? "Move the boundary less, or in relative steps."
+            : "Morph Inversion Free, or Validity set to Repair, keeps cells valid.");
+      break;
+    default:
+      break;
+  }
+  outcome.measured = std::move(quality);
+  return outcome;
+}
+}

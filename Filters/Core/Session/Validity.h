@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Mesh/Topology.h"
+#include "Morpher/IncrementalMorph.h"
+#include "Morpher/Morpher.h"
+#include "Quality/InvertedBefore.h"
+#include "Quality/ScaledJacobian.h"
+#include "Support/Error.h"
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace morph
+{
+/// Treats the inverted cells that a motion makes. Holds its arguments by reference.
+class Validity
+{
+public:
+  /// What becomes of inverted cells, in the order of the property Validity.
+  enum class Mode
+  {
+    None,     ///< they are counted
+    Report,   ///< the worst are named
+    SubStep,  ///< the motion is halved, and goes on from the last valid mesh
+    Repair,   ///< the inversion-free method starts from the mesh; then sub-steps
+    Refuse,   ///< Error
+    RepairAll ///< as Repair, and cells that were inverted before are repaired, too
+  };
+  Mode mode = Mode::None;
+  Index maximumSubSteps = 0;
+  const Mesh& mesh; ///< before the motion
+  /// #nodes x 3, the undeformed mesh; see Morpher::setReference()
+  const Points& reference;
+  /// of the undeformed mesh: cells that do not count unless they are worse; see beforeFor()
+  const InvertedBefore& before;
+  const NodePartition& partition;
+  const std::vector<std::int8_t>& orientation; ///< #cells
+  const Points& targets;                       ///< #prescribed x 3
+  const BoundaryFaces& faces;                  ///< of `mesh`
+  /// the method is the inversion-free one, which messages do not recommend to itself
+  bool isInversionFree = false;
+  /// Makes a method with its options, not prepared yet.
+  std::function<std::unique_ptr<Morpher>()> make;
+
+  /// The error of a boundary that itself inverts cells: there is no result.
+  struct Infeasible : Error
+  {
+    Infeasible(const std::string& message, Index count)
+      : Error(message)
+      , cells(count)
+    {
+    }
+    Index cells; ///< how many
+  };
+
+  struct Outcome
+  {
+    /// Valid, SubStepped, Repaired; Partial, where sub-steps have made a part of the motion;
+    /// Inverted, or Unmeasured.
+    std::string status = "Valid";
+    double largestValidStep = 1; ///< the part of the motion that is made; NaN with inverted cells
+    Index subSteps = 0;          ///< tried
+    std::string warning = {};    ///< of inverted cells, where `mode` asks for a report
+    /// Not empty if the mesh has made a part of the motion, or if it is not valid as `mode` asks.
+    std::string error = {};
+    Quality measured = {}; ///< of the method's own mesh where that is the result; else empty
+  };
+
+  /// Sub-steps that repair their meshes end after so many failures. Its failures take several times
+  /// as long as its successes.
+  static constexpr Index repairFailures = 6;
+
+  /// Whether a mode wants no inverted cells, and whether it repairs.
+  ///@{
+  static bool asksForValidMesh(Mode mode) { return mode >= Mode::SubStep; }
+  static bool repairs(Mode mode) { return mode == Mode::Repair || mode == Mode::RepairAll; }
+  ///@}
+  /// What a mode judges by: the cells that were inverted `before`, or none if it repairs all.
+  static const InvertedBefore& beforeFor(Mode mode, const InvertedBefore& before);
+  /// Throws Infeasible if the mode asks for a valid mesh and the boundary inverts these cells.
+  static void requireFeasible(Mode mode, const std::vector<Index>& determined);
+  /// A warning of cells that were inverted before and do not count in that mode, or nothing. `ids`:
+  /// ascending.
+  static std::string note(Mode mode, const std::vector<Index>& ids);
+
+  /// The outcome of sub-steps. Where they have not made the whole motion, its error names what
+  /// stopped them: `room`, what the boundary does where the next step is forbidden, as "leaves";
+  /// `cells`, a text of where the cells are, to which a sentence may follow.
+  static Outcome ofSubSteps(
+    const SubStepResult& result, const char* room, const std::string& cells);
+
+  /// Throws Infeasible if `mode` asks for a valid mesh and the targets themselves invert cells; the
+  /// message names these cells. To be called before the method is evaluated.
+  void requireFeasible() const;
+  /// Makes `moved`, #nodes x 3, the mesh that `mode` asks for. If that is not found, it becomes the
+  /// best mesh found, and Outcome::error has the reason. Throws Error where `mode` refuses. Cost: a
+  /// measure of the mesh; of invalid ones a repair, or morphIncrementally(), or both.
+  Outcome ensure(Points& moved, Monitor& monitor) const;
+
+private:
+  /// The inverted cells that count.
+  std::vector<Index> inverted(const Quality& quality, const Points& points) const;
+  std::vector<Index> inverted(const Points& points, Monitor& monitor) const;
+  /// Describes the worst of these cells, a line for each.
+  std::string describe(
+    const std::vector<Index>& inverted, const Quality& quality, const Points& points) const;
+  /// Repairs the mesh, if that leaves fewer cells that count. Returns whether none are left.
+  bool repair(Points& moved, Monitor& monitor) const;
+  Outcome subStep(
+    const std::function<std::unique_ptr<Morpher>()>& make, Points& moved, Monitor& monitor) const;
+  /// The outcome of a mesh that stays invalid though `mode` asks for a valid one. `reason`: why.
+  Outcome remaining(const Points& moved, const std::string& reason, Monitor& monitor) const;
+  /// "N cells are inverted or degenerate ...", by the motion where others are, too, and the worst.
+  std::string found(const Quality& quality, const Points& points) const;
+};
+}
