@@ -46,7 +46,7 @@ moved = WrapDataObject(servermanager.Fetch(boundary))
 keep("ids", moved.PointData["MorphPointId"])
 keep("targets", moved.Points)
 for method in sys.argv[4:]:
-    filter_ = globals()[method](Mesh=part, Boundary=boundary)
+    filter_ = globals()[method](Input=part, Boundary=boundary)
     filter_.OutputPointsPrecision = "Double"
     result = WrapDataObject(servermanager.Fetch(filter_))
     keep(method, result.Points)
