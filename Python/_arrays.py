@@ -164,8 +164,8 @@ class Mesh(_core.Mesh):
             raise ValueError("celltypes has numbers beyond 0 to 255.")
         polyhedra = numpy.flatnonzero(types == 42)
         if polyhedra.size:
-            raise ValueError(f"Polyhedra are not taken: cells {_listed(polyhedra)}. Use the filters "
-                             "for them.")
+            raise ValueError(f"Polyhedra are not taken: cells {_listed(polyhedra)}. The filters "
+                             "morph them.")
         super().__init__(coordinates, types.astype(numpy.uint8), offsets, connectivity)
 
     @property

@@ -644,7 +644,8 @@ def option_of(row):
 
 def make_python(path):
     table = read()
-    made = ['# Made by cmake/properties.py from Properties.ini.\n"""The methods and their options."""',
+    made = ["# Made by cmake/properties.py from Properties.ini.\n"
+            '"""The methods and their options."""',
             "from typing import Optional\n\nfrom numpy.typing import ArrayLike\n\n"
             "from ._arrays import Method\n"]
     for name, stem in METHODS.items():
@@ -670,8 +671,8 @@ def make_python(path):
     write(path, "\n".join(made))
 
 
-MAKERS = {"python": make_python, "cxx": make_cxx, "xml": make_xml, "options": make_options, "tests": make_tests,
-          "pages": make_pages}
+MAKERS = {"cxx": make_cxx, "xml": make_xml, "options": make_options, "tests": make_tests,
+          "pages": make_pages, "python": make_python}
 
 if __name__ == "__main__":
     if len(sys.argv) != 3 or sys.argv[1] not in MAKERS:

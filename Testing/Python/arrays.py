@@ -127,12 +127,13 @@ class Meshes(unittest.TestCase):
         block = [("hexahedron", cells)]
         holed = points.copy()
         holed[7] = numpy.nan
+        strayed = numpy.where(cells == 5, 99, cells)
         types = numpy.full(len(cells), HEXAHEDRON)
         flat = numpy.insert(cells, 0, 8, axis=1).ravel()
         for text, arguments in {
                 r"\(27, 2\); \(n, 3\)": (points[:, :2], block),
                 "7": (holed, block),
-                "outside 0 to 26: cell ids 1, 3": (points, [("hexahedron", numpy.where(cells == 5, 99, cells))]),
+                "outside 0 to 26: cell ids 1, 3": (points, [("hexahedron", strayed)]),
                 "cube with 8 nodes": (points, [("cube", cells)]),
                 "tetra with 8 nodes": (points, [("tetra", cells)]),
                 "no volume cells": (points, [("quad", cells[:, :4])]),
