@@ -38,7 +38,7 @@ setup(
     version=re.search(r"^project\(MeshMorphing VERSION ([\d.]+)",
                       (ROOT / "CMakeLists.txt").read_text(encoding="utf-8"), re.MULTILINE)[1],
     description="Moves the nodes of volume meshes so that they fit a changed boundary",
-    license="BSD-3-Clause",
+    license="BSD-3-Clause; with CGAL in it, the wheel is under GPL-3.0-or-later",
     python_requires=">=3.9",
     install_requires=["numpy"],
     ext_modules=[Extension("meshmorphing._core", [])],

@@ -5,6 +5,8 @@ Run: PYTHONPATH=<folder of meshmorphing> MESHMORPHING_MODELS=<small models> pyth
 """
 import os
 import re
+import shutil
+import signal
 import subprocess
 import sys
 import tempfile
@@ -334,6 +336,32 @@ class Validity(unittest.TestCase):
         corners = numpy.flatnonzero(mesh.points[:len(points), 2] == 1)
         moved = mm.morph(mesh, corners, targets=mesh.points[corners] + [0, 0.2, 0.1])
         self.assertLess(abs(moved[len(points):] - moved[unique].mean(axis=1)).max(), 1e-12)
+
+
+class Process(unittest.TestCase):
+    def test_an_interrupt_stops_a_computation(self):
+        """It comes from another thread, which needs the lock."""
+        points, cells = cube(30)
+        mesh = mm.Mesh(points, [("hexahedron", cells)])
+        prepared = None
+        timer = threading.Timer(0.05, os.kill, (os.getpid(), signal.SIGINT))
+        with self.assertRaises(KeyboardInterrupt):
+            timer.start()
+            prepared = mm.SimplexNaturalNeighbor().prepare(mesh, mesh.boundary.nodes)
+        self.assertIsNone(prepared)
+
+    def test_without_the_extension_the_filters_alone_are_there(self):
+        with tempfile.TemporaryDirectory() as folder:
+            package = Path(folder, "meshmorphing")
+            Path(package, "vtk").mkdir(parents=True)
+            Path(package, "vtk/__init__.py").touch()
+            shutil.copy(mm.__file__, package)
+            codes = ("import meshmorphing.vtk", "import meshmorphing; meshmorphing.Mesh")
+            fine, wrong = (subprocess.run([sys.executable, "-c", code], cwd=folder, text=True,
+                                          env={"PYTHONPATH": folder}, capture_output=True)
+                           for code in codes)
+        self.assertEqual((fine.returncode, fine.stderr), (0, ""))
+        self.assertRegex(wrong.stderr, "ImportError: meshmorphing has no Mesh here: .*pybind11")
 
 
 class Pages(unittest.TestCase):
