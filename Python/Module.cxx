@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The extension module meshmorphing._core: arrays in, arrays out. Shapes and types of arrays are
-// checked in Python (Python/_arrays.py), their content here and in the core.
+// The extension module meshmorphing._core: arrays in, arrays out. Shapes, types and coordinates are
+// checked in Python (Python/_arrays.py), ids here and in the core.
 #include "Boundary/Classification.h"
 #include "Boundary/FaceAreas.h"
 #include "LinearMethods/AttachedNodes.h"
@@ -76,8 +76,8 @@ public:
   {
     const py::gil_scoped_acquire lock;
     const py::object kind = py::module_::import("meshmorphing").attr("MorphWarning");
-    // As that of the line that called the package.
-    if (PyErr_WarnEx(kind.ptr(), message.c_str(), 3) != 0)
+    constexpr int Caller = 2; // the line that called the package
+    if (PyErr_WarnEx(kind.ptr(), message.c_str(), Caller) != 0)
     {
       throw py::error_already_set(); // warnings are errors
     }
@@ -411,21 +411,11 @@ public:
     const Points& rest = this->mesh_->points;
     Points targets = rest(this->prescribed_.partition()->prescribed, morph::allColumns);
     const Ids& rows = this->prescribed_.rows();
-    Ids wrong;
     for (std::size_t i = 0; i < rows.size(); ++i)
     {
       auto target = targets.row(rows[i]);
       const auto given = positions.row(static_cast<Index>(i));
       target = isRelative ? Eigen::RowVector3d(target + given) : Eigen::RowVector3d(given);
-      if (!target.allFinite())
-      {
-        wrong.push_back(this->prescribed_.named()[i]);
-      }
-    }
-    if (!wrong.empty())
-    {
-      throw morph::Error("Displacements or targets are not finite (NaN or infinite) at nodes " +
-                         morph::listIds(wrong) + ".");
     }
     Points moved;
     this->method_->evaluate(targets, moved, monitor);
@@ -473,20 +463,44 @@ struct Repaired
   Ids determined; ///< those of them that the prescribed nodes alone invert
 };
 
-/// Near the inverted cells at first, then in the whole mesh. Cells that were inverted before, and
-/// are no worse, do not count.
+/// The cells that a motion inverts, ascending. Those that were inverted before, and are no worse,
+/// do not count.
+class Inverted
+{
+public:
+  Inverted(const Mesh& mesh, Monitor& monitor)
+    : mesh_(mesh)
+    , monitor_(monitor)
+    , before_(*mesh.cells, mesh.signs, this->measure(mesh.points()))
+  {
+  }
+
+  Ids at(const ConstPoints& points) const
+  {
+    return this->before_.added(points, morph::invertedCells(this->measure(points)));
+  }
+  const morph::InvertedBefore& before() const { return this->before_; }
+
+private:
+  morph::Quality measure(const ConstPoints& points) const
+  {
+    return morph::measureQuality(*this->mesh_.cells, points, this->mesh_.signs, {}, this->monitor_);
+  }
+
+  const Mesh& mesh_;
+  Monitor& monitor_;
+  morph::InvertedBefore before_;
+};
+
+/// Near the inverted cells at first, then in the whole mesh.
 Repaired repair(
   const Mesh& mesh, const ConstPoints& points, const Ids& nodes, bool fixesOthers, Monitor& monitor)
 {
   const Prescribed prescribed(mesh, nodes, fixesOthers);
-  const auto quality = [&](const Points& of)
-  { return morph::measureQuality(*mesh.cells, of, mesh.signs, {}, monitor); };
-  const morph::InvertedBefore before(*mesh.cells, mesh.signs, quality(mesh.points()));
-  const auto bad = [&](const Points& of)
-  { return before.added(of, morph::invertedCells(quality(of))); };
+  const Inverted bad(mesh, monitor);
   Repaired result;
   result.points = points;
-  result.inverted = bad(result.points);
+  result.inverted = bad.at(result.points);
   for (const bool nearOnly : { true, false })
   {
     if (result.inverted.empty())
@@ -498,7 +512,7 @@ Repaired repair(
     method.prepare(mesh.cells, prescribed.partition(), monitor);
     Points trial = result.points;
     method.repair(trial, monitor);
-    Ids left = bad(trial);
+    Ids left = bad.at(trial);
     if (left.size() < result.inverted.size())
     {
       result.points.swap(trial);
@@ -507,7 +521,7 @@ Repaired repair(
   }
   if (!result.inverted.empty())
   {
-    result.determined = before.without(morph::boundaryDeterminedInversions(
+    result.determined = bad.before().without(morph::boundaryDeterminedInversions(
       *mesh.cells, *prescribed.partition(), mesh.signs, result.points));
   }
   return result;
@@ -561,6 +575,11 @@ PYBIND11_MODULE(_core, module)
         const morph::Quality quality = measure(mesh, points);
         return py::make_tuple(arrayOf(quality.scaledJacobian), quality.minimum, quality.mean,
           quality.inverted, quality.degenerate, quality.worstCell);
+      })
+    .def("_inverted",
+      [](const Mesh& mesh, const ConstPoints& points) {
+        return arrayOf(
+          unlocked([&](Monitor& monitor) { return Inverted(mesh, monitor).at(points); }));
       })
     .def("_repair",
       [](const Mesh& mesh, const ConstPoints& points, const IdArray& nodes, bool fixesOthers)

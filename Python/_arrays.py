@@ -73,12 +73,18 @@ def set_threads(count: int) -> None:
     _core.set_threads(count)
 
 
-def _points(values: ArrayLike, what: str, rows: Optional[int] = None) -> Floats:
-    """The same array if it is float64 and contiguous, else a copy."""
+def _points(values: ArrayLike, what: str, rows: Optional[int] = None,
+            nodes: Optional[Ids] = None) -> Floats:
+    """The same array if it is float64 and contiguous, else a copy. `nodes`: the id of each row."""
     array = numpy.ascontiguousarray(values, dtype=numpy.float64)
     if array.ndim != 2 or array.shape[1] != 3 or rows not in (None, len(array)):
         raise ValueError(f"{what} has the shape {array.shape}; "
                          f"({'n' if rows is None else rows}, 3) is needed.")
+    wrong = numpy.flatnonzero(~(abs(array) <= 1e50).all(axis=1))  # so that NaN is wrong, too
+    if wrong.size:
+        raise ValueError(f"{what} has NaN, infinity or numbers beyond 1e50 at nodes "
+                         f"{_listed(wrong if nodes is None else nodes[wrong])}. Use another unit, "
+                         "or correct it.")
     return array
 
 
@@ -98,10 +104,18 @@ def _type_number(name: str, nodes: int) -> int:
     return number
 
 
+def _is_block(part: Any) -> bool:
+    """Whether it is a block of meshio, or a pair of type and array."""
+    return hasattr(part, "type") or (len(part) == 2 and isinstance(part[0], str))
+
+
 def _from_blocks(blocks: Sequence[Any]) -> tuple[Ids, Ids, NDArray[numpy.uint8]]:
     sizes, ids, types = [], [], []
     for block in blocks:
-        name, data = (block.type, block.data) if hasattr(block, "data") else block
+        if not _is_block(block):
+            raise ValueError("cells has a block that is no pair of type and array, such as "
+                             '("hexahedron", array (cells, 8)).')
+        name, data = (block.type, block.data) if hasattr(block, "type") else block
         data = numpy.asarray(data)
         if data.ndim != 2:
             raise ValueError(f"The cells of type {name} have the shape {data.shape}; (cells, nodes "
@@ -151,13 +165,13 @@ class Mesh(_core.Mesh):
         if celltypes is not None:
             types = _ids(celltypes, "celltypes")
             offsets, connectivity = _from_flat(_ids(cells, "cells"), len(types))
-        elif (isinstance(cells, tuple) and len(cells) == 3
-              and all(numpy.ndim(part) == 1 for part in cells)):
+        elif not isinstance(cells, (list, tuple)):
+            raise ValueError("cells in one row need celltypes, VTK's numbers of their types; else "
+                             "blocks, or offsets, connectivity and celltypes, are needed.")
+        elif len(cells) == 3 and not any(map(_is_block, cells)):
             offsets, connectivity, types = (
                 _ids(part, name) for part, name in
                 zip(cells, ("offsets", "connectivity", "celltypes")))
-        elif isinstance(cells, numpy.ndarray):
-            raise ValueError("cells in one row need celltypes, VTK's numbers of their types.")
         else:
             offsets, connectivity, types = _from_blocks(cells)
         if types.size and not (0 <= types.min() and types.max() < 256):
@@ -213,8 +227,9 @@ class Prepared:
         if (displacements is None) == (targets is None):
             raise TypeError("evaluate() needs either displacements or targets.")
         is_relative = targets is None
+        nodes = self.nodes
         values = _points(displacements if is_relative else targets,
-                         "displacements" if is_relative else "targets", len(self.nodes))
+                         "displacements" if is_relative else "targets", len(nodes), nodes)
         return self._core._evaluate(values, is_relative)
 
     def adjoint(self, gradient: ArrayLike) -> Floats:
@@ -336,9 +351,7 @@ def morph(mesh: Mesh, nodes: ArrayLike, displacements: Optional[ArrayLike] = Non
     moved = prepared.evaluate(displacements, targets=targets)
     if repair:
         return _repair(mesh, moved, prepared.nodes, fix_unnamed_boundary=fix_unnamed_boundary)
-    found = quality(mesh, moved)
-    before = quality(mesh)
-    cells = numpy.flatnonzero((found.scaled_jacobian <= 0) & ~(before.scaled_jacobian <= 0))
+    cells = mesh._inverted(moved)
     if len(cells):
         raise MorphError(f"{len(cells)} cells are inverted: cells {_listed(cells)}. Call with "
                          "repair=True, or move the boundary less.", moved, cells)

@@ -75,6 +75,7 @@ class Meshes(unittest.TestCase):
         flat = numpy.insert(ids, offsets[:-1], sizes)
         meshes = {"blocks": mm.Mesh(points, blocks),
                   "offsets": mm.Mesh(points, (offsets, ids, types)),
+                  "list": mm.Mesh(points, [offsets, ids, types]),
                   "flat": mm.Mesh(points, flat, types),
                   "lists": mm.Mesh(points.tolist(), flat.tolist(), types.tolist())}
         nodes = meshes["blocks"].boundary.nodes
@@ -140,6 +141,8 @@ class Meshes(unittest.TestCase):
                 "tetra with 8 nodes": (points, [("tetra", cells)]),
                 "no volume cells": (points, [("quad", cells[:, :4])]),
                 "need celltypes": (points, flat),
+                "pair of type and array": (points, [cells]),
+                "at nodes 0, 1": (points + 1e60, block),
                 "cell 8 of 9": (points, flat, numpy.full(9, HEXAHEDRON)),
                 "7 cells have 63": (points, flat, types[:7]),
                 "whole numbers": (points, flat.astype(float), types),
@@ -300,6 +303,10 @@ class Validity(unittest.TestCase):
         self.assertEqual((found.inverted, found.degenerate, found.worst_cell), (0, 0, 0))
         points[13] = [0.5, 0.5, 1.1]
         self.assertEqual(mm.quality(mesh, points).inverted, 4)
+        points[5, 1] = numpy.nan
+        for call in (mm.quality, lambda *given: mm.repair(*given, [])):
+            with self.assertRaisesRegex(ValueError, "points has NaN, .* at nodes 5"):
+                call(mesh, points)
 
     def test_inverted_cells_are_repaired(self):
         mesh, nodes, motion = self.press(0.75)
