@@ -26,11 +26,13 @@ class CMake(build_ext):
         subprocess.run(["cmake", "--build", build, "--target", "meshmorphing_numpy", "--parallel",
                         os.environ.get("CMAKE_BUILD_PARALLEL_LEVEL", str(os.cpu_count()))],
                        check=True)
-        shutil.rmtree(prefix, ignore_errors=True)
+        made = Path(self.build_lib, "meshmorphing")
+        for old in (prefix, made):
+            shutil.rmtree(old, ignore_errors=True)
         subprocess.run(["cmake", "--install", build, "--component", "numpy", "--prefix", prefix],
                        check=True)
         package, = prefix.glob("**/meshmorphing")
-        shutil.copytree(package, Path(self.build_lib, "meshmorphing"), dirs_exist_ok=True)
+        shutil.copytree(package, made)
 
 
 setup(

@@ -357,17 +357,22 @@ class Process(unittest.TestCase):
             prepared = mm.SimplexNaturalNeighbor().prepare(mesh, mesh.boundary.nodes)
         self.assertIsNone(prepared)
 
-    def test_without_the_extension_the_filters_alone_are_there(self):
+    def test_filters_and_arrays_may_lie_in_two_folders(self):
+        """Where the folder without the extension is alone, an error says what to do."""
         with tempfile.TemporaryDirectory() as folder:
             package = Path(folder, "meshmorphing")
             Path(package, "vtk").mkdir(parents=True)
             Path(package, "vtk/__init__.py").touch()
             shutil.copy(mm.__file__, package)
-            codes = ("import meshmorphing.vtk", "import meshmorphing; meshmorphing.Mesh")
-            fine, wrong = (subprocess.run([sys.executable, "-c", code], cwd=folder, text=True,
-                                          env={"PYTHONPATH": folder}, capture_output=True)
-                           for code in codes)
-        self.assertEqual((fine.returncode, fine.stderr), (0, ""))
+            both = f"{folder}:{Path(mm.__file__).parents[1]}"
+            code = "import meshmorphing.vtk"
+            alone, two, wrong = (
+                subprocess.run([sys.executable, "-c", code + more], cwd=folder, text=True,
+                               env={"PYTHONPATH": path}, capture_output=True)
+                for path, more in ((folder, ""), (both, "; meshmorphing.Mesh"),
+                                   (folder, "; meshmorphing.Mesh")))
+        self.assertEqual((alone.returncode, alone.stderr), (0, ""))
+        self.assertEqual((two.returncode, two.stderr), (0, ""))
         self.assertRegex(wrong.stderr, "ImportError: meshmorphing has no Mesh here: .*pybind11")
 
 
