@@ -654,10 +654,8 @@ def make_python(path):
         brief = re.search(r"@brief +(.*)", header)[1]
         own = [(row, *option_of(row)) for row in rows(table, [cls])]
         about = "\n".join(textwrap.fill(
-            f"{option}: " + (", ".join(row.values) + ". " if row.values else "") +
-            (f"Range {row['range']}. " if row["range"] else "") +
-            " ".join(row.paragraphs[0].split()), 96, initial_indent="    ",
-            subsequent_indent="        ") for row, option, *_ in own)
+            f"{option}: {accepted(row)}. " + " ".join(row.paragraphs[0].split()), 96,
+            initial_indent="    ", subsequent_indent="        ") for row, option, *_ in own)
         made.append(f'\nclass {name}(Method):\n    """{brief[0].upper()}{brief[1:]}.\n' +
                     (f"\n{about}\n" if own else "") + '    """\n')
         if own:
