@@ -190,6 +190,18 @@ class Methods(unittest.TestCase):
                                  for sign in (1, -1))
                 self.assertAlmostEqual((gradient * along).sum(), (ahead - behind) / (2 * step), 8)
 
+    def test_a_beam_follows_the_volume_and_has_a_share_in_the_adjoint(self):
+        points, cells = cube(3)
+        free = len(points)
+        beam = numpy.array([[free - 1, free]])  # from a corner outwards
+        mesh = mm.Mesh(numpy.vstack([points, [1, 1, 2]]), [("hexahedron", cells), ("line", beam)])
+        prepared = mm.FEMWARP().prepare(mesh, mesh.boundary.nodes)
+        shift = numpy.tile([0.1, 0.2, 0.3], (len(prepared.nodes), 1))
+        self.assertLess(abs(prepared.evaluate(shift)[free] - [1.1, 1.2, 2.3]).max(), 1e-12)
+        gradient = numpy.zeros_like(mesh.points)
+        gradient[free] = [1, 2, 3]
+        self.assertLess(abs(prepared.adjoint(gradient).sum(axis=0) - [1, 2, 3]).max(), 1e-10)
+
     def test_all_results_are_the_same_in_any_number_of_threads(self):
         self.addCleanup(mm.set_threads, 0)
         mesh = hexahedra()
