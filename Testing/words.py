@@ -10,7 +10,7 @@ import os
 import re
 import sys
 
-FOLDERS = ("Examples", "Filters", "Plugin", "Programs", "Testing")
+FOLDERS = ("Examples", "Filters", "Plugin", "Programs", "Python", "Testing")
 
 # Pattern, what to write, a sentence to find.
 TABLE = (

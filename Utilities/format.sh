@@ -14,7 +14,7 @@ case "${1:-}" in
   *) echo "Usage: format.sh [--check]" >&2; exit 2 ;;
 esac
 sources() {
-  find Examples Filters Plugin Programs Testing \( -name '*.h' -o -name '*.cxx' \) -print0
+  find Examples Filters Plugin Programs Python Testing \( -name '*.h' -o -name '*.cxx' \) -print0
 }
 # States that ParaView wrote are as it wrote them.
 scripts() {

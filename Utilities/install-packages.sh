@@ -4,12 +4,13 @@ set -euo pipefail
 
 usage() {
   cat <<END
-Usage: install-packages.sh [--use | --demo] [--solvers] [--benchmark] [--developer] [--site]
-                           [--portable] [--other-debian]
+Usage: install-packages.sh [--use | --demo] [--numpy] [--solvers] [--benchmark] [--developer]
+                           [--site] [--portable] [--other-debian]
 Installs the Debian packages that MeshMorphing is built and tested with, as root or through sudo.
 Does nothing where they are all installed. Exits with 77 where the registry does not answer.
   --use         only what it takes to build and to use it: compiler, ParaView, libraries
   --demo        that, and what demo.sh needs (Gmsh, Xvfb)
+  --numpy       also what Python's package for NumPy is built and used with (pybind11, pip, meshio)
   --solvers     also OpenFOAM and CalculiX (400 MB), which read and solve what morph-mesh writes
   --benchmark   also what benchmarks need: solvers to compare with (SuiteSparse, OpenBLAS), and
                 xdotool
@@ -33,8 +34,10 @@ packages=(
   zlib1g-dev libpython3-dev libgl-dev libx11-dev libxcursor-dev libxt-dev libgdal-dev libavcodec-dev
   libavformat-dev libavutil-dev libswscale-dev libboost-dev python3-mpi4py libcgns-dev)
 demo=(gmsh python3-gmsh xvfb xauth)
-tests=(git dpkg-dev file gdb cgns-convert netcdf-bin libgtest-dev python3-meshio python3-matplotlib
-  python3-scipy imagemagick libxtst6)
+tests=(git dpkg-dev file gdb cgns-convert netcdf-bin libgtest-dev python3-matplotlib imagemagick
+  libxtst6)
+numpy=(pybind11-dev python3-dev python3-pip python3-setuptools python3-wheel python3-venv
+  python3-meshio python3-scipy)
 solvers=(openfoam calculix-ccx)
 release=$(. /etc/os-release && echo "${ID:-} ${VERSION_ID:-${VERSION_CODENAME:-}}")
 qt6=(qt6-base-dev qt6-svg-dev qt6-5compat-dev qt6-tools-dev)
@@ -57,12 +60,13 @@ case "$release" in
     fi ;;
 esac
 
-basis=("${demo[@]}" "${tests[@]}")
+basis=("${demo[@]}" "${numpy[@]}" "${tests[@]}")
 for option in "$@"; do
   case "$option" in
     -h | --help) usage; exit 0 ;;
     --use) basis=() ;;
     --demo) basis=("${demo[@]}") ;;
+    --numpy) packages+=("${numpy[@]}") ;;
     --solvers) packages+=(${solvers[@]+"${solvers[@]}"}) ;;
     --benchmark) packages+=(libsuitesparse-dev libopenblas-dev xdotool) ;;
     --developer) packages+=(ccache clang clang-format clang-tidy doxygen graphviz) ;;

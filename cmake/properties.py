@@ -6,6 +6,7 @@
     python3 cmake/properties.py options FILE the table of morph-mesh's options (PropertyTable.cxx)
     python3 cmake/properties.py tests FILE   what is one number, for the tests (PropertyRows.h)
     python3 cmake/properties.py pages FOLDER the reference of each filter, for the site
+    python3 cmake/properties.py python FILE  the methods of Python's package for NumPy (_methods.py)
 
 A file whose text is the same stays as it is, so that nothing is compiled again."""
 
@@ -618,8 +619,58 @@ def make_pages(folder):
         write(folder / f"{proxy}.md", "\n".join(page) + "\n")
 
 
+# ---------------------------------------------------------------------------- Python, NumPy
+
+
+#: The methods of the package meshmorphing, and the beginnings of their filters' names.
+METHODS = {"FEMWARP": "FEMWarp", "LBWARP": "LBWarp", "WeightedResidual": "WeightedResidual",
+           "SimplexLinear": "SimplexLinear", "SimplexNaturalNeighbor": "SimplexNaturalNeighbor",
+           "RadialBasis": "RadialBasis", "Smoothing": "Smoothing",
+           "InversionFree": "InversionFree"}
+
+
+def option_of(row):
+    """Its name in Python, type, default, and what Method checks: kind, least or choices, most."""
+    name = row.words.lower().replace(" ", "_")
+    most = (2**31 - 1) if row.kind == "integer" else float("inf")
+    low, high = (v or f'float("{one}")' for v, one in zip(row.range, (-most, most)))
+    if row.kind == "choice":
+        return name, "str", repr(row.default), f'("choice", {tuple(row.values)}, None)'
+    if row.kind == "array":
+        return name, "Optional[ArrayLike]", "None", '("array", None, None)'
+    return name, {"number": "float", "integer": "int"}[row.kind], row.default, (
+        f'("{row.kind}", {low}, {high})')
+
+
+def make_python(path):
+    table = read()
+    made = ["# Made by cmake/properties.py from Properties.ini.\n"
+            '"""The methods and their options."""',
+            "from typing import Optional\n\nfrom numpy.typing import ArrayLike\n\n"
+            "from ._arrays import Method\n"]
+    for name, stem in METHODS.items():
+        cls = f"{stem}Morph"
+        header = next(MODULE.glob(f"vtk{cls}.h*")).read_text(encoding="utf-8")
+        brief = re.search(r"@brief +(.*)", header)[1]
+        own = [(row, *option_of(row)) for row in rows(table, [cls])]
+        about = "\n".join(textwrap.fill(
+            f"{option}: {accepted(row)}. " + " ".join(row.paragraphs[0].split()), 96,
+            initial_indent="    ", subsequent_indent="        ") for row, option, *_ in own)
+        made.append(f'\nclass {name}(Method):\n    """{brief[0].upper()}{brief[1:]}.\n' +
+                    (f"\n{about}\n" if own else "") + '    """\n')
+        if own:
+            checks = "".join(f"        {option!r}: {check},\n" for _, option, _, _, check in own)
+            arguments = ",\n                 ".join(
+                f"{option}: {kind} = {default}" for _, option, kind, default, _ in own)
+            passed = ", ".join(f"{option}={option}" for _, option, *_ in own)
+            made.append(f"    _OPTIONS = {{\n{checks}    }}\n\n"
+                        f"    def __init__(self, *, {arguments}) -> None:\n"
+                        f"        super().__init__({passed})\n")
+    write(path, "\n".join(made))
+
+
 MAKERS = {"cxx": make_cxx, "xml": make_xml, "options": make_options, "tests": make_tests,
-          "pages": make_pages}
+          "pages": make_pages, "python": make_python}
 
 if __name__ == "__main__":
     if len(sys.argv) != 3 or sys.argv[1] not in MAKERS:

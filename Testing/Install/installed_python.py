@@ -13,7 +13,7 @@ import tempfile
 import unittest
 from pathlib import Path
 
-import meshmorphing
+import meshmorphing.vtk as mm
 import numpy
 from vtkmodules.numpy_interface import dataset_adapter
 from vtkmodules.util import numpy_support
@@ -21,9 +21,8 @@ from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader, vtkXMLUnstructured
 
 ROOT = Path(__file__).resolve().parents[2]
 MODEL = os.path.join(os.environ["MESHMORPHING_MODELS"], "bore_hex_small.vtu")
-METHODS = [meshmorphing.vtkFEMWarpMorph, meshmorphing.vtkLBWarpMorph,
-           meshmorphing.vtkSimplexLinearMorph, meshmorphing.vtkSimplexNaturalNeighborMorph,
-           meshmorphing.vtkRadialBasisMorph, meshmorphing.vtkWeightedResidualMorph]
+METHODS = [mm.vtkFEMWarpMorph, mm.vtkLBWarpMorph, mm.vtkSimplexLinearMorph,
+           mm.vtkSimplexNaturalNeighborMorph, mm.vtkRadialBasisMorph, mm.vtkWeightedResidualMorph]
 
 
 def read():
@@ -34,7 +33,7 @@ def read():
 
 
 def boundary_of(grid):
-    extract = meshmorphing.vtkExtractMorphBoundary()
+    extract = mm.vtkExtractMorphBoundary()
     extract.SetInputData(grid.VTKObject)
     extract.Update()
     return dataset_adapter.WrapDataObject(extract.GetOutput())
@@ -73,7 +72,7 @@ class InstalledPython(unittest.TestCase):
             elif line and not line.startswith("#") and line.split()[1] != "counts":
                 owner = "vtkFEMWarpMorph" if section == "vtkMorphAlgorithm" else section
                 name, kind = line.split()[:2]
-                value = getattr(getattr(meshmorphing, owner)(), "Get" + name)()
+                value = getattr(getattr(mm, owner)(), "Get" + name)()
                 self.assertIsInstance(value, {"double": float, "text": str}.get(kind, int), name)
                 getters += 1
         self.assertGreater(getters, 50)
@@ -100,7 +99,7 @@ class InstalledPython(unittest.TestCase):
     def test_adjoint_from_numpy(self):
         grid, boundary = read(), boundary_of(read())
         gradient = numpy.random.default_rng(7).normal(size=grid.Points.shape)
-        morph = meshmorphing.vtkFEMWarpMorph()
+        morph = mm.vtkFEMWarpMorph()
         result = numpy_support.numpy_to_vtk(numpy.empty((0, 3)))
         self.assertTrue(morph.ApplyTranspose(grid.VTKObject, boundary.VTKObject,
                                              numpy_support.numpy_to_vtk(gradient), result))
@@ -110,15 +109,15 @@ class InstalledPython(unittest.TestCase):
         self.assertLess(abs(result.sum(axis=0) - gradient.sum(axis=0)).max(), 1e-7)
 
     def test_docstrings(self):
-        for method in METHODS + [meshmorphing.vtkInversionFreeMorph]:
+        for method in METHODS + [mm.vtkInversionFreeMorph]:
             self.assertRegex(method.__doc__, "Superclass: vtkMorphAlgorithm")
-            self.assertTrue(issubclass(method, meshmorphing.vtkMorphAlgorithm))
-        self.assertIn("Default 1e-10", meshmorphing.vtkFEMWarpMorph.SetTolerance.__doc__)
-        self.assertIn("adjoint", meshmorphing.vtkMorphAlgorithm.ApplyTranspose.__doc__)
-        self.assertIn("paraview.simple", meshmorphing.__doc__)
+            self.assertTrue(issubclass(method, mm.vtkMorphAlgorithm))
+        self.assertIn("Default 1e-10", mm.vtkFEMWarpMorph.SetTolerance.__doc__)
+        self.assertIn("adjoint", mm.vtkMorphAlgorithm.ApplyTranspose.__doc__)
+        self.assertIn("paraview.simple", mm.__doc__)
 
     def test_errors_are_vtk_errors(self):
-        morph = meshmorphing.vtkFEMWarpMorph()
+        morph = mm.vtkFEMWarpMorph()
         messages = []
         observer = lambda _, __, text: messages.append(text)  # noqa: E731
         observer.CallDataType = "string0"
@@ -131,7 +130,7 @@ class InstalledPython(unittest.TestCase):
 
     def test_it_is_refused_beside_paraview(self):
         code = ("import sys, types; sys.modules['paraview'] = types.ModuleType('paraview'); "
-                "import meshmorphing")
+                "import meshmorphing.vtk")
         result = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True,
                                 timeout=60)
         self.assertNotEqual(result.returncode, 0)
@@ -141,7 +140,7 @@ class InstalledPython(unittest.TestCase):
         code = ("from vtkmodules import vtkCommonCore; "
                 "vtkCommonCore.vtkVersion = "
                 "type('Other', (), {'GetVTKVersion': staticmethod(lambda: '8.2.0')}); "
-                "import meshmorphing")
+                "import meshmorphing.vtk")
         result = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True,
                                 timeout=60)
         self.assertNotEqual(result.returncode, 0)

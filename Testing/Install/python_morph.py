@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""meshmorphing.morph(): VTK's grids, subclasses of them, blocks, numpy arrays, and exceptions.
+"""meshmorphing.vtk.morph(): VTK's grids, subclasses of them, blocks, numpy arrays, and exceptions.
 
 Run: PYTHONPATH=<folder of meshmorphing>:<VTK's> MESHMORPHING_MODELS=<small models>
          python3 python_morph.py
@@ -8,7 +8,7 @@ import os
 import unittest
 import warnings
 
-import meshmorphing
+import meshmorphing.vtk as mm
 import numpy
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkIdList, vtkPoints
@@ -42,7 +42,7 @@ def points(data):
 
 
 def boundary(grid):
-    extract = meshmorphing.vtkExtractMorphBoundary()
+    extract = mm.vtkExtractMorphBoundary()
     extract.SetInputData(grid)
     extract.Update()
     return extract.GetOutput()
@@ -98,11 +98,11 @@ class PythonMorph(unittest.TestCase):
 
     def test_it_is_the_filter(self):
         surface = moved(self.boundary, points(self.boundary) @ SHEAR)
-        morph = meshmorphing.vtkFEMWarpMorph()
+        morph = mm.vtkFEMWarpMorph()
         morph.SetInputData(self.grid)
         morph.SetBoundaryData(surface)
         morph.Update()
-        result = meshmorphing.morph(self.grid, surface)
+        result = mm.morph(self.grid, surface)
         self.assertTrue(numpy.array_equal(points(result), points(morph.GetOutput())))
         quality = vtk_to_numpy(result.GetCellData().GetArray("ScaledJacobian"))
         self.assertEqual(quality.min(), morph.GetMinScaledJacobian())
@@ -111,7 +111,7 @@ class PythonMorph(unittest.TestCase):
     def test_every_method_reproduces_a_shear(self):
         for method in METHODS:
             with self.subTest(method=method):
-                result = meshmorphing.morph(self.grid, self.x @ SHEAR, method)
+                result = mm.morph(self.grid, self.x @ SHEAR, method)
                 self.assertTrue(numpy.allclose(points(result)[self.ids], (self.x @ SHEAR)[self.ids],
                                                rtol=0, atol=1e-6))
                 if method != "Smoothing":  # which moves nodes for their cells' sake
@@ -119,37 +119,36 @@ class PythonMorph(unittest.TestCase):
 
     def test_points_of_all_forms_give_one_mesh(self):
         to = self.x @ SHEAR
-        whole = points(meshmorphing.morph(self.grid, to))
+        whole = points(mm.morph(self.grid, to))
         inside = to.copy()
         inside[numpy.setdiff1d(numpy.arange(len(to)), self.ids)] = 1e6
         order = numpy.random.default_rng(3).permutation(len(self.ids))
         for name, result in {
-                "points inside have no effect": meshmorphing.morph(self.grid, inside),
-                "of the boundary": meshmorphing.morph(self.grid, to[self.ids]),
-                "lists": meshmorphing.morph(self.grid, to[self.ids].tolist()),
-                "with ids": meshmorphing.morph(self.grid, to[self.ids][order],
-                                               ids=self.ids[order]),
-                "a grid": meshmorphing.morph(self.grid, moved(self.grid, to)),
-                "a boundary": meshmorphing.morph(self.grid, moved(self.boundary, to[self.ids]))
+                "points inside have no effect": mm.morph(self.grid, inside),
+                "of the boundary": mm.morph(self.grid, to[self.ids]),
+                "lists": mm.morph(self.grid, to[self.ids].tolist()),
+                "with ids": mm.morph(self.grid, to[self.ids][order], ids=self.ids[order]),
+                "a grid": mm.morph(self.grid, moved(self.grid, to)),
+                "a boundary": mm.morph(self.grid, moved(self.boundary, to[self.ids]))
         }.items():
             with self.subTest(form=name):
                 self.assertTrue(numpy.array_equal(points(result), whole))
         # Others stay.
         some = self.ids[:3]
-        result = points(meshmorphing.morph(self.grid, self.x[some] + 1e-3, ids=some))
+        result = points(mm.morph(self.grid, self.x[some] + 1e-3, ids=some))
         rest = numpy.setdiff1d(self.ids, some)
         self.assertTrue(numpy.array_equal(result[rest], self.x[rest]))
         self.assertGreater(abs(result[some] - self.x[some]).min(), 9e-4)
 
     def test_blocks_come_back_as_blocks(self):
         blocks = halves(self.grid)
-        extract = meshmorphing.vtkExtractMorphBoundary()
+        extract = mm.vtkExtractMorphBoundary()
         extract.SetInputDataObject(blocks)
         extract.Update()
         surface = extract.GetOutput()
         for displaced in (moved(surface, points(surface) @ SHEAR), points(surface) @ SHEAR,
                           sheared(blocks)):
-            result = meshmorphing.morph(blocks, displaced)
+            result = mm.morph(blocks, displaced)
             self.assertIsInstance(result, vtkMultiBlockDataSet)
             self.assertEqual(result.GetNumberOfBlocks(), 2)
             for i in range(2):
@@ -157,25 +156,25 @@ class PythonMorph(unittest.TestCase):
                 self.assertLess(abs(points(block) - points(blocks.GetBlock(i)) @ SHEAR).max(), 2e-2)
                 self.assertTrue(block.GetCellData().HasArray("ScaledJacobian"))
         with self.assertRaisesRegex(ValueError, "5 displaced points for a mesh with"):
-            meshmorphing.morph(blocks, self.x[:5])
+            mm.morph(blocks, self.x[:5])
 
     def test_a_subclass_comes_back(self):
-        result = meshmorphing.morph(Grid(self.grid), self.x @ SHEAR)
+        result = mm.morph(Grid(self.grid), self.x @ SHEAR)
         self.assertIs(type(result), Grid)
         self.assertEqual(result.GetNumberOfCells(), self.grid.GetNumberOfCells())
-        self.assertIs(type(meshmorphing.morph(self.grid, self.x)), type(vtkUnstructuredGrid()))
+        self.assertIs(type(mm.morph(self.grid, self.x)), type(vtkUnstructuredGrid()))
 
     def test_inverted_cells_raise_unless_they_are_allowed(self):
         displaced = folded(self.x)
-        with self.assertRaises(meshmorphing.MorphError) as caught:
-            meshmorphing.morph(self.grid, displaced)
+        with self.assertRaises(mm.MorphError) as caught:
+            mm.morph(self.grid, displaced)
         error = caught.exception
         self.assertIsInstance(error, RuntimeError)
         self.assertEqual(error.status, "Inverted")
         with warnings.catch_warnings(record=True) as warned:
             warnings.simplefilter("always")
-            result = meshmorphing.morph(self.grid, displaced, allow_inverted=True)
-        self.assertEqual([w.category for w in warned], [meshmorphing.MorphWarning])
+            result = mm.morph(self.grid, displaced, allow_inverted=True)
+        self.assertEqual([w.category for w in warned], [mm.MorphWarning])
         self.assertEqual(warned[0].filename, __file__)
         quality = vtk_to_numpy(result.GetCellData().GetArray("ScaledJacobian"))
         self.assertGreater(len(error.ids), 0)
@@ -185,19 +184,19 @@ class PythonMorph(unittest.TestCase):
     def test_options_are_those_of_the_filter(self):
         gentle = self.x + 0.25 * (folded(self.x) - self.x)
         with warnings.catch_warnings():
-            warnings.simplefilter("ignore", meshmorphing.MorphWarning)
-            plain = meshmorphing.morph(self.grid, gentle, allow_inverted=True)
+            warnings.simplefilter("ignore", mm.MorphWarning)
+            plain = mm.morph(self.grid, gentle, allow_inverted=True)
             for option in ({"Validity": "None"}, {"Validity": "Report", "NumberOfThreads": 1},
                            {"ScaleFactor": 1.0}):
-                same = meshmorphing.morph(self.grid, gentle, allow_inverted=True, **option)
+                same = mm.morph(self.grid, gentle, allow_inverted=True, **option)
                 self.assertTrue(numpy.array_equal(points(same), points(plain)))
-            half = meshmorphing.morph(self.grid, self.x @ SHEAR, ScaleFactor=0.5)
+            half = mm.morph(self.grid, self.x @ SHEAR, ScaleFactor=0.5)
         expected = (self.x + self.x @ SHEAR) / 2
         self.assertLess(abs(points(half) - expected)[self.ids].max(), 1e-6)
         for error, options in ((TypeError, {"NoSuchThing": 1}), (ValueError, {"Validity": "Maybe"}),
                                (TypeError, {"Nothing": "text"})):
             with self.assertRaises(error):
-                meshmorphing.morph(self.grid, self.x, **options)
+                mm.morph(self.grid, self.x, **options)
 
     def test_a_failure_raises_with_the_filters_own_words(self):
         bad = self.x.copy()
@@ -206,15 +205,15 @@ class PythonMorph(unittest.TestCase):
         surface.GetPointData().GetArray("MorphPointId").SetValue(0, 10 ** 6)
         for displaced, text in ((bad, "not finite"), (surface, "ids outside the grid")):
             for allow in (False, True):
-                with self.assertRaises(meshmorphing.MorphError) as caught:
-                    meshmorphing.morph(self.grid, displaced, allow_inverted=allow)
+                with self.assertRaises(mm.MorphError) as caught:
+                    mm.morph(self.grid, displaced, allow_inverted=allow)
                 self.assertIn(text, str(caught.exception))
                 self.assertNotIn("0x", str(caught.exception))
                 self.assertEqual(caught.exception.status, "Failed")
                 self.assertEqual(len(caught.exception.ids), 0)
                 self.assertTrue(numpy.array_equal(points(caught.exception.grid), self.x))
-        with self.assertRaises(meshmorphing.MorphError) as caught:
-            meshmorphing.morph(self.grid, folded(self.x), Validity="Refuse")
+        with self.assertRaises(mm.MorphError) as caught:
+            mm.morph(self.grid, folded(self.x), Validity="Refuse")
         self.assertEqual(caught.exception.status, "Failed")
 
     def test_arguments_of_the_wrong_kind(self):
@@ -227,7 +226,7 @@ class PythonMorph(unittest.TestCase):
                 (ValueError, "7 integers", (self.grid, self.x[:7]), {"ids": [1, 2]}),
                 (TypeError, "numpy array", (self.grid, self.boundary), {"ids": [1, 2]})):
             with self.subTest(text=text), self.assertRaises(error) as caught:
-                meshmorphing.morph(*arguments, **options)
+                mm.morph(*arguments, **options)
             self.assertIn(text, str(caught.exception))
 
 

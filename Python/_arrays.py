@@ -1,0 +1,361 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Meshes, methods and quality as arrays, over the extension module _core."""
+from __future__ import annotations
+
+from typing import Any, NamedTuple, Optional, Sequence, Union
+
+import numpy
+from numpy.typing import ArrayLike, NDArray
+
+from . import _core
+
+Floats = NDArray[numpy.float64]
+Ids = NDArray[numpy.int64]
+
+#: VTK's numbers of meshio's cell types.
+_TYPES = {
+    "vertex": 1, "line": 3, "triangle": 5, "quad": 9, "tetra": 10, "hexahedron": 12, "wedge": 13,
+    "pyramid": 14, "line3": 21, "triangle6": 22, "quad8": 23, "tetra10": 24, "hexahedron20": 25,
+    "wedge15": 26, "pyramid13": 27, "quad9": 28, "hexahedron27": 29, "quad6": 30, "wedge12": 31,
+    "wedge18": 32, "hexahedron24": 33, "triangle7": 34}
+
+
+class MorphError(RuntimeError):
+    """A mesh has inverted cells that cannot be repaired, or whose repair was not asked for.
+
+    points: (n, 3), the mesh that has them. cells: their ids, ascending.
+    """
+
+    def __init__(self, message: str, points: Floats, cells: Ids) -> None:
+        super().__init__(message)
+        self.points = points
+        self.cells = cells
+
+
+class MorphWarning(UserWarning):
+    """What is odd about a mesh, a motion or a result."""
+
+
+class Boundary(NamedTuple):
+    """The outer faces of a mesh: face i has the corners connectivity[offsets[i]:offsets[i + 1]]."""
+
+    offsets: Ids  #: (faces + 1,)
+    connectivity: Ids  #: node ids, outward by the right-hand rule
+    cells: Ids  #: (faces,), the cell behind each face
+    nodes: Ids  #: all nodes of these faces, those between corners too, ascending
+
+
+class Surface(NamedTuple):
+    """A part of the boundary between edges at which it turns."""
+
+    name: str  #: "Surface 3", as the filters call it with the same angles
+    id: int
+    faces: Ids  #: numbers of faces in Mesh.boundary, ascending
+    nodes: Ids  #: node ids, those on its edges too, ascending
+    area: float  #: in the unit of the points, squared
+
+
+class Quality(NamedTuple):
+    """The scaled Jacobian of a mesh: 1 for the ideal cell, 0 or less for an inverted one."""
+
+    scaled_jacobian: Floats  #: (cells,), NaN for cells that are no volume
+    minimum: float
+    mean: float
+    inverted: int  #: the number of cells of 0 or less, without the degenerate ones
+    degenerate: int  #: the number of cells with a corner whose edges have no length
+    worst_cell: int  #: the lowest id of the cells at the minimum
+
+
+def set_threads(count: int) -> None:
+    """Computes in so many threads; 0, the default, stands for all cores."""
+    if count < 0:
+        raise ValueError(f"set_threads got {count}; 0 or more is needed.")
+    _core.set_threads(count)
+
+
+def _points(values: ArrayLike, what: str, rows: Optional[int] = None,
+            nodes: Optional[Ids] = None) -> Floats:
+    """The same array if it is float64 and contiguous, else a copy. `nodes`: the id of each row."""
+    array = numpy.ascontiguousarray(values, dtype=numpy.float64)
+    if array.ndim != 2 or array.shape[1] != 3 or rows not in (None, len(array)):
+        raise ValueError(f"{what} has the shape {array.shape}; "
+                         f"({'n' if rows is None else rows}, 3) is needed.")
+    wrong = numpy.flatnonzero(~(abs(array) <= 1e50).all(axis=1))  # so that NaN is wrong, too
+    if wrong.size:
+        raise ValueError(f"{what} has NaN, infinity or numbers beyond 1e50 at nodes "
+                         f"{_listed(wrong if nodes is None else nodes[wrong])}. Use another unit, "
+                         "or correct it.")
+    return array
+
+
+def _ids(values: ArrayLike, what: str) -> Ids:
+    array = numpy.asarray(values)
+    if array.ndim != 1 or not (numpy.issubdtype(array.dtype, numpy.integer) or array.size == 0):
+        raise ValueError(f"{what} has the shape {array.shape} and type {array.dtype}; "
+                         "whole numbers (n,) are needed.")
+    return numpy.ascontiguousarray(array, dtype=numpy.int64)
+
+
+def _type_number(name: str, nodes: int) -> int:
+    number = _TYPES.get(name)
+    if number is None or nodes != _core.number_of_nodes(number):
+        raise ValueError(f"Cells of the type {name} with {nodes} nodes are not known; there are "
+                         f"{', '.join(_TYPES)}.")
+    return number
+
+
+def _is_block(part: Any) -> bool:
+    """Whether it is a block of meshio, or a pair of type and array."""
+    return hasattr(part, "type") or (len(part) == 2 and isinstance(part[0], str))
+
+
+def _from_blocks(blocks: Sequence[Any]) -> tuple[Ids, Ids, NDArray[numpy.uint8]]:
+    sizes, ids, types = [], [], []
+    for block in blocks:
+        if not _is_block(block):
+            raise ValueError("cells has a block that is no pair of type and array, such as "
+                             '("hexahedron", array (cells, 8)).')
+        name, data = (block.type, block.data) if hasattr(block, "type") else block
+        data = numpy.asarray(data)
+        if data.ndim != 2:
+            raise ValueError(f"The cells of type {name} have the shape {data.shape}; (cells, nodes "
+                             "of a cell) is needed. Polyhedra and polygons are not taken.")
+        ids.append(_ids(data.ravel(), f"The block {name}"))
+        sizes.append(numpy.full(len(data), data.shape[1]))
+        types.append(numpy.full(len(data), _type_number(name, data.shape[1]), dtype=numpy.uint8))
+    offsets = numpy.concatenate([[0], *sizes]).cumsum().astype(numpy.int64)
+    return offsets, numpy.concatenate([numpy.empty(0, int), *ids]), numpy.concatenate(
+        [numpy.empty(0, numpy.uint8), *types])
+
+
+def _from_flat(cells: Ids, count: int) -> tuple[Ids, Ids]:
+    """Offsets and ids of VTK's cells in one row: n, n ids, n, n ids, ..."""
+    row, starts, place = cells.tolist(), [0], 0
+    for cell in range(count):
+        if place >= len(row) or row[place] < 0:
+            raise ValueError(f"cells ends, or has a negative length, at cell {cell} of {count}.")
+        place += row[place] + 1
+        starts.append(place)
+    if place != len(row):
+        raise ValueError(f"cells has {len(row)} numbers; {count} cells have {place}.")
+    return numpy.array(starts) - numpy.arange(count + 1), numpy.delete(cells, starts[:-1])
+
+
+class Mesh(_core.Mesh):
+    """An undeformed volume mesh, which is copied once: 24 bytes a node, and 8 a node of each cell.
+
+    points: (n, 3), coordinates in any unit of length.
+    cells: tetrahedra, hexahedra, wedges and pyramids, linear or quadratic, among others that move
+        with them; one of
+        - meshio's blocks: [("hexahedron", array (cells, 8)), ...], or meshio.Mesh.cells;
+        - (offsets, connectivity, celltypes): cell i has the type celltypes[i], VTK's number, and
+          the nodes connectivity[offsets[i]:offsets[i + 1]];
+        - with celltypes, VTK's and PyVista's cells in one row: n, n ids, n, n ids, ...
+    celltypes: VTK's numbers of the types, (cells,), for that last form.
+
+    points, of the mesh, is a view of its coordinates, which cannot be written. Raises ValueError
+    for coordinates that are not finite, ids that do not exist, unknown types, and a mesh without
+    volume cells; it names the ids.
+    """
+
+    def __init__(self, points: ArrayLike,
+                 cells: Union[Sequence[Any], ArrayLike],
+                 celltypes: Optional[ArrayLike] = None) -> None:
+        coordinates = _points(points, "points")
+        if celltypes is not None:
+            types = _ids(celltypes, "celltypes")
+            offsets, connectivity = _from_flat(_ids(cells, "cells"), len(types))
+        elif not isinstance(cells, (list, tuple)):
+            raise ValueError("cells in one row need celltypes, VTK's numbers of their types; else "
+                             "blocks, or offsets, connectivity and celltypes, are needed.")
+        elif len(cells) == 3 and not any(map(_is_block, cells)):
+            offsets, connectivity, types = (
+                _ids(part, name) for part, name in
+                zip(cells, ("offsets", "connectivity", "celltypes")))
+        else:
+            offsets, connectivity, types = _from_blocks(cells)
+        if types.size and not (0 <= types.min() and types.max() < 256):
+            raise ValueError("celltypes has numbers beyond 0 to 255.")
+        polyhedra = numpy.flatnonzero(types == 42)
+        if polyhedra.size:
+            raise ValueError(f"Polyhedra are not taken: cells {_listed(polyhedra)}. The filters "
+                             "morph them.")
+        super().__init__(coordinates, types.astype(numpy.uint8), offsets, connectivity)
+
+    @property
+    def boundary(self) -> Boundary:
+        """The outer faces: those that one volume cell alone has."""
+        return Boundary(*self._boundary())
+
+    def surfaces(self, feature_angle: float = 25, corner_angle: float = 45) -> list[Surface]:
+        """The surfaces of the boundary, by their lowest face.
+
+        feature_angle: degrees, from 0 to 180; faces that turn by more are on different surfaces.
+        corner_angle: the same for curves between surfaces, which have a vertex there.
+        Cost: a sort of the boundary's edges.
+        """
+        return [Surface(f"Surface {id_}", id_, faces, nodes, area) for id_, faces, nodes, area in
+                self._surfaces(feature_angle, corner_angle)]
+
+    def __repr__(self) -> str:
+        return f"<Mesh of {len(self.points)} nodes and {len(self.types)} cells>"
+
+
+class Prepared:
+    """A method prepared for a mesh and the nodes that move it, by Method.prepare().
+
+    nodes: their ids, in the order in which they were given. Threads may use one object at once.
+    """
+
+    def __init__(self, core: _core.Prepared, mesh: Mesh) -> None:
+        self._core, self._mesh = core, mesh
+
+    @property
+    def nodes(self) -> Ids:
+        return self._core.nodes
+
+    def evaluate(self, displacements: Optional[ArrayLike] = None, *,
+                 targets: Optional[ArrayLike] = None) -> Floats:
+        """The points of the moved mesh, (n, 3).
+
+        displacements: of the nodes, (nodes, 3), from the undeformed mesh; or
+        targets: where the nodes go, (nodes, 3). They go there exactly.
+
+        Cells may be inverted: see quality() and repair(). Cost: 9 to 13 iterations of a solver for
+        FEMWARP, a pass over the weights for the meshless methods.
+        """
+        if (displacements is None) == (targets is None):
+            raise TypeError("evaluate() needs either displacements or targets.")
+        is_relative = targets is None
+        nodes = self.nodes
+        values = _points(displacements if is_relative else targets,
+                         "displacements" if is_relative else "targets", len(nodes), nodes)
+        return self._core._evaluate(values, is_relative)
+
+    def adjoint(self, gradient: ArrayLike) -> Floats:
+        """The transpose of evaluate(): derivatives with respect to the displacements, (nodes, 3).
+
+        gradient: derivatives of an objective with respect to the points of the moved mesh, (n, 3).
+        Raises ValueError for Smoothing and InversionFree, which are not linear. Cost: that of
+        evaluate().
+        """
+        return self._core._adjoint(_points(gradient, "gradient", len(self._mesh.points)))
+
+
+class Method:
+    """A method with its options, which are keywords and attributes."""
+
+    _OPTIONS: dict[str, Any] = {}
+
+    def __init__(self, **options: Any) -> None:
+        for name, value in options.items():
+            setattr(self, name, value)
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        if name not in self._OPTIONS:
+            raise TypeError(f"{type(self).__name__} has no option {name}; there are "
+                            f"{', '.join(self._OPTIONS) or 'none'}.")
+        kind, low, high = self._OPTIONS[name]
+        if kind == "choice":
+            plain = {_plain(choice): choice for choice in low}
+            if _plain(str(value)) not in plain:
+                raise ValueError(f"{name} has no value {value!r}; there are {', '.join(low)}.")
+            value = plain[_plain(str(value))]
+        elif kind == "array":
+            value = None if value is None else numpy.array(value, dtype=numpy.float64).ravel()
+        else:
+            number = int(value) if kind == "integer" else float(value)
+            if not low <= number <= high or number != value:
+                raise ValueError(f"{name} is {value}; a {'whole ' if kind == 'integer' else ''}"
+                                 f"number from {low} to {high} is needed.")
+            value = number
+        object.__setattr__(self, name, value)
+
+    def __repr__(self) -> str:
+        given = ", ".join(f"{name}={getattr(self, name)!r}" for name in self._OPTIONS)
+        return f"{type(self).__name__}({given})"
+
+    def prepare(self, mesh: Mesh, nodes: ArrayLike, *,
+                fix_unnamed_boundary: bool = True) -> Prepared:
+        """Does all work that depends on the undeformed mesh and on which nodes move it.
+
+        nodes: ids of nodes whose motion will be given, (nodes,), each once, in any order.
+        fix_unnamed_boundary: other nodes of the boundary stay. A node between two corners follows
+            if one of them is named. Off: they move like the nodes inside.
+
+        Raises ValueError for ids that do not exist or occur twice, and RuntimeError for nodes that
+        do not determine a motion, such as none on one of several bodies.
+        """
+        options = {name: [_plain(choice) for choice in low].index(_plain(getattr(self, name)))
+                   if kind == "choice" else getattr(self, name)
+                   for name, (kind, low, _) in self._OPTIONS.items()}
+        return Prepared(_core.Prepared(mesh, type(self).__name__, options, _ids(nodes, "nodes"),
+                                       fix_unnamed_boundary), mesh)
+
+
+def _plain(name: str) -> str:
+    return "".join(c for c in name if c.isalnum()).lower()
+
+
+def quality(mesh: Mesh, points: Optional[ArrayLike] = None) -> Quality:
+    """The scaled Jacobian of each cell, at the mesh's own points or at others, (n, 3).
+
+    A body whose cells are all in the mirrored order counts as valid. Cost: 0.1 microseconds a cell,
+    5 for a quadratic one.
+    """
+    return Quality(*mesh._quality(
+        mesh.points if points is None else _points(points, "points", len(mesh.points))))
+
+
+def repair(mesh: Mesh, points: ArrayLike, nodes: ArrayLike, *,
+           fix_unnamed_boundary: bool = True) -> Floats:
+    """The points without inverted cells, (n, 3): those near such cells move, or all where needed.
+
+    points: of the moved mesh, (n, 3). nodes, and the rest of the boundary with
+    fix_unnamed_boundary: they stay at these points. Cells that were inverted in the undeformed mesh
+    do not count unless they became worse. Raises MorphError where some stay inverted, with the best
+    points found and the ids. Cost: that of quality() if none is inverted; at most some minutes a
+    million cells.
+    """
+    start = _points(points, "points", len(mesh.points))
+    repaired, inverted, determined = mesh._repair(start, _ids(nodes, "nodes"),
+                                                  fix_unnamed_boundary)
+    if len(inverted) == 0:
+        return repaired
+    if len(determined):
+        reason = (f"The boundary itself inverts {len(determined)} cells, which no node inside can "
+                  f"mend: cells {_listed(determined)}. Move it less there.")
+    else:
+        reason = (f"{len(inverted)} cells stay inverted: cells {_listed(inverted)}. Move the "
+                  "boundary less, or in steps of which each starts from the mesh before.")
+    raise MorphError(reason, repaired, inverted)
+
+
+def _listed(ids: Ids) -> str:
+    return ", ".join(map(str, ids[:10])) + (f", ... ({len(ids)} in all)" if len(ids) > 10 else "")
+
+
+def morph(mesh: Mesh, nodes: ArrayLike, displacements: Optional[ArrayLike] = None, *,
+          targets: Optional[ArrayLike] = None, method: Optional[Method] = None,
+          repair: bool = True, fix_unnamed_boundary: bool = True) -> Floats:
+    """The points of the mesh, (n, 3), after its nodes have moved: prepare(), evaluate(), repair().
+
+    nodes, displacements, targets, fix_unnamed_boundary: as in Method.prepare() and
+        Prepared.evaluate().
+    method: with its options; None: FEMWARP().
+    repair: repairs inverted cells. Off: raises MorphError if there are some.
+    """
+    from ._methods import FEMWARP
+    prepared = (method or FEMWARP()).prepare(mesh, nodes,
+                                             fix_unnamed_boundary=fix_unnamed_boundary)
+    moved = prepared.evaluate(displacements, targets=targets)
+    if repair:
+        return _repair(mesh, moved, prepared.nodes, fix_unnamed_boundary=fix_unnamed_boundary)
+    cells = mesh._inverted(moved)
+    if len(cells):
+        raise MorphError(f"{len(cells)} cells are inverted: cells {_listed(cells)}. Call with "
+                         "repair=True, or move the boundary less.", moved, cells)
+    return moved
+
+
+_repair = repair
