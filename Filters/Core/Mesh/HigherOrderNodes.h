@@ -8,8 +8,8 @@
 
 namespace morph
 {
-/// Moves the mid-side, face and body nodes of quadratic cells that are not prescribed, by weights of
-/// their cell's corners. They are those of the affine fit to the corners of the node's own edge,
+/// Moves the mid-side, face and body nodes of quadratic cells that are not prescribed by weights of
+/// their cell's corners. These are those of the affine fit to the corners of the node's own edge,
 /// face or body: 1/4 and 3/4 at a quarter point. A node off its edge or face needs more. The
 /// smallest change of all corners' weights then makes affine motions exact; a flat cell has none. A
 /// node shared by several cells takes their mean.
