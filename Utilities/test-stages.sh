@@ -7,7 +7,7 @@ cd "$(dirname "$0")/.."
 stages="
 house       5  what a reader of the sources has to know, counted; FEMWARP's depth (house.py)
 freeze      3  results beside stored ones
-long        9  fuzz, soak, installation, models, the pages' examples, the demo
+long        9  fuzz, soak, installation, models, pages' examples, demo, core tests with other seeds
 mpi         8  meshes on one to four MPI ranks
 solvers     4  files that OpenFOAM, CalculiX and Gmsh read and solve
 package     2  the Debian package: made, installed, tried and removed
@@ -62,7 +62,10 @@ if [ "$inside" = yes ]; then
   case "${chosen[0]}" in
     house) python3 Utilities/house.py --frames ;;
     freeze) tests build/paraview -L '^freeze$' ;;
-    long) more_tests; tests build/paraview -L '^(fuzz|install|long)$' ;;
+    long)
+      more_tests
+      tests build/paraview -L '^(fuzz|install|long)$'
+      for seed in 1 2 3; do MORPH_TEST_SEED=$seed tests build/paraview -R '^core\.Cases'; done ;;
     mpi) more_tests; tests build/paraview -L '^mpi$' ;;
     solvers) tests build/paraview -L '^solvers$' ;;
     package)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Geometry/CosphericalStars.h"
 
+#include "Interpolation/PointLocation.h"
 #include "LinearMethods/SimplexLinear.h"
 #include "Meshes.h"
 #include "Motions.h"
@@ -249,6 +250,29 @@ TEST(CosphericalStars, EachWalkEndsInAFlatLattice)
       const int found = star.delaunay.locate(x, star.delaunay.startNear(x));
       ASSERT_TRUE(found >= 0 && found < static_cast<int>(star.delaunay.tetrahedra().size()));
     }
+  }
+}
+
+// Tetrahedra of coplanar sites lie in the sides of the box, flat to rounding.
+TEST(CosphericalStars, NodesInTheSidesOfATurnedBoxAreFound)
+{
+  std::mt19937 generator(meshes::seed());
+  const Mesh mesh = meshes::hexes(4, 2, 2);
+  const std::vector<Index> outer = motions::outerPartition(mesh).prescribed;
+  for (int trial = 0; trial < 500; ++trial)
+  {
+    const Points points = mesh.points * rotation(generator);
+    std::vector<Index> sites, places;
+    for (const Index node : outer)
+    {
+      const Row x = mesh.points.row(node);
+      const bool isCorner = (x.array() == 0 || x.array() == Row(4, 2, 2).array()).all();
+      (isCorner || generator() % 4 > 0 ? sites : places).push_back(node);
+    }
+    const Star star(meshes::rows(points, sites));
+    Monitor monitor;
+    const PointLocation found = locatePoints(star.delaunay, points, places, monitor);
+    EXPECT_TRUE(found.extrapolated.empty()) << found.barycentric;
   }
 }
 

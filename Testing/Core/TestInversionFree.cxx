@@ -156,7 +156,7 @@ TEST(InversionFree, MinimumIsNotBelowFemWarpsAndSimplexLinears)
 TEST(InversionFree, MoreEffortRaisesTheMinimumOfValidTetrahedra)
 {
   Mesh mesh = meshes::tets(6, 6, 6);
-  meshes::jitterInterior(mesh, 0.2, meshes::seed());
+  meshes::jitterInterior(mesh, 0.1, meshes::seed());
   const Points boundary =
     target(mesh, [](const motions::Row& x) { return motions::twist(x, 6, 6, 1.2); });
   const auto orientation = morph::cellSigns(mesh, morph::connectedComponents(mesh));

@@ -185,6 +185,7 @@ Case::Case(Choices& made, const Filter& ofFilter)
         this->grid.isAsMesh)
     {
       this->inputs[0] = boundaryOfGrid(made, this->grid);
+      this->isRegular = made.value("hostile.surface") == 0 && this->isRegular;
     }
     vtkNew<vtkBoundaryDisplacement> unused;
     this->isRegular = setMotion(made, this->grid, unused, more) && this->isRegular;

@@ -68,7 +68,9 @@ double motionOf(const Case& made, vtkAlgorithm* filter)
   double scale = std::abs(choices.value("property.ScaleFactor"));
   if (vtkDisplacementAlgorithm::SafeDownCast(filter))
   {
-    return made.isRegular && scale <= Tiny ? scale : Infinity;
+    // A turn about the origin moves a mesh the more, the farther it is from there.
+    const bool isNear = made.grid.mesh.points.lpNorm<Eigen::Infinity>() <= 50 * made.grid.size;
+    return made.isRegular && scale <= Tiny && isNear ? scale : Infinity;
   }
   if (!vtkMorphAlgorithm::SafeDownCast(filter) && !vtkMorphShapes::SafeDownCast(filter) &&
       !vtkMorphBoundary::SafeDownCast(filter))

@@ -28,6 +28,8 @@ using morph::Points;
 using Vector = Eigen::Vector3d;
 
 constexpr double Rounding = 1e-9;
+/// Corners so near, of the largest coordinate, are in one place: rounding gives their direction.
+constexpr double OnePlace = 1e-12;
 
 /// The corner, then its three neighbors, right-handed in a valid cell.
 using Corners = std::vector<std::array<int, 4>>;
@@ -56,10 +58,11 @@ const Corners& cornersOf(morph::Shape shape)
   }
 }
 
+/// Of an edge in units of the largest coordinate.
 Vector direction(const Vector& edge)
 {
   const double length = edge.stableNorm();
-  return length > 0 ? Vector(edge / length) : Vector(Vector::Zero());
+  return length > OnePlace ? Vector(edge / length) : Vector(Vector::Zero());
 }
 
 struct Determinants
@@ -99,7 +102,8 @@ Determinants determinants(const Mesh& mesh, const Points& points, Index c, doubl
   {
     for (int other = 0; other < k; ++other)
     {
-      result.isCollapsed = result.isCollapsed || corner(k) == corner(other);
+      result.isCollapsed =
+        result.isCollapsed || (corner(k) - corner(other)).stableNorm() <= OnePlace * unit;
     }
   }
   if (shape.shape == morph::Shape::Hex)

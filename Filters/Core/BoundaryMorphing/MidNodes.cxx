@@ -8,18 +8,12 @@ namespace morph
 Eigen::VectorXd weightsBetween(const BoundaryFaces& faces, Index node, const Points& rest)
 {
   const std::vector<Index> corners(faces.between.begin(node), faces.between.end(node));
-  const auto count = static_cast<Index>(corners.size());
-  if (count == 0)
+  if (corners.empty())
   {
     return {};
   }
-  Points arms = rest(corners, allColumns);
-  const Eigen::RowVector3d center = arms.colwise().mean();
-  arms.rowwise() -= center;
-  const Eigen::Matrix3d spread = arms.transpose() * arms;
-  const Eigen::RowVector3d arm = rest.row(faces.nodes[node]) - center;
-  return Eigen::VectorXd::Constant(count, 1. / static_cast<double>(count)) +
-         arms * PrincipalDirections(spread, static_cast<double>(count)).inverse() * arm.transpose();
+  const Eigen::RowVector3d place = rest.row(faces.nodes[node]);
+  return AffineLeastSquares(rest(corners, allColumns), place).weights(place);
 }
 
 std::vector<Index> carryMidNodes(const BoundaryFaces& faces, const Classification& geometry,

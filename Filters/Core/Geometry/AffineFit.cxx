@@ -145,6 +145,12 @@ AffineFit AffineLeastSquares::fit(const Points& displacement) const
   return { this->center_, mean, this->inverse_, P };
 }
 
+Eigen::VectorXd AffineLeastSquares::weights(const Eigen::RowVector3d& place) const
+{
+  const Eigen::Vector3d slope = this->inverse_ * (place - this->center_).transpose();
+  return (this->arms_ * slope).array() + 1 / static_cast<double>(this->arms_.rows());
+}
+
 void AffineLeastSquares::fitTranspose(
   const Points& x, const Points& gradient, Points& displacement) const
 {

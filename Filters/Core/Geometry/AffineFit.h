@@ -98,6 +98,9 @@ public:
   /// `displacement`: #points x 3.
   AffineFit fit(const Points& displacement) const;
 
+  /// The part of each point's displacement in that of `place`. They sum to 1.
+  Eigen::VectorXd weights(const Eigen::RowVector3d& place) const;
+
   /// The adjoint of fit(): differentiates the sum of gradient_i . fit(displacement)(x_i) over rows
   /// i. `x`, `gradient`: #x x 3. Adds the derivative to `displacement`, #points x 3. Cost: one pass
   /// over each.

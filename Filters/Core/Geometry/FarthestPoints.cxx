@@ -105,15 +105,6 @@ std::vector<Index> simplex(const Points& points, double same)
 }
 }
 
-namespace
-{
-double lastDistance(const FarthestPoints& points)
-{
-  return points.distances.empty() ? std::numeric_limits<double>::infinity()
-                                  : points.distances.back();
-}
-}
-
 FarthestPoints farthestPoints(const Points& points, Monitor& monitor)
 {
   FarthestPoints result;
@@ -132,10 +123,12 @@ FarthestPoints farthestPoints(const Points& points, Monitor& monitor)
   const auto choose = [&](Index chosen, double most)
   {
     result.order.push_back(chosen);
-    // Of a tie a later one may be farther than one before.
     const bool isCorner = result.order.size() <= 4;
-    result.distances.push_back(
-      isCorner ? distance[chosen] : std::min(distance[chosen], lastDistance(result)));
+    // Of a tie a later one may be farther than one before; the first after the corners may be
+    // farther than the last of them.
+    result.distances.push_back(result.order.size() <= 5
+                                 ? distance[chosen]
+                                 : std::min(distance[chosen], result.distances.back()));
     distance[chosen] = -1;
     const auto update = [&](Index i)
     {

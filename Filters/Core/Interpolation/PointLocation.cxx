@@ -153,25 +153,30 @@ PointLocation locatePoints(
     [&](Index block)
     {
       const Index first = block * BlockLength;
-      int here = delaunay.startNear(points.row(order[first]) - delaunay.origin());
+      const Row start = points.row(order[first]) - delaunay.origin();
+      // A walk that begins in a flat tetrahedron may end there: if it lies in the same side of the
+      // hull as x, x is certainly beyond none of its faces.
+      int here = std::max(0, bestAround(delaunay, start, delaunay.startNear(start)).tetrahedron);
+      int found = here;
       Frame frame(delaunay, here);
       for (Index i = first; i < std::min(n, first + BlockLength); ++i)
       {
         const Row x = points.row(order[i]) - delaunay.origin();
         const Index row = rowOf[order[i]];
-        const int found = delaunay.locate(x, here);
-        if (found != here) // several nodes lie in one tetrahedron
+        const int last = found;
+        found = delaunay.locate(x, here);
+        if (found != last) // several nodes lie in one tetrahedron
         {
-          here = found;
-          frame = Frame(delaunay, here);
+          frame = Frame(delaunay, found);
         }
-        const Place at = place(delaunay, x, here, frame);
+        const Place at = place(delaunay, x, found, frame);
         if (at.tetrahedron == Delaunay::Outside ||
             residual(delaunay, at, x) > LinearPrecision * size)
         {
           state[row] = 2;
           continue;
         }
+        here = at.tetrahedron;
         state[row] = at.barycentric.minCoeff() < -InsideTolerance ? 1 : 0;
         result.tetrahedron[row] = at.tetrahedron;
         result.barycentric.row(row) = at.barycentric;

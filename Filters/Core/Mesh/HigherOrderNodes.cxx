@@ -1,67 +1,40 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Mesh/HigherOrderNodes.h"
 
+#include "Geometry/AffineFit.h"
 #include "Mesh/CellShape.h"
 
-#include <Eigen/LU>
-
-#include <algorithm>
+#include <vector>
 
 namespace morph
 {
 namespace
 {
-/// Makes the smallest change of the weights N of the corners X that reproduces `target`. Makes none
-/// where the corners lie in a plane.
-void makeLinear(const Eigen::Matrix<double, Eigen::Dynamic, 3>& X, const Eigen::Vector3d& target,
-  Eigen::Ref<Eigen::VectorXd> N)
+/// Returns the weights of `corners`, #corners x 3, at `place`, where the type of the cell has its
+/// node at `nominal`.
+Eigen::VectorXd weightsAt(const CellShape& shape, const Points& corners,
+  const Eigen::RowVector3d& place, const double nominal[3])
 {
-  Eigen::Matrix<double, Eigen::Dynamic, 4> A(X.rows(), 4);
-  A << Eigen::VectorXd::Ones(X.rows()), X;
-  Eigen::Vector4d missing;
-  missing << 0, target - X.transpose() * N;
-  const Eigen::FullPivLU<Eigen::Matrix4d> normal(A.transpose() * A);
-  if (normal.rank() == 4)
+  double N[8];
+  shapeFunctions(shape.shape, nominal, N, nullptr);
+  std::vector<Index> between;
+  for (int a = 0; a < shape.numberOfCorners; ++a)
   {
-    N += A * normal.solve(missing);
-  }
-}
-
-/// Computes the linear cell's shape functions at `target`. Where the cell cannot be inverted, it
-/// takes those at `nominal`, changed to reproduce the target, so that affine motions stay exact.
-void invertCell(const CellShape& shape, const double (*corners)[3], const Eigen::Vector3d& target,
-  const double nominal[3], double* N)
-{
-  using Corners = Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>>;
-  const int n = shape.numberOfCorners;
-  const Corners X(corners[0], n, 3);
-  const double extent = (X.colwise().maxCoeff() - X.colwise().minCoeff()).norm();
-
-  Eigen::Vector3d xi(nominal[0], nominal[1], nominal[2]);
-  for (int iteration = 0; iteration < 20; ++iteration)
-  {
-    double dN[8][3];
-    shapeFunctions(shape.shape, xi.data(), N, dN);
-    const Eigen::Vector3d missing =
-      target - X.transpose() * Eigen::Map<const Eigen::VectorXd>(N, n);
-    if (missing.norm() <= 1e-14 * extent)
+    if (N[a] != 0)
     {
-      return;
-    }
-    const Eigen::Matrix3d J = X.transpose() * Corners(dN[0], n, 3);
-    xi += J.inverse() * missing;
-    if (!((xi.array() - 0.5).abs() < 1.5).all()) // true also where the inverse failed
-    {
-      break;
+      between.push_back(a);
     }
   }
-  shapeFunctions(shape.shape, xi.data(), N, nullptr);
-  const Eigen::Vector3d missing = target - X.transpose() * Eigen::Map<const Eigen::VectorXd>(N, n);
-  if (!(missing.norm() <= 1e-11 * extent))
+  Eigen::VectorXd weights = Eigen::VectorXd::Zero(shape.numberOfCorners);
+  weights(between) = AffineLeastSquares(corners(between, allColumns), place).weights(place);
+  const Eigen::RowVector3d reached = weights.transpose() * corners;
+  const double extent = (corners.colwise().maxCoeff() - corners.colwise().minCoeff()).norm();
+  if ((place - reached).norm() > 1e-14 * extent)
   {
-    shapeFunctions(shape.shape, nominal, N, nullptr);
-    makeLinear(X / extent, target / extent, Eigen::Map<Eigen::VectorXd>(N, n));
+    const AffineLeastSquares all(corners);
+    weights += all.weights(place) - all.weights(reached);
   }
+  return weights;
 }
 }
 
@@ -90,12 +63,8 @@ void HigherOrderNodes::prepare(const Mesh& rest, const NodePartition& partition)
     }
     // Relative to the first corner: far from the origin, rounding would exceed the cell's size.
     const Eigen::RowVector3d origin = rest.points.row(rest.cell(c)[0]);
-    double corners[8][3];
-    for (int a = 0; a < shape->numberOfCorners; ++a)
-    {
-      const Eigen::RowVector3d point = rest.points.row(rest.cell(c)[a]) - origin;
-      std::copy(point.data(), point.data() + 3, corners[a]);
-    }
+    const std::vector<Index> ids(rest.cell(c), rest.cell(c) + shape->numberOfCorners);
+    const Points corners = rest.points(ids, allColumns).rowwise() - origin;
     for (int k = shape->numberOfCorners; k < shape->numberOfNodes; ++k)
     {
       const Index r = row[rest.cell(c)[k]];
@@ -103,9 +72,8 @@ void HigherOrderNodes::prepare(const Mesh& rest, const NodePartition& partition)
       {
         continue;
       }
-      double N[8];
-      invertCell(*shape, corners, (rest.points.row(rest.cell(c)[k]) - origin).transpose(),
-        shape->extraNodes[k - shape->numberOfCorners], N);
+      const Eigen::VectorXd N = weightsAt(*shape, corners,
+        rest.points.row(rest.cell(c)[k]) - origin, shape->extraNodes[k - shape->numberOfCorners]);
       ++cells[r];
       for (int a = 0; a < shape->numberOfCorners; ++a)
       {

@@ -8,18 +8,15 @@
 
 namespace morph
 {
-/// Moves the mid-side, face and body nodes of quadratic cells that are not prescribed. Each node
-/// keeps its parametric position in the linear cell through the corners. The cell's shape functions
-/// there interpolate the corners' displacements, so affine motions move curved edges exactly. A
+/// Moves the mid-side, face and body nodes of quadratic cells that are not prescribed by weights of
+/// their cell's corners. These are those of the affine fit to the corners of the node's own edge,
+/// face or body: 1/4 and 3/4 at a quarter point. A node off its edge or face needs more. The
+/// smallest change of all corners' weights then makes affine motions exact; a flat cell has none. A
 /// node shared by several cells takes their mean.
-///
-/// If the parametric position cannot be found (a node far outside, a flat cell), the weights are
-/// those at the nominal position. The smallest change that reproduces affine motions exactly is
-/// added; a cell without volume gets none.
 class HigherOrderNodes
 {
 public:
-  /// Computes the weights from the undeformed mesh. Cost: a few Newton steps a node and cell.
+  /// Computes the weights from the undeformed mesh. Cost: some microseconds a node and cell.
   void prepare(const Mesh& rest, const NodePartition& partition);
   bool empty() const { return this->ids_.empty(); }
   /// Fills the higher-order nodes' rows of `displacement` (#nodes x 3) from the corners' rows.
