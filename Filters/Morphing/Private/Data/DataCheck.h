@@ -32,18 +32,6 @@ void Require(vtkDataObject* data, const char* subject, Cells cells = Cells::Here
 /// Throws as above for point and cell arrays that are too short, in data of any type.
 void RequireLengths(vtkDataSet* data, const char* subject);
 
-/// See Mesh/Extent.h.
-///@{
-inline bool IsModerate(const Eigen::RowVector3d& x)
-{
-  return morph::isModerate(x);
-}
-inline std::vector<morph::Index> Immoderate(const morph::Points& x)
-{
-  return morph::immoderateRows(x);
-}
-///@}
-
 /// The point array by which ParaView's Resample With Dataset marks points without a value: 0.
 constexpr const char* MaskName = "vtkValidPointMask";
 /// Whether a component of a point's `value` is NaN, or `mask` is 0 there. `mask`: null for none.

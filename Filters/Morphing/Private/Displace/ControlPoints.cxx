@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Private/Displace/ControlPoints.h"
 
-#include "Private/Data/DataCheck.h"
+#include "Mesh/Extent.h"
 #include "Support/Error.h"
 
 #include <vtkDataArray.h>
@@ -209,7 +209,7 @@ Points Lattice(vtkDataObject* given, const std::vector<std::array<double, 6>>& l
       result.row(i) += vector;
     }
   }
-  const std::vector<Index> bad = DataCheck::Immoderate(result);
+  const std::vector<Index> bad = morph::immoderateRows(result);
   if (!bad.empty())
   {
     throw Error("Control points have displacements that are not finite or beyond 1e50: control "

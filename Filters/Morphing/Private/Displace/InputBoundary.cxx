@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Private/Displace/InputBoundary.h"
 
-#include "Private/Data/DataCheck.h"
+#include "Mesh/Extent.h"
 #include "Private/Data/GridMesh.h"
 #include "Private/Data/Surface.h"
 #include "Private/Distributed/WholeSurface.h"
-#include "Private/Pipeline/Input.h"
 #include "Support/Error.h"
 
 #include <vtkCellArray.h>
@@ -78,7 +77,7 @@ vtkDataArray* requireExtracted(vtkPolyData* surface, const char* name, int compo
 morph::Points moderatePoints(morph::Points points, const char* what)
 {
   std::vector<Index> notFinite, huge;
-  for (const Index n : DataCheck::Immoderate(points))
+  for (const Index n : morph::immoderateRows(points))
   {
     (points.row(n).allFinite() ? huge : notFinite).push_back(n);
   }
@@ -199,7 +198,7 @@ void InputBoundary::TakeGrid(vtkUnstructuredGrid* grid, const Geometry::Options&
   else if (!sameMesh)
   {
     this->mesh = GridMesh::FromGrid(grid);
-    Input::RequireVolumeCells(this->mesh);
+    morph::requireVolumeCells(this->mesh);
     this->IsNamed = CellsOfNamedSets(grid);
     this->findFaces(this->IsNamed, monitor);
   }

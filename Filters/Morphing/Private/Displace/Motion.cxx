@@ -2,6 +2,7 @@
 #include "Private/Displace/Motion.h"
 #include "Private/Pipeline/Input.h"
 
+#include "Mesh/Extent.h"
 #include "Private/Data/DataCheck.h"
 #include "Support/Error.h"
 #include "vtkDisplacementAlgorithm.h"
@@ -182,7 +183,7 @@ void requireModerate(const Points& targets, const std::vector<Index>& nodes, con
   std::vector<Index> notFinite, huge;
   for (Index i = 0; i < targets.rows(); ++i)
   {
-    if (!DataCheck::IsModerate(targets.row(i)))
+    if (!morph::isModerate(targets.row(i)))
     {
       (targets.row(i).allFinite() ? huge : notFinite).push_back(nodes[i]);
     }

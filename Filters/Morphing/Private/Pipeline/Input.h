@@ -71,12 +71,6 @@ struct Mesh
 Mesh TakeMesh(vtkDataObject* input, Blocks& blocks, int coincidentPoints, Use use,
   const char* filter, morph::Monitor& monitor);
 
-/// See Mesh/Extent.h.
-inline void RequireVolumeCells(const morph::Mesh& mesh)
-{
-  morph::requireVolumeCells(mesh);
-}
-
 /// The name of an array as a property holds it. Empty for none, or "None", which ParaView's choice
 /// of an array offers.
 std::string ArrayName(const std::string& name);
