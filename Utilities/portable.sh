@@ -124,5 +124,7 @@ for name in "${systems[@]}"; do
   fi
   echo "$name: all are compiled"
   run_tests "$name" || failed=1
+  python3 Testing/Programs/move_surface.py "${run[@]}" "$build/${program/tests/move-surface}" ||
+    failed=1
 done
 exit $failed

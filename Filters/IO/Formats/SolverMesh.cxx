@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Formats/SolverMesh.h"
 
+#include "Mesh/CollapsedCells.h"
+#include "Mesh/Polyhedra.h"
 #include "Support/Error.h"
 
 #include <algorithm>
@@ -105,6 +107,21 @@ void addCopy(const SolverMesh& mesh, Index cell, const std::vector<Index>& place
   part.addCell(mesh.cellTypes[cell],
     map(nodes + mesh.offsets[cell], nodes + mesh.offsets[cell + 1]), mesh.cellNumbers[cell]);
 }
+}
+
+Mesh coreMesh(const SolverMesh& mesh)
+{
+  Mesh result;
+  result.points = Eigen::Map<const Points>(mesh.coordinates.data(), mesh.nodes(), 3);
+  result.types = mesh.cellTypes;
+  result.offsets = mesh.offsets;
+  result.connectivity = mesh.connectivity;
+  result.faceOffsets = mesh.faceOffsets;
+  result.faces = mesh.faces;
+  validate(result);
+  replaceCollapsedCells(result);
+  orientPolyhedra(result);
+  return result;
 }
 
 SolverMesh partOf(

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "Mesh/CellShape.h"
+#include "Mesh/Mesh.h"
 #include "Support/Types.h"
 
 #include <string>
@@ -49,6 +50,10 @@ struct SolverMesh
   /// The set of that name, which is made where there is none.
   NamedSet& set(const std::string& name);
 };
+
+/// The mesh of the core, with the same numbers of nodes and cells; see validate() and
+/// replaceCollapsedCells().
+Mesh coreMesh(const SolverMesh& mesh);
 
 /// The nodes and cells at these positions, in the order given, and what is left of each set, also
 /// of those of which nothing is left. `nodes`: ascending; they include those of the cells. Cost:
