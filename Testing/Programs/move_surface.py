@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Runs Examples/core/MoveSurface.cxx, which knows no VTK, on a block of hexahedra. The arguments are
-the command that runs it."""
+"""Runs Examples/core/MoveSurface.cxx, which knows no VTK, on a block of hexahedra. The arguments
+are the command that runs it."""
 
 import subprocess
 import sys

@@ -65,9 +65,9 @@ public:
   /// - with Stay: all stay;
   /// - with Follow: surfaces that touch what moves follow as morphSurfaces() moves them, curves
   ///   first, vertices being held. A surface touches if a moving edge, or a moving node without a
-  ///   moving neighbor, is on it. The others stay. Where the motion lets a surface keep its shape, to 1 %
-  ///   of the largest displacement, its nodes slide along it; else a warning says how far they
-  ///   leave it. Where a surface folds, its mesh is smoothed along its shape, and a warning says
+  ///   moving neighbor, is on it. The others stay. Where the motion lets a surface keep its shape,
+  ///   to 1 % of the largest displacement, its nodes slide along it; else a warning says how far
+  ///   they leave it. Where a surface folds, its mesh is smoothed along its shape, and a warning says
   ///   so;
   /// - with FollowAll: all follow, and none slides;
   /// - with Fade: nodes within the radius of a moving node follow it in part; see Falloff.
