@@ -67,8 +67,8 @@ public:
   ///   first, vertices being held. A surface touches if a moving edge, or a moving node without a
   ///   moving neighbor, is on it. The others stay. Where the motion lets a surface keep its shape,
   ///   to 1 % of the largest displacement, its nodes slide along it; else a warning says how far
-  ///   they leave it. Where a surface folds, its mesh is smoothed along its shape, and a warning says
-  ///   so;
+  ///   they leave it. Where a surface folds, its mesh is smoothed along its shape, and a warning
+  ///   says so;
   /// - with FollowAll: all follow, and none slides;
   /// - with Fade: nodes within the radius of a moving node follow it in part; see Falloff.
   /// Nodes of sliding surfaces, moving ones too, go to the nearest point at their height above the
