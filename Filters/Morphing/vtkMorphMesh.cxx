@@ -104,7 +104,7 @@ void vtkMorphMesh::FindSurfaces(
   own.Displacement->SetSelectionExtractor(own.Extractor);
   try
   {
-    const filters::BlockPick::OnGrid ofBlocks = own.OfBlocks(shown, selection);
+    const filters::Selection::OnGrid ofBlocks = own.OfBlocks(shown, selection);
     own.Displacement->FindSurfaces(ofBlocks.Shown ? ofBlocks.Shown.Get() : shown,
       ofBlocks.Shown ? ofBlocks.Selection.Get() : selection, names);
   }

@@ -3,7 +3,6 @@
 
 #include "BoundaryMover/Patches.h"
 #include "Private/Data/Surface.h"
-#include "Private/Displace/BlockPick.h"
 #include "Private/Displace/Selection.h"
 #include "Support/Error.h"
 
@@ -280,10 +279,10 @@ void Find(vtkDataObject* shown, vtkSelection* selection, vtkExtractSelection* ex
   {
     throw morph::Error("The mesh is not read yet. Apply the filter once.");
   }
-  BlockPick::OnGrid ofBlocks; // keeps what it holds until the end
+  Selection::OnGrid ofBlocks; // keeps what it holds until the end
   if (auto* tree = vtkDataObjectTree::SafeDownCast(shown))
   {
-    ofBlocks = BlockPick::Translate(blocks, tree, selection, extractor);
+    ofBlocks = Selection::Translate(blocks, tree, selection, extractor);
     shown = ofBlocks.Shown;
     selection = ofBlocks.Selection;
   }

@@ -3,18 +3,52 @@
 
 #include "Private/Displace/InputBoundary.h"
 
+#include <vtkAlgorithm.h>
+#include <vtkDataArraySelection.h>
+#include <vtkDataObject.h>
+#include <vtkNew.h>
+#include <vtkSelection.h>
+#include <vtkSmartPointer.h>
+
 #include <vector>
 
-class vtkDataArraySelection;
-class vtkDataObject;
 class vtkDataSet;
 class vtkExtractSelection;
 class vtkPolyData;
-class vtkSelection;
 
 namespace morph::filters
 {
 class Blocks;
+
+/// A selection in a window, whose surfaces a user wants to add to a list.
+struct Picker
+{
+  vtkSmartPointer<vtkAlgorithm> Selection; ///< its first output is the selection; may be null
+  int Port = -1;                           ///< of the filter's output that is selected; -1: input
+  vtkNew<vtkDataArraySelection> Names;     ///< all, with those enabled that were found
+
+  /// The data of `filter` that are selected, which may be null.
+  vtkDataObject* Shown(vtkAlgorithm* filter) const
+  {
+    if (this->Port < 0)
+    {
+      return filter->GetInputDataObject(0, 0);
+    }
+    return this->Port < filter->GetNumberOfOutputPorts() ? filter->GetOutputDataObject(this->Port)
+                                                         : nullptr;
+  }
+
+  /// The selection, up to date; null for none.
+  vtkSelection* Update() const
+  {
+    if (!this->Selection)
+    {
+      return nullptr;
+    }
+    this->Selection->Update();
+    return vtkSelection::SafeDownCast(this->Selection->GetOutputDataObject(0));
+  }
+};
 }
 
 /// From a selection in a view to surfaces, and from surfaces to what a view shows of them.
@@ -35,7 +69,7 @@ std::vector<morph::Index> Surfaces(vtkDataSet* shown, vtkSelection* selection,
 
 /// Writes into `names` all names of surfaces and curves, and enables those of Surfaces(). Nothing
 /// is enabled where there is no selection. `blocks`: of composite data, which `shown` then is too.
-/// Throws as that does and as BlockPick::Translate(), where `shown` has no points, and where the
+/// Throws as that does and as Selection::Translate(), where `shown` has no points, and where the
 /// model is empty.
 void Find(vtkDataObject* shown, vtkSelection* selection, vtkExtractSelection* extractor,
   const Blocks& blocks, const InputBoundary& model, vtkDataArraySelection* names);

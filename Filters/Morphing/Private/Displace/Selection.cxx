@@ -6,7 +6,9 @@
 #include "Support/Error.h"
 
 #include <vtkAbstractArray.h>
+#include <vtkCell.h>
 #include <vtkCellData.h>
+#include <vtkCellType.h>
 #include <vtkDataArray.h>
 #include <vtkDataObject.h>
 #include <vtkDataObjectTree.h>
@@ -14,8 +16,10 @@
 #include <vtkExtractSelection.h>
 #include <vtkFieldData.h>
 #include <vtkIdList.h>
+#include <vtkIdTypeArray.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
+#include <vtkPoints.h>
 #include <vtkSelection.h>
 #include <vtkSelectionNode.h>
 #include <vtkSmartPointer.h>
@@ -173,6 +177,61 @@ void markPoints(
     }
   }
 }
+
+vtkSmartPointer<vtkSelection> selectionOf(vtkIdTypeArray* ids, int type)
+{
+  vtkNew<vtkSelectionNode> node;
+  node->SetContentType(vtkSelectionNode::INDICES);
+  node->SetFieldType(type);
+  node->SetSelectionList(ids);
+  auto selection = vtkSmartPointer<vtkSelection>::New();
+  selection->AddNode(node);
+  return selection;
+}
+
+/// The grid with more cells, which the caller adds.
+vtkSmartPointer<vtkUnstructuredGrid> withRoom(vtkUnstructuredGrid* grid)
+{
+  auto copy = vtkSmartPointer<vtkUnstructuredGrid>::New();
+  copy->SetPoints(grid->GetPoints());
+  copy->Allocate(grid->GetNumberOfCells());
+  vtkNew<vtkIdList> points;
+  for (vtkIdType cell = 0; cell < grid->GetNumberOfCells(); ++cell)
+  {
+    grid->GetCellPoints(cell, points);
+    // Of the cells the number and the dimension count here; a polyhedron would need its faces.
+    const int type = grid->GetCellType(cell);
+    copy->InsertNextCell(type == VTK_POLYHEDRON ? VTK_CONVEX_POINT_SET : type, points);
+  }
+  return copy;
+}
+
+/// The grid's id of a selected cell of a block; of a face that of a new cell of `shown`.
+vtkIdType idOf(vtkIdType cell, const MergedBlocks::Block& block, vtkDataSet* data,
+  vtkUnstructuredGrid* grid, vtkSmartPointer<vtkUnstructuredGrid>& shown)
+{
+  const auto place = static_cast<std::size_t>(cell);
+  if (data->GetCell(cell)->GetCellDimension() == 3 && place < block.Cells.size())
+  {
+    return block.Cells[place];
+  }
+  vtkNew<vtkIdList> points;
+  data->GetCellPoints(cell, points);
+  for (vtkIdType k = 0; k < points->GetNumberOfIds(); ++k)
+  {
+    const morph::Index node = block.Nodes[static_cast<std::size_t>(points->GetId(k))];
+    if (node < 0)
+    {
+      return -1;
+    }
+    points->SetId(k, node);
+  }
+  if (shown == grid)
+  {
+    shown = withRoom(grid);
+  }
+  return shown->InsertNextCell(data->GetCellType(cell), points);
+}
 }
 
 namespace Selection
@@ -265,5 +324,78 @@ std::vector<std::uint8_t> Points(
   }
   return isSelected;
 }
+
+OnGrid Translate(const Blocks& blocks, vtkDataObjectTree* shown, vtkSelection* selection,
+  vtkExtractSelection* extractor)
+{
+  const MergedBlocks* merged = blocks.Merged();
+  if (!merged || !merged->Grid)
+  {
+    throw morph::Error("The mesh is not read yet. Apply the filter once.");
+  }
+  const std::vector<Leaves::Leaf> leaves = Leaves::Of(shown);
+  if (leaves.size() != merged->All.size())
+  {
+    throw morph::Error("It is of data with other blocks than the mesh. Select points or cells of "
+                       "the mesh.");
+  }
+  const InsideBlocks inside = Evaluate(shown, selection, extractor);
+  OnGrid result;
+  result.Shown = merged->Grid;
+  vtkNew<vtkIdTypeArray> ids;
+  for (std::size_t i = 0; i < leaves.size(); ++i)
+  {
+    auto* data = vtkDataSet::SafeDownCast(leaves[i].Data);
+    const MergedBlocks::Block& block = merged->All[i];
+    const std::vector<std::uint8_t>& flags = inside.Flags[i];
+    for (std::size_t k = 0; !block.Nodes.empty() && k < flags.size(); ++k)
+    {
+      const vtkIdType id = !flags[k]         ? -1
+                           : inside.ByPoints ? block.Nodes[k]
+                                             : idOf(static_cast<vtkIdType>(k), block, data,
+                                                 merged->Grid, result.Shown);
+      if (id >= 0)
+      {
+        ids->InsertNextValue(id);
+      }
+    }
+  }
+  result.Selection =
+    selectionOf(ids, inside.ByPoints ? vtkSelectionNode::POINT : vtkSelectionNode::CELL);
+  return result;
+}
+}
+
+vtkSelection* BlockSelection::OfGrid(
+  const Blocks& blocks, vtkSelection* selection, vtkExtractSelection* extractor)
+{
+  const MergedBlocks* merged = blocks.Merged();
+  if (!merged || !selection || selection->GetNumberOfNodes() == 0)
+  {
+    return selection;
+  }
+  vtkUnstructuredGrid* grid = merged->Grid;
+  if (this->Translated && this->Grid == grid && this->GridTime == grid->GetMTime() &&
+      this->Given == selection && this->GivenTime == selection->GetMTime() &&
+      this->Extractor == extractor)
+  {
+    return this->Translated;
+  }
+  const std::vector<std::uint8_t> isSelected = Selection::Points(blocks, selection, extractor);
+  vtkNew<vtkIdTypeArray> ids;
+  for (std::size_t i = 0; i < isSelected.size(); ++i)
+  {
+    if (isSelected[i])
+    {
+      ids->InsertNextValue(static_cast<vtkIdType>(i));
+    }
+  }
+  this->Translated = selectionOf(ids, vtkSelectionNode::POINT);
+  this->Grid = grid;
+  this->GridTime = grid->GetMTime();
+  this->Given = selection;
+  this->GivenTime = selection->GetMTime();
+  this->Extractor = extractor;
+  return this->Translated;
 }
 }

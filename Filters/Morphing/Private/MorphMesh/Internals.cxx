@@ -268,7 +268,7 @@ vtkSelection* vtkMorphMesh::vtkInternals::OfGrid(vtkSelection* selection)
            : nullptr;
 }
 
-filters::BlockPick::OnGrid vtkMorphMesh::vtkInternals::OfBlocks(
+filters::Selection::OnGrid vtkMorphMesh::vtkInternals::OfBlocks(
   vtkDataObject* shown, vtkSelection* selection) const
 {
   auto* tree = vtkDataObjectTree::SafeDownCast(shown);
@@ -276,7 +276,7 @@ filters::BlockPick::OnGrid vtkMorphMesh::vtkInternals::OfBlocks(
   {
     return {};
   }
-  return filters::BlockPick::Translate(this->Blocks, tree, selection, this->Extractor);
+  return filters::Selection::Translate(this->Blocks, tree, selection, this->Extractor);
 }
 
 void vtkMorphMesh::vtkInternals::CopySurfaces(vtkDataArraySelection* names, vtkPolyData* output)

@@ -6,9 +6,8 @@
 
 #include "Private/Blocks/Blocks.h"
 #include "Private/Data/Results.h"
-#include "Private/Displace/BlockPick.h"
-#include "Private/Displace/BlockSelection.h"
-#include "Private/Displace/Picker.h"
+#include "Private/Displace/Pick.h"
+#include "Private/Displace/Selection.h"
 #include "Private/Displace/SharedProperties.h"
 #include "Private/Pipeline/Time.h"
 #include "Private/Project/TargetDistance.h"
@@ -57,8 +56,8 @@ public:
   /// The selection as one of the grid, where it is of blocks.
   vtkSelection* OfGrid(vtkSelection* selection);
   /// A selection in composite data as one of the grid; empty where `shown` is none, or nothing is
-  /// selected. Throws as BlockPick::Translate() does.
-  morph::filters::BlockPick::OnGrid OfBlocks(vtkDataObject* shown, vtkSelection* selection) const;
+  /// selected. Throws as Selection::Translate() does.
+  morph::filters::Selection::OnGrid OfBlocks(vtkDataObject* shown, vtkSelection* selection) const;
   /// See vtkMorphMesh::CopySurfaces().
   void CopySurfaces(vtkDataArraySelection* names, vtkPolyData* output);
   /// Returns an error that comes with a result, or nothing.
