@@ -15,7 +15,7 @@ namespace
 using namespace foldover;
 
 // with less regularisation, every inverted tetrahedron has infinite energy
-constexpr double Barrier = 1e-9;
+constexpr double LeastEpsilon = 1e-9;
 
 struct BatchEnergy
 {
@@ -107,7 +107,7 @@ EnergyState MeshEnergy::evaluate(const Points& points, Monitor& monitor) const
 Objective::Value MeshEnergy::value(const Points& points, Monitor& monitor) const
 {
   const EnergyState state = this->evaluate(points, monitor);
-  const bool isFinite = !this->isCondition_ && this->density_.epsilon > Barrier;
+  const bool isFinite = !this->isCondition_ && this->density_.epsilon > LeastEpsilon;
   const bool isValid = state.minimumDeterminant > 0;
   return { state.energy, isFinite || isValid, isFinite && isValid };
 }

@@ -31,7 +31,7 @@ constexpr int PatchSteps = 5;       // Newton steps in a round
 constexpr int MostPatchRounds = 4;
 constexpr int FinishShare = 5;         // of the limit of steps, for a round of the last stage
 constexpr double LeastDecrease = 1e-6; // of the shape measure in a step, relative
-constexpr double Barrier = 1e-10;      // regularisation: only for rounding
+constexpr double RoundingEpsilon = 1e-10;      // regularisation: only for rounding
 
 double volume(const Mesh& mesh, const std::vector<std::int8_t>& orientation, const Points& points,
   Monitor& monitor, const Communicator& communicator)
@@ -153,7 +153,7 @@ private:
       return;
     }
     FoldoverDensity density;
-    density.epsilon = Barrier;
+    density.epsilon = RoundingEpsilon;
     energy.setDensity(density);
   }
 
