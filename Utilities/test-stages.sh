@@ -7,7 +7,7 @@ cd "$(dirname "$0")/.."
 stages="
 house       5  what a reader of the sources has to know, counted; FEMWARP's depth (house.py)
 freeze      3  results beside stored ones
-long        9  fuzz, soak, installation, models, pages' examples, demo, core tests with other seeds
+long       11  fuzz, soak, installation, models, pages' examples, demo, core tests with other seeds
 mpi         8  meshes on one to four MPI ranks
 solvers     4  files that OpenFOAM, CalculiX and Gmsh read and solve
 package     2  the Debian package: made, installed, tried and removed

@@ -115,7 +115,8 @@ Place bestAround(const Delaunay& delaunay, const Row& x, int start)
   return best;
 }
 
-/// Tries the tetrahedron `found` with its `frame` first, then bestAround().
+/// Tries the tetrahedron `found` with its `frame` first, then bestAround(). A walk through flat
+/// tetrahedra may end too early: where x is outside the best, another walk goes on from there.
 Place place(const Delaunay& delaunay, const Row& x, int found, const Frame& frame)
 {
   if (!frame.flat())
@@ -126,7 +127,14 @@ Place place(const Delaunay& delaunay, const Row& x, int found, const Frame& fram
       return { found, b };
     }
   }
-  return bestAround(delaunay, x, found);
+  const Place best = bestAround(delaunay, x, found);
+  if (best.tetrahedron == Delaunay::Outside || best.barycentric.minCoeff() >= -InsideTolerance)
+  {
+    return best;
+  }
+  const Place next = bestAround(delaunay, x, delaunay.locate(x, best.tetrahedron));
+  const bool isInside = next.barycentric.minCoeff() >= -InsideTolerance;
+  return next.tetrahedron != Delaunay::Outside && isInside ? next : best;
 }
 }
 
