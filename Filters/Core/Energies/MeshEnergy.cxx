@@ -14,7 +14,7 @@ namespace
 {
 using namespace foldover;
 
-// with less regularisation, every inverted tetrahedron has infinite energy
+// with less regularization, every inverted tetrahedron has infinite energy
 constexpr double LeastEpsilon = 1e-9;
 
 struct BatchEnergy

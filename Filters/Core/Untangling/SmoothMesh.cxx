@@ -29,9 +29,9 @@ constexpr int Rings = 3;            // around bad cells
 constexpr double MostOfMesh = 0.25; // maximum share of free nodes in a patch
 constexpr int PatchSteps = 5;       // Newton steps in a round
 constexpr int MostPatchRounds = 4;
-constexpr int FinishShare = 5;         // of the limit of steps, for a round of the last stage
-constexpr double LeastDecrease = 1e-6; // of the shape measure in a step, relative
-constexpr double RoundingEpsilon = 1e-10;      // regularisation: only for rounding
+constexpr int FinishShare = 5;            // of the limit of steps, for a round of the last stage
+constexpr double LeastDecrease = 1e-6;    // of the shape measure in a step, relative
+constexpr double RoundingEpsilon = 1e-10; // regularization: only for rounding
 
 double volume(const Mesh& mesh, const std::vector<std::int8_t>& orientation, const Points& points,
   Monitor& monitor, const Communicator& communicator)
