@@ -11,6 +11,7 @@
 #include <vtkPoints.h>
 
 #include <cmath>
+#include <limits>
 #include <map>
 #include <set>
 
@@ -111,8 +112,11 @@ Finding checkMovedBoundary(const Case& made, vtkAlgorithm* algorithm, const Run&
     output->GetPoint(p, x.data());
     const bool isGiven = target != targets.end() && dimension <= filter->GetPrescribedDimension();
     const Row wanted = isGiven ? Row(rest + scale * (target->second - rest)) : rest;
-    const double rounding = (made.choices.value("boundary.float") != 0 ? 1e-5 : 0) *
-                            made.grid.mesh.points.cwiseAbs().maxCoeff();
+    // Below 1e-38 floats are multiples of one number.
+    const double rounding = made.choices.value("boundary.float") == 0
+                              ? 0
+                              : 1e-5 * made.grid.mesh.points.cwiseAbs().maxCoeff() +
+                                  std::numeric_limits<float>::denorm_min();
     const bool isKnown = isGiven || dimension == 0;
     if (isKnown && !((x - wanted).cwiseAbs().maxCoeff() <=
                      10 * roundingOf(output, wanted) + 1e-12 * made.grid.size + rounding))
