@@ -159,10 +159,19 @@ struct Target::Implementation
   /// Adds one to the count of each of the target's surfaces within `distance` of `x`.
   void vote(const Row& x, double distance, std::vector<Index>& count) const
   {
-    for (std::size_t s = 0; s < count.size(); ++s)
+    std::vector<Index> candidates; // of the triangles whose boxes are near
+    const auto collect = [&](Index triangle)
+    {
+      candidates.push_back(this->geometry.surfaceOfFace[triangle]);
+      return false;
+    };
+    this->all->nearest(x, distance, collect);
+    std::sort(candidates.begin(), candidates.end());
+    candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());
+    for (const Index s : candidates)
     {
       const auto belongs = [&](Index triangle)
-      { return this->geometry.surfaceOfFace[triangle] == static_cast<Index>(s); };
+      { return this->geometry.surfaceOfFace[triangle] == s; };
       count[s] += this->all->nearest(x, distance, belongs).triangle >= 0;
     }
   }

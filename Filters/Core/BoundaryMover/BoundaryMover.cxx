@@ -18,8 +18,10 @@ const Surroundings::Result& BoundaryMover::move(const BoundaryModel& model, cons
   const bool hasInner = options.hasInner();
   Surroundings::Result last = std::exchange(this->result_, {}); // nothing is left if it throws
   Surroundings::Result result;
-  Choice constrained = choice;
-  Points places = targets;
+  Choice constrained; // by zones
+  Points constrainedTargets;
+  const Choice& chosen = hasInner ? constrained : choice;
+  const Points& places = hasInner ? constrainedTargets : targets;
   this->inner_.clear();
   if (hasInner)
   {
@@ -31,23 +33,24 @@ const Surroundings::Result& BoundaryMover::move(const BoundaryModel& model, cons
     {
       if (hasInner)
       {
-        this->inner_.constrain(model, options.inner, constrained, places);
+        constrained = choice;
+        constrainedTargets = targets;
+        this->inner_.constrain(model, options.inner, constrained, constrainedTargets);
       }
-      result = this->surroundings_.spread(
-        model, constrained, places, options.rest, spreading, std::move(last));
+      result =
+        this->surroundings_.spread(model, chosen, places, options.rest, spreading, std::move(last));
     });
   if (hasInner)
   {
     result.motionVersion = -1; // inner nodes move, too
-    this->inner_.place(model, constrained, options.inner, result, monitor);
-    alike([&]
-      { this->inner_.spreadAround(model, constrained, places, options.rest, result, monitor); });
+    this->inner_.place(model, chosen, options.inner, result, monitor);
+    alike([&] { this->inner_.spreadAround(model, chosen, places, options.rest, result, monitor); });
   }
   this->rounds_.clear();
   if (options.slideRounds > 0)
   {
     ProgressRange sliding(monitor, 0.8, 1);
-    this->rounds_.run(model, constrained.held, options.rest.sliding, options.slideRounds,
+    this->rounds_.run(model, chosen.held, options.rest.sliding, options.slideRounds,
       this->surroundings_, pieces, this->inner_, result, sliding);
   }
   if (hasInner || !options.rest.sliding.empty())

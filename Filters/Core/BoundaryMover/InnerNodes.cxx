@@ -118,12 +118,10 @@ void InnerNodes::take(const BoundaryModel& model, const std::vector<Zone>& fixed
 {
   this->clear();
   this->pieces_ = pieces;
-  if (pieces)
-  {
-    this->takeOnRanks(model, fixed, rigid);
-    return;
-  }
-  std::vector<std::uint8_t> isTaken(model.mesh.numberOfNodes(), 0);
+  const Mesh& mesh = pieces ? pieces->piece() : model.mesh;
+  const auto nodesOf = [&](const InnerPieces::Flags& flags)
+  { return pieces ? this->nodesOf(model, flags) : flagged(flags); };
+  InnerPieces::Flags isTaken(mesh.numberOfNodes(), 0);
   for (const Zone& zone : fixed)
   {
     for (std::size_t n = 0; n < isTaken.size(); ++n)
@@ -131,50 +129,27 @@ void InnerNodes::take(const BoundaryModel& model, const std::vector<Zone>& fixed
       isTaken[n] = isTaken[n] || zone.isNode[n];
     }
   }
-  this->fixedNodes_ = flagged(isTaken);
+  this->fixedNodes_ = nodesOf(isTaken);
   for (const Zone& zone : rigid)
   {
     Rigid& next = this->rigidZones_.emplace_back();
-    next.edge = edgeOf(model.mesh, zone);
-    for (const Index node : flagged(zone.isNode))
-    {
-      if (!isTaken[node])
-      {
-        next.nodes.push_back(node);
-        isTaken[node] = 1;
-      }
-    }
-  }
-}
-
-void InnerNodes::takeOnRanks(
-  const BoundaryModel& model, const std::vector<Zone>& fixed, const std::vector<Zone>& rigid)
-{
-  InnerPieces::Flags isTaken(this->pieces_->piece().numberOfNodes(), 0);
-  for (const Zone& zone : fixed)
-  {
-    for (std::size_t n = 0; n < isTaken.size(); ++n)
-    {
-      isTaken[n] = isTaken[n] || zone.isNode[n];
-    }
-  }
-  this->fixedNodes_ = this->nodesOf(model, isTaken);
-  for (const Zone& zone : rigid)
-  {
-    Rigid& next = this->rigidZones_.emplace_back();
+    next.edge = edgeOf(mesh, zone);
     InnerPieces::Flags isEdge(isTaken.size(), 0), isNew = zone.isNode;
-    for (const Index node : edgeOf(this->pieces_->piece(), zone))
-    {
-      isEdge[node] = 1;
-    }
     for (std::size_t n = 0; n < isTaken.size(); ++n)
     {
       isNew[n] = isNew[n] && !isTaken[n];
       isTaken[n] = isTaken[n] || isNew[n];
     }
-    next.isNode = isNew;
-    next.isEdge = this->pieces_->anyFlags(isEdge);
-    next.nodes = this->nodesOf(model, isNew);
+    if (pieces)
+    {
+      for (const Index node : next.edge)
+      {
+        isEdge[node] = 1;
+      }
+      next.isNode = isNew;
+      next.isEdge = pieces->anyFlags(isEdge);
+    }
+    next.nodes = nodesOf(isNew);
   }
 }
 

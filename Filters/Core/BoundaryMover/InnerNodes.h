@@ -84,11 +84,9 @@ private:
   struct Rigid
   {
     std::vector<Index> nodes;          ///< ascending, in no zone before
-    std::vector<Index> edge;           ///< those with a cell outside the zone; not on ranks
+    std::vector<Index> edge;           ///< those with a cell outside the zone; points on ranks
     InnerPieces::Flags isNode, isEdge; ///< the same of the piece's points, on ranks
   };
-  void takeOnRanks(
-    const BoundaryModel& model, const std::vector<Zone>& fixed, const std::vector<Zone>& rigid);
   /// The nodes here of those of the whole mesh that the piece's flags tell. Collective.
   std::vector<Index> nodesOf(const BoundaryModel& model, const InnerPieces::Flags& ofPiece);
   Eigen::RowVector3d restOf(const BoundaryModel& model, Index node) const;

@@ -17,16 +17,6 @@ namespace
 {
 using Row = SurfaceShape::Row;
 
-Points rowsOf(const Points& all, const std::vector<Index>& ids)
-{
-  Points some(static_cast<Index>(ids.size()), 3);
-  for (std::size_t i = 0; i < ids.size(); ++i)
-  {
-    some.row(static_cast<Index>(i)) = all.row(ids[i]);
-  }
-  return some;
-}
-
 constexpr double Anywhere = std::numeric_limits<double>::infinity();
 
 /// Of a symmetric matrix, that of the smallest eigenvalue.
@@ -66,14 +56,14 @@ SurfaceShape::SurfaceShape(
 {
   constexpr double Fits = 1e-6;  // of the nodes' extent
   constexpr double Better = 0.1; // than a plane
-  const Points nodes = rowsOf(points, surface.nodes);
+  const Points nodes = points(surface.nodes, allColumns);
   const double ofPlane = this->fitPlane(nodes);
   const double most = Fits * (nodes.rowwise() - this->center_).rowwise().norm().maxCoeff();
   if (ofPlane <= most)
   {
     this->kind_ = Kind::Plane;
   }
-  else if (this->fitCylinder(nodes, rowsOf(faceAreas(points, faces), surface.faces),
+  else if (this->fitCylinder(nodes, Points(faceAreas(points, faces)(surface.faces, allColumns)),
              std::min(most, Better * ofPlane)))
   {
     this->kind_ = Kind::Cylinder;

@@ -17,16 +17,6 @@ namespace morph
 {
 namespace
 {
-Points rowsOf(const Points& all, const std::vector<Index>& ids)
-{
-  Points some(static_cast<Index>(ids.size()), 3);
-  for (std::size_t i = 0; i < ids.size(); ++i)
-  {
-    some.row(static_cast<Index>(i)) = all.row(ids[i]);
-  }
-  return some;
-}
-
 /// The shapes along which surfaces slide, as a target.
 class ShapeTarget : public ProjectionTarget
 {
@@ -210,7 +200,7 @@ void Surroundings::place(const BoundaryModel& model, const Choice& choice, const
 {
   const std::vector<Index> sliding = options.follow.linear ? std::vector<Index>() : options.sliding;
   this->slide(model, sliding, { Moves }, result);
-  const Points placed = rowsOf(result.moved, choice.moving);
+  const Points placed = result.moved(choice.moving, allColumns);
   switch (options.how)
   {
     case Kind::Follow:
@@ -359,7 +349,7 @@ void Surroundings::follow(const BoundaryModel& model, const Choice& choice, cons
   std::vector<Index> given = choice.moving;
   given.insert(given.end(), fixed.begin(), fixed.end());
   Points places(static_cast<Index>(given.size()), 3);
-  places << targets, rowsOf(model.points(), fixed);
+  places << targets, model.points()(fixed, allColumns);
   this->local_.update(model);
   const LocalBoundary& local = this->local_;
   BoundaryMotion motion = beginMotion(local.points(), local.bodyOfNode(), local.faces(),
@@ -491,8 +481,8 @@ void Surroundings::fade(const BoundaryModel& model, const Choice& choice, const 
         this->others_.push_back(node);
       }
     }
-    this->falloff_.prepare(rowsOf(model.points(), choice.moving),
-      rowsOf(model.points(), this->others_), radius, monitor);
+    this->falloff_.prepare(model.points()(choice.moving, allColumns),
+      model.points()(this->others_, allColumns), radius, monitor);
     ++this->falloffCount_;
     key.motionVersion = model.motionVersion;
     key.radius = radius;
@@ -500,7 +490,7 @@ void Surroundings::fade(const BoundaryModel& model, const Choice& choice, const 
     key.held = choice.held;
   }
   const Points displacement =
-    this->falloff_.evaluate(targets - rowsOf(model.points(), choice.moving), monitor);
+    this->falloff_.evaluate(targets - model.points()(choice.moving, allColumns), monitor);
   for (Index i : this->falloff_.reached())
   {
     const Index node = this->others_[i];
