@@ -71,16 +71,7 @@
 #include "vtkDisplacementAlgorithm.h"
 #include "vtkMeshMorphingFiltersMorphingModule.h" // for export macro
 
-#include <memory> // for std::unique_ptr
-
-class vtkDataArraySelection;
-class vtkDataObject;
-class vtkDoubleArray;
-class vtkExtractSelection;
-class vtkPointSet;
 class vtkPolyData;
-class vtkSelection;
-class vtkStringArray;
 
 class VTKMESHMORPHINGFILTERSMORPHING_EXPORT vtkBoundaryDisplacement
   : public vtkDisplacementAlgorithm
@@ -89,72 +80,11 @@ public:
   static vtkBoundaryDisplacement* New();
   vtkTypeMacro(vtkBoundaryDisplacement, vtkDisplacementAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
-  void SetSelectionExtractor(vtkExtractSelection* extractor) override;
 
   /**
    * The displaced boundary.
    */
   vtkPolyData* GetOutput();
-
-  /**
-   * Names of all surfaces, surfaces first, as a list to choose from, with nothing enabled. They are
-   * those of the last execution or, after an update of the information, of input data that are up
-   * to date. Empty after an error.
-   */
-  vtkDataArraySelection* GetSurfaceList();
-
-  /**
-   * Writes into `names` all names of GetSurfaceList(), and enables the surfaces that a selection
-   * lies on, as a user who clicks on surfaces expects. `shown`: the data that were selected on: the
-   * input, a morphed mesh, or the boundary. Where selected cells and points lie on several
-   * surfaces, as at an edge, the fewest surfaces are taken that explain the selection. A selection
-   * that cannot be evaluated is an error. Cost: that of the selection, and a pass over the
-   * boundary's faces.
-   */
-  void FindSurfaces(vtkDataObject* shown, vtkSelection* selection, vtkDataArraySelection* names);
-
-  /**
-   * Makes `output` the polygons and lines of the surfaces that are enabled in `names`, where the
-   * output has them or, before the first execution, undeformed. Unknown names are left out.
-   */
-  void CopySurfaces(vtkDataArraySelection* names, vtkPolyData* output);
-
-  ///@{
-  /**
-   * FindSurfaces() for ParaView's window, which knows objects of a server by name alone. Pick: an
-   * algorithm whose first output is the selection. PickPort: the output of this filter that it is
-   * of, or -1, the default, for the input. GetPickedSurfaces() finds them. Neither causes an
-   * execution.
-   */
-  void SetPick(vtkAlgorithm* selection);
-  void SetPickPort(int port);
-  int GetPickPort() const;
-  vtkDataArraySelection* GetPickedSurfaces();
-  ///@}
-
-  /**
-   * The size of each surface of the list: its name, how many faces it has, and their area, three
-   * strings each. Of a curve: edges and length. Of faces inside of the mesh the number is
-   * followed by " inner".
-   */
-  vtkStringArray* GetSurfaceSizes();
-
-  ///@{
-  /**
-   * Names of zones, as GetSurfaceList() has those of surfaces: sets of cells or nodes, blocks, and
-   * other arrays of two values, one of them 0. The size of each: its name, how
-   * many volume cells it has and, of a set of nodes, how many nodes, three strings each. Of a mesh
-   * on several MPI ranks these are empty.
-   */
-  vtkDataArraySelection* GetZoneList();
-  vtkStringArray* GetZoneSizes();
-  ///@}
-
-  /**
-   * The bounding box of each surface of the list, undeformed: six numbers as in
-   * vtkDataSet::GetBounds().
-   */
-  vtkDoubleArray* GetSurfaceBounds();
 
   /**
    * The target of the last execution in triangles, as aligned; null without DISPLACEMENT_TARGET.
@@ -163,14 +93,13 @@ public:
 
   ///@{
   /**
-   * The number of points with each Role in the last execution. 0 where there was no result.
+   * The number of points with each Role in the last execution. 0 where there was no result. See
+   * GetZonePoints() and GetLayerPoints() for the others.
    */
-  vtkGetMacro(MovingPoints, vtkIdType);
-  vtkGetMacro(FixedPoints, vtkIdType);
-  vtkGetMacro(FollowingPoints, vtkIdType);
-  vtkGetMacro(FreePoints, vtkIdType);
-  vtkGetMacro(ZonePoints, vtkIdType);
-  vtkGetMacro(LayerPoints, vtkIdType);
+  vtkIdType GetMovingPoints() const;
+  vtkIdType GetFixedPoints() const;
+  vtkIdType GetFollowingPoints() const;
+  vtkIdType GetFreePoints() const;
   ///@}
 
   ///@{
@@ -179,7 +108,7 @@ public:
    * and computed the weights by which a surface follows or the boundary fades.
    */
   int GetClassifyCount() const;
-  vtkGetMacro(ChooseCount, int);
+  int GetChooseCount() const;
   int GetPrepareCount() const;
   ///@}
 
@@ -196,21 +125,6 @@ protected:
 private:
   vtkBoundaryDisplacement(const vtkBoundaryDisplacement&) = delete;
   void operator=(const vtkBoundaryDisplacement&) = delete;
-
-  friend class vtkMorphMesh; // tells it the blocks of its mesh
-  struct vtkInternals;
-  std::unique_ptr<vtkInternals> Internals;
-
-  void ResetResults();
-  void Choose(vtkPointSet* input, vtkSelection* selection);
-
-  vtkIdType MovingPoints;
-  vtkIdType FixedPoints;
-  vtkIdType FollowingPoints;
-  vtkIdType FreePoints;
-  vtkIdType ZonePoints;
-  vtkIdType LayerPoints;
-  int ChooseCount = 0;
 };
 
 #endif

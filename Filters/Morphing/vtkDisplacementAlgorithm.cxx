@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkDisplacementAlgorithm.h"
 
-#include "Private/Displace/SharedProperties.h"
-#include "Private/Options.h"
+#include "Private/Displace/Internals.h"
 #include "Private/Pipeline/Property.h"
+#include "Private/Pipeline/Ranks.h"
+#include "Support/Error.h"
 
 #include <vtkInformation.h>
 #include <vtkSelection.h>
@@ -14,6 +15,7 @@ namespace filters = morph::filters;
 
 vtkDisplacementAlgorithm::vtkDisplacementAlgorithm()
   : Options(std::make_unique<morph::DisplacementOptions>())
+  , Internals(std::make_unique<vtkInternals>())
 {
   this->SetNumberOfInputPorts(5);
 }
@@ -38,10 +40,10 @@ vtkMTimeType vtkDisplacementAlgorithm::GetMTime()
   const auto ofUsed = [](bool isUsed, vtkObject* object)
   { return isUsed && object ? object->GetMTime() : 0; };
   return std::max({ this->Superclass::GetMTime(),
-    ofUsed(this->Options->ZoneRegionType != ZONE_NONE, this->Shared->ZoneRegion),
-    ofUsed(this->Options->Displacement == DISPLACEMENT_TRANSFORM, this->Shared->Transform),
-    ofUsed(this->Options->Moving == MOVING_REGION, this->Shared->Region),
-    ofUsed(true, this->Shared->RigidTransform) });
+    ofUsed(this->Options->ZoneRegionType != ZONE_NONE, this->Internals->ZoneRegion),
+    ofUsed(this->Options->Displacement == DISPLACEMENT_TRANSFORM, this->Internals->Transform),
+    ofUsed(this->Options->Moving == MOVING_REGION, this->Internals->Region),
+    ofUsed(true, this->Internals->RigidTransform) });
 }
 
 void vtkDisplacementAlgorithm::SetSelectionConnection(vtkAlgorithmOutput* output)
@@ -86,33 +88,121 @@ void vtkDisplacementAlgorithm::SetControlPointsData(vtkDataObject* points)
 
 void vtkDisplacementAlgorithm::SetSelectionExtractor(vtkExtractSelection* extractor)
 {
-  filters::Property::Set(this, this->Shared->Extractor, extractor);
+  filters::Property::Set(this, this->Internals->Extractor, extractor);
 }
 
-#define morphObjectMacro(name, type)                          \
-  void vtkDisplacementAlgorithm::Set##name(type* object)      \
-  {                                                           \
-    filters::Property::Set(this, this->Shared->name, object); \
-  }                                                           \
-  type* vtkDisplacementAlgorithm::Get##name()                 \
-  {                                                           \
-    return this->Shared->name;                                \
+#define morphObjectMacro(name, type)                             \
+  void vtkDisplacementAlgorithm::Set##name(type* object)         \
+  {                                                              \
+    filters::Property::Set(this, this->Internals->name, object); \
+  }                                                              \
+  type* vtkDisplacementAlgorithm::Get##name()                    \
+  {                                                              \
+    return this->Internals->name;                                \
   }
 morphObjectMacro(Region, vtkImplicitFunction);
 morphObjectMacro(ZoneRegion, vtkImplicitFunction);
 morphObjectMacro(Transform, vtkAbstractTransform);
 morphObjectMacro(RigidTransform, vtkAbstractTransform);
 
+vtkDataArraySelection* vtkDisplacementAlgorithm::GetSurfaceList()
+{
+  return this->Internals->SurfaceList;
+}
+
+void vtkDisplacementAlgorithm::FindSurfaces(
+  vtkDataObject* shown, vtkSelection* selection, vtkDataArraySelection* names)
+{
+  const vtkInternals& own = *this->Internals;
+  try
+  {
+    const bool isPicked = own.Whole && selection && selection->GetNumberOfNodes() > 0;
+    filters::Pick::Find(
+      shown, isPicked ? nullptr : selection, own.Extractor, own.Blocks, own.Model, names);
+    if (isPicked)
+    {
+      throw morph::Error("The mesh is on several MPI ranks, each of which shows a part. Choose "
+                         "surfaces by their names.");
+    }
+  }
+  catch (const std::exception& error)
+  {
+    vtkErrorMacro("Cannot find the surfaces of this selection: " << error.what());
+  }
+}
+
+void vtkDisplacementAlgorithm::CopySurfaces(vtkDataArraySelection* names, vtkPolyData* output)
+{
+  const vtkInternals& own = *this->Internals;
+  filters::Pick::Write(own.Model, names, own.Displaced, output);
+  if (own.Whole && !filters::Ranks::IsFirst())
+  {
+    output->Initialize(); // the first rank has it all
+  }
+}
+
+void vtkDisplacementAlgorithm::SetPick(vtkAlgorithm* selection)
+{
+  this->Internals->Picker.Selection = selection;
+}
+
+void vtkDisplacementAlgorithm::SetPickPort(int port)
+{
+  this->Internals->Picker.Port = std::max(port, -1);
+}
+
+int vtkDisplacementAlgorithm::GetPickPort() const
+{
+  return this->Internals->Picker.Port;
+}
+
+vtkDataArraySelection* vtkDisplacementAlgorithm::GetPickedSurfaces()
+{
+  filters::Picker& picker = this->Internals->Picker;
+  this->FindSurfaces(picker.Shown(this), picker.Update(), picker.Names);
+  return picker.Names;
+}
+
+vtkStringArray* vtkDisplacementAlgorithm::GetSurfaceSizes()
+{
+  return this->Internals->SurfaceSizes;
+}
+
+vtkDoubleArray* vtkDisplacementAlgorithm::GetSurfaceBounds()
+{
+  return this->Internals->SurfaceBounds;
+}
+
+vtkDataArraySelection* vtkDisplacementAlgorithm::GetZoneList()
+{
+  return this->Internals->ZoneList;
+}
+
+vtkStringArray* vtkDisplacementAlgorithm::GetZoneSizes()
+{
+  return this->Internals->ZoneSizes;
+}
+
+vtkIdType vtkDisplacementAlgorithm::GetZonePoints() const
+{
+  return this->Internals->Count[morph::Surroundings::IsZone];
+}
+
+vtkIdType vtkDisplacementAlgorithm::GetLayerPoints() const
+{
+  return this->Internals->Count[morph::Surroundings::IsLayer];
+}
+
 const char* vtkDisplacementAlgorithm::GetSlideReport() const
 {
-  return this->Shared->SlideReport.c_str();
+  return this->Internals->SlideReport.c_str();
 }
 
 void vtkDisplacementAlgorithm::AddHandle(
   double x, double y, double z, double dx, double dy, double dz, double radius)
 {
   // Values that are not finite are an error of the execution, which names the handle.
-  this->Shared->Handles.push_back({ x, y, z, dx, dy, dz, radius });
+  this->Internals->Handles.push_back({ x, y, z, dx, dy, dz, radius });
   this->Modified();
 }
 
@@ -123,18 +213,18 @@ void vtkDisplacementAlgorithm::AddHandle(const double v[7])
 
 void vtkDisplacementAlgorithm::RemoveAllHandles()
 {
-  filters::Property::Set(this, this->Shared->Handles, {});
+  filters::Property::Set(this, this->Internals->Handles, {});
 }
 
 int vtkDisplacementAlgorithm::GetNumberOfHandles() const
 {
-  return static_cast<int>(this->Shared->Handles.size());
+  return static_cast<int>(this->Internals->Handles.size());
 }
 
 void vtkDisplacementAlgorithm::AddLatticeDisplacement(
   double i, double j, double k, double dx, double dy, double dz)
 {
-  this->Shared->LatticeDisplacements.push_back({ i, j, k, dx, dy, dz });
+  this->Internals->LatticeDisplacements.push_back({ i, j, k, dx, dy, dz });
   this->Modified();
 }
 
@@ -145,32 +235,20 @@ void vtkDisplacementAlgorithm::AddLatticeDisplacement(const double v[6])
 
 void vtkDisplacementAlgorithm::RemoveAllLatticeDisplacements()
 {
-  filters::Property::Set(this, this->Shared->LatticeDisplacements, {});
+  filters::Property::Set(this, this->Internals->LatticeDisplacements, {});
 }
 
 int vtkDisplacementAlgorithm::GetNumberOfLatticeDisplacements() const
 {
-  return static_cast<int>(this->Shared->LatticeDisplacements.size());
-}
-
-void vtkDisplacementAlgorithm::TakeDisplacement(
-  const morph::DisplacementOptions& options, const vtkShared& objects)
-{
-  filters::Property::Set(this, *this->Options, options);
-  this->SetSelectionExtractor(objects.Extractor);
-  this->SetRegion(objects.Region);
-  this->SetZoneRegion(objects.ZoneRegion);
-  this->SetTransform(objects.Transform);
-  this->SetRigidTransform(objects.RigidTransform);
-  filters::Property::Set(this, this->Shared->Handles, objects.Handles);
-  filters::Property::Set(this, this->Shared->LatticeDisplacements, objects.LatticeDisplacements);
+  return static_cast<int>(this->Internals->LatticeDisplacements.size());
 }
 
 void vtkDisplacementAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  const vtkShared& own = *this->Shared;
+  const vtkInternals& own = *this->Internals;
   this->PrintOptions(os, indent);
+  os << indent << "PickPort: " << this->GetPickPort() << "\n";
   os << indent << "ZoneRegion: " << own.ZoneRegion.Get() << "\n";
   os << indent << "RigidTransform: " << own.RigidTransform.Get() << "\n";
   os << indent << "Region: " << own.Region.Get() << "\n";

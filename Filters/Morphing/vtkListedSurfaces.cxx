@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkListedSurfaces.h"
 
-#include "vtkBoundaryDisplacement.h"
-#include "vtkMorphMesh.h"
+#include "vtkDisplacementAlgorithm.h"
 
 #include <vtkDataArraySelection.h>
 #include <vtkDataObject.h>
@@ -70,11 +69,7 @@ int vtkListedSurfaces::RequestData(
   vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
 {
   vtkPolyData* output = vtkPolyData::GetData(outputVector);
-  if (auto* morph = vtkMorphMesh::SafeDownCast(this->Filter))
-  {
-    morph->CopySurfaces(this->Names, output);
-  }
-  else if (auto* displacement = vtkBoundaryDisplacement::SafeDownCast(this->Filter))
+  if (auto* displacement = vtkDisplacementAlgorithm::SafeDownCast(this->Filter))
   {
     displacement->CopySurfaces(this->Names, output);
   }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkListedSurfaces
- * @brief   shows surfaces and curves from the list of a vtkMorphMesh or vtkBoundaryDisplacement
+ * @brief   shows surfaces and curves from the list of a vtkDisplacementAlgorithm
  *
  * A source without inputs. Its output is the polygons of the surfaces and the lines of the curves
  * that are named, where the filter's output has them or, before its first execution, undeformed. A
@@ -12,7 +12,7 @@
  * filter, or with one of another class, the output is empty. Cost: a pass over the boundary's
  * faces.
  *
- * @sa vtkMorphMesh vtkBoundaryDisplacement
+ * @sa vtkDisplacementAlgorithm
  */
 #ifndef vtkListedSurfaces_h
 #define vtkListedSurfaces_h
@@ -34,7 +34,7 @@ public:
   vtkMTimeType GetMTime() override;
 
   /**
-   * The vtkMorphMesh or vtkBoundaryDisplacement that has the list. Default: null.
+   * The vtkDisplacementAlgorithm that has the list. Default: null.
    */
   void SetFilter(vtkAlgorithm* filter);
 

@@ -1,17 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkMorphMesh.h"
 
-#include "Private/MorphMesh/Internals.h"
-#include "Private/Options.h"
+#include "LinearMethods/FemWarp.h"
+#include "Private/Displace/Internals.h"
+#include "Private/Displace/SurfaceGrid.h"
+#include "Private/GridMorpher/GridMorpher.h"
+#include "Private/Morph/Stiffness.h"
+#include "Private/Pipeline/CrewMonitor.h"
 #include "Private/Pipeline/Execution.h"
-#include "Private/Pipeline/Input.h"
-#include "Private/Pipeline/Monitor.h"
 #include "Private/Pipeline/Ports.h"
 #include "Private/Pipeline/Ranks.h"
-#include "Private/Pipeline/Steps.h"
 #include "Private/Pipeline/Time.h"
 #include "Private/Pipeline/UpToDateInput.h"
+#include "Private/Project/TargetDistance.h"
 #include "Support/Error.h"
+#include "Support/ProgressRange.h"
 #include "vtkFEMWarpMorph.h"
 #include "vtkInversionFreeMorph.h"
 #include "vtkLBWarpMorph.h"
@@ -21,23 +24,25 @@
 #include "vtkSmoothingMorph.h"
 #include "vtkWeightedResidualMorph.h"
 
-#include <vtkAbstractTransform.h>
-#include <vtkDataArraySelection.h>
-#include <vtkExtractSelection.h>
-#include <vtkImplicitFunction.h>
+#include <vtkFieldData.h>
 #include <vtkInformation.h>
-#include <vtkInformationDoubleKey.h>
 #include <vtkInformationDoubleVectorKey.h>
 #include <vtkInformationVector.h>
 #include <vtkObjectFactory.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkSelection.h>
-#include <vtkSmartPointer.h>
 #include <vtkStreamingDemandDrivenPipeline.h>
 #include <vtkUnstructuredGrid.h>
 
 #include <algorithm>
+#include <cstdint>
+#include <optional>
 #include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
 
 namespace filters = morph::filters;
 
@@ -71,13 +76,73 @@ vtkSmartPointer<vtkMorphAlgorithm> makeMethod(int method)
 }
 }
 
+/// What an execution leaves for the next one, and the steps of one: the boundary moves, then the
+/// mesh follows it.
+class vtkMorphMesh::vtkMorphing
+{
+public:
+  using Inputs = vtkInternals::Inputs;
+
+  filters::Results Results{ filters::ResultTables::vtkMorphMesh() };
+  filters::GridMorpher Morpher;
+  filters::GridMorpher::Motion Motion;
+  vtkSmartPointer<vtkMorphAlgorithm> Method;
+  int MethodIs = -1; ///< the property Method, of Method
+
+  explicit vtkMorphing(vtkMorphMesh* filter)
+    : Morpher(filter, this->Results)
+    , Filter(filter)
+  {
+  }
+
+  /// What displaces the boundary. MOVING_NOTHING: nothing moves yet. Collective on ranks.
+  morph::DisplacementOptions Displacement(const Inputs& inputs);
+  /// Displaces the boundary, unless it has been. `mesh`: a grid.
+  void Displace(const morph::DisplacementOptions& options, const filters::Input::Mesh& mesh,
+    const Inputs& inputs, morph::filters::Monitor& monitor);
+  /// Shows the boundary where nothing moves yet.
+  void Show(
+    vtkUnstructuredGrid* grid, const Inputs& inputs, const filters::GridMorpher::Outputs& outputs);
+  /// Returns an error that comes with a result, or nothing.
+  std::string Morph(const filters::Input::Mesh& mesh, const Inputs& inputs,
+    const filters::GridMorpher::Outputs& outputs, morph::Monitor& monitor);
+
+private:
+  vtkMorphMesh* Filter;
+  vtkNew<vtkPolyData> Boundary; ///< displaced
+  /// What Boundary depends on: while it is the same, so is the boundary.
+  using Origin =
+    std::tuple<morph::DisplacementOptions, std::vector<std::pair<const void*, vtkMTimeType>>,
+      std::vector<std::array<double, 7>>, std::vector<std::array<double, 6>>>;
+  std::optional<Origin> BoundaryOrigin;
+  std::vector<std::string> BoundaryWarnings;
+  bool NeedsHandles = false; ///< DISPLACEMENT_HANDLES has none
+
+  vtkInternals& Mover() const { return *this->Filter->Internals; }
+  Origin OriginOf(const morph::DisplacementOptions& options, const filters::Input::Mesh& mesh,
+    const Inputs& inputs) const;
+  /// What to do where nothing moves.
+  std::string Advice(const Inputs& inputs) const;
+  /// The factors of soft zones, one a cell; none where there are no such zones. Throws morph::Error.
+  /// Collective on ranks.
+  std::vector<double> SoftCells(vtkUnstructuredGrid* grid, const Inputs& inputs) const;
+  filters::GridMorpher::Method MethodOf(
+    vtkUnstructuredGrid* grid, const std::vector<double>& soft, morph::Monitor& monitor) const;
+  /// The boundary with the ids of this process's mesh.
+  vtkSmartPointer<vtkPolyData> BoundaryOfGrid() const;
+  /// Adds the distances from the target, as they are on `output`.
+  void WriteDistances(vtkUnstructuredGrid* grid, vtkUnstructuredGrid* output);
+  /// Makes the summary that of all MPI processes. `nodes`: those with distances on `output`.
+  void SummarizeOnRanks(const std::vector<morph::Index>& nodes, vtkUnstructuredGrid* output,
+    filters::TargetDistance::Summary& distance) const;
+};
+
 vtkMorphMesh::vtkMorphMesh()
-  : Internals(new vtkInternals(this))
+  : Morphing(new vtkMorphing(this))
   , MeshOptions(std::make_unique<morph::MorphMeshOptions>())
 {
-  this->Shared = this->Internals.get();
   this->SetNumberOfOutputPorts(3);
-  this->Internals->Results.Reset();
+  this->Morphing->Results.Reset();
 }
 
 vtkMorphMesh::~vtkMorphMesh() = default;
@@ -92,107 +157,42 @@ vtkUnstructuredGrid* vtkMorphMesh::GetOutput(int port)
   return vtkUnstructuredGrid::SafeDownCast(this->GetOutputDataObject(port));
 }
 
-vtkDataArraySelection* vtkMorphMesh::GetSurfaceList()
-{
-  return this->Internals->Displacement->GetSurfaceList();
-}
-
-void vtkMorphMesh::FindSurfaces(
-  vtkDataObject* shown, vtkSelection* selection, vtkDataArraySelection* names)
-{
-  vtkInternals& own = *this->Internals;
-  own.Displacement->SetSelectionExtractor(own.Extractor);
-  try
-  {
-    const filters::Selection::OnGrid ofBlocks = own.OfBlocks(shown, selection);
-    own.Displacement->FindSurfaces(ofBlocks.Shown ? ofBlocks.Shown.Get() : shown,
-      ofBlocks.Shown ? ofBlocks.Selection.Get() : selection, names);
-  }
-  catch (const std::exception& error)
-  {
-    vtkErrorMacro("Cannot find the surfaces of this selection: " << error.what());
-  }
-}
-
 void vtkMorphMesh::CopySurfaces(vtkDataArraySelection* names, vtkPolyData* output)
 {
-  this->Internals->CopySurfaces(names, output);
-}
-
-void vtkMorphMesh::SetPick(vtkAlgorithm* selection)
-{
-  this->Internals->Picker.Selection = selection;
-}
-
-void vtkMorphMesh::SetPickPort(int port)
-{
-  this->Internals->Picker.Port = std::max(port, -1);
-}
-
-int vtkMorphMesh::GetPickPort() const
-{
-  return this->Internals->Picker.Port;
-}
-
-vtkDataArraySelection* vtkMorphMesh::GetPickedSurfaces()
-{
-  filters::Picker& picker = this->Internals->Picker;
-  this->FindSurfaces(picker.Shown(this), picker.Update(), picker.Names);
-  return picker.Names;
-}
-
-vtkStringArray* vtkMorphMesh::GetSurfaceSizes()
-{
-  return this->Internals->Displacement->GetSurfaceSizes();
-}
-
-vtkDataArraySelection* vtkMorphMesh::GetZoneList()
-{
-  return this->Internals->Displacement->GetZoneList();
-}
-
-vtkStringArray* vtkMorphMesh::GetZoneSizes()
-{
-  return this->Internals->Displacement->GetZoneSizes();
-}
-
-vtkDoubleArray* vtkMorphMesh::GetSurfaceBounds()
-{
-  return this->Internals->Displacement->GetSurfaceBounds();
-}
-
-vtkIdType vtkMorphMesh::GetZonePoints() const
-{
-  return this->Internals->Displacement->GetZonePoints();
-}
-
-vtkIdType vtkMorphMesh::GetLayerPoints() const
-{
-  return this->Internals->Displacement->GetLayerPoints();
+  this->Superclass::CopySurfaces(names, output);
+  const vtkInternals& own = *this->Internals;
+  vtkPointSet* shown = this->GetOutput();
+  vtkDataArray* ids = output->GetPointData()->GetArray("MorphPointId");
+  // On ranks as displaced: the first shows them, and does not have all of the morphed mesh.
+  if (own.Whole || !ids || !shown || shown->GetNumberOfPoints() != own.Model.points().rows())
+  {
+    return;
+  }
+  vtkNew<vtkPoints> points;
+  points->SetDataType(shown->GetPoints()->GetDataType());
+  points->SetNumberOfPoints(output->GetNumberOfPoints());
+  for (vtkIdType i = 0; i < output->GetNumberOfPoints(); ++i)
+  {
+    points->SetPoint(i, shown->GetPoint(static_cast<vtkIdType>(ids->GetComponent(i, 0))));
+  }
+  output->SetPoints(points);
 }
 
 vtkMorphAlgorithm* vtkMorphMesh::GetMethodFilter()
 {
-  vtkInternals& own = *this->Internals;
-  if (!own.Morph || own.MorphMethod != this->MeshOptions->Method)
+  vtkMorphing& own = *this->Morphing;
+  if (own.MethodIs != this->MeshOptions->Method)
   {
-    own.MorphMethod = this->MeshOptions->Method;
-    own.Morph = makeMethod(own.MorphMethod);
-    own.MorphTime = own.Morph->GetMTime();
+    own.MethodIs = this->MeshOptions->Method;
+    own.Method = makeMethod(own.MethodIs);
   }
-  return own.Morph;
+  return own.Method;
 }
 
 vtkMTimeType vtkMorphMesh::GetMTime()
 {
-  vtkInternals& own = *this->Internals;
-  // A time of modification must not decrease, so that a change inside becomes one of this object.
-  if (own.Morph && own.Morph->GetMTime() != own.MorphTime)
-  {
-    own.MorphTime = own.Morph->GetMTime();
-    this->Modified();
-  }
-  return this->Superclass::GetMTime();
+  const vtkMTimeType time = this->Superclass::GetMTime();
+  return this->Morphing->Method ? std::max(time, this->Morphing->Method->GetMTime()) : time;
 }
 
 vtkTypeBool vtkMorphMesh::ProcessRequest(
@@ -222,64 +222,68 @@ int vtkMorphMesh::RequestInformation(
   // vtkBoundaryDisplacement for several ranks.
   if (filters::Ranks::Processes() == 1)
   {
-    this->Internals->List(filters::upToDateInput(this, inputVector));
+    this->Internals->List(*this->Options, filters::upToDateInput(this, inputVector));
   }
   return 1;
 }
 
 int vtkMorphMesh::RequestUpdateExtent(
-  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector*)
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   filters::Time::AskRest(this->MeshOptions->RestTime, inputVector[0]->GetInformationObject(0));
+  filters::GridMorpher::Motion& motion = this->Morphing->Motion;
+  motion.Steps = filters::Steps(this->MeshOptions->NumberOfSteps, nullptr);
+  motion.Step = motion.Steps.Asked(filters::Ports::Asked(request, outputVector));
+  if (filters::GridMorpher::IsSeries(this->MeshOptions->Stepping, motion.Steps))
+  {
+    this->Morphing->Morpher.CheckSeries(this->GetMTime(), false, 0, motion.Step);
+  }
   return 1;
 }
 
 int vtkMorphMesh::RequestData(
-  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  vtkInternals& own = *this->Internals;
+  vtkMorphing& own = *this->Morphing;
+  filters::Blocks& blocks = this->Internals->Blocks;
   vtkSmartPointer<vtkDataObject> input = vtkDataObject::GetData(inputVector[0]);
-  vtkSelection* selection = vtkSelection::GetData(inputVector[1]);
-  vtkDataObject* target = vtkDataObject::GetData(inputVector[2]);
-  vtkSelection* zone = vtkSelection::GetData(inputVector[3]);
-  vtkDataObject* control = vtkDataObject::GetData(inputVector[4]);
-  vtkUnstructuredGrid* output = own.Blocks.Output(outputVector);
-  vtkUnstructuredGrid* badCells = vtkUnstructuredGrid::GetData(outputVector, 1);
-  vtkPolyData* surface = vtkPolyData::GetData(outputVector, 2);
-  filters::Monitor monitor(this, this->Options->NumberOfThreads);
+  const filters::GridMorpher::Outputs outputs = { blocks.Output(outputVector),
+    vtkUnstructuredGrid::GetData(outputVector, 1), vtkPolyData::GetData(outputVector, 2) };
+  filters::CrewMonitor monitor(this, this->Options->NumberOfThreads);
   std::string partial;
   own.Results.Reset();
-  own.SlideReport = "None";
   const auto work = [&]
   {
     const filters::Input::Mesh mesh =
-      filters::Input::TakeMesh(input, own.Blocks, this->Options->CoincidentPoints,
+      filters::Input::TakeMesh(input, blocks, this->Options->CoincidentPoints,
         filters::Input::Use::ToMorphOnRanks, this->GetClassName(), monitor);
     input = mesh.Data;
-    vtkSelection* ofGrid = nullptr;
-    filters::Ranks::Together(
-      [&]
+    const auto check = [&]
+    {
+      if (!vtkUnstructuredGrid::SafeDownCast(input))
       {
-        auto* grid = vtkUnstructuredGrid::SafeDownCast(input);
-        if (!grid)
-        {
-          filters::Input::RequireGrid(input, "The input"); // has the message
-        }
-        own.IsDistributed = mesh.IsDistributed;
-        own.TakeGrid(grid);
-        own.TakeTarget(target);
-        own.TakeControlPoints(control);
-        own.TakeZone(zone);
-        ofGrid = own.OfGrid(selection);
-      });
-    partial = own.Run(
-      ofGrid, filters::Ports::Asked(request, outputVector), output, badCells, surface, monitor);
+        filters::Input::RequireGrid(input, "The input"); // has the message
+      }
+    };
+    mesh.IsDistributed ? filters::Ranks::Together(check) : check();
+    const vtkMorphing::Inputs inputs = vtkInternals::InputsOf(inputVector);
+    const morph::DisplacementOptions options = own.Displacement(inputs);
+    own.Displace(options, mesh, inputs, monitor);
+    if (options.Moving == MOVING_NOTHING)
+    {
+      own.Show(vtkUnstructuredGrid::SafeDownCast(input), inputs, outputs);
+    }
+    else if (mesh.IsDistributed || !mesh.IsElsewhere)
+    {
+      morph::ProgressRange morphing(monitor, 0.3, 1);
+      partial = own.Morph(mesh, inputs, outputs, morphing);
+    }
   };
   const auto clear = [&]
   {
-    output->Initialize();
-    badCells->Initialize();
-    surface->Initialize();
+    outputs.Mesh->Initialize();
+    outputs.BadCells->Initialize();
+    outputs.Surface->Initialize();
     own.Results.Reset();
   };
   const filters::Execution::Outcome outcome =
@@ -293,35 +297,282 @@ int vtkMorphMesh::RequestData(
   }
   if (outcome != filters::Execution::Outcome::Done)
   {
-    own.WriteUndeformed(input,
-      outcome == filters::Execution::Outcome::Cancelled ? "Cancelled" : "Failed", output, surface);
+    own.Morpher.WriteUndeformed(
+      input, outcome == filters::Execution::Outcome::Cancelled ? "Cancelled" : "Failed", outputs);
   }
-  own.Blocks.Scatter(outputVector);
+  blocks.Scatter(outputVector);
+  own.Motion.Steps.WriteTime(own.Motion.Step, outputVector);
   if (!partial.empty())
   {
     vtkErrorMacro(<< partial);
   }
-  if (own.Morph)
-  {
-    own.MorphTime = own.Morph->GetMTime();
-  }
   return 1;
+}
+
+morph::DisplacementOptions vtkMorphMesh::vtkMorphing::Displacement(const Inputs& inputs)
+{
+  morph::DisplacementOptions options = *this->Filter->Options;
+  // The boundary in the precision of the computation: the output alone is rounded.
+  options.OutputPointsPrecision = DOUBLE_PRECISION;
+  const bool anySelection =
+    filters::Ranks::Count(inputs.Selection && inputs.Selection->GetNumberOfNodes() > 0) > 0;
+  const bool byHandles = options.Displacement == DISPLACEMENT_HANDLES;
+  const bool byPoints = byHandles || options.Displacement == DISPLACEMENT_LATTICE;
+  const bool selectionMoves = anySelection && !(byHandles && options.SelectedHandles);
+  const bool byTarget =
+    options.Displacement == DISPLACEMENT_TARGET && inputs.Target && !selectionMoves;
+  const bool anyPoints =
+    filters::Ranks::Count(!filters::ControlPoints::AreNone(inputs.ControlPoints)) > 0;
+  this->NeedsHandles = byHandles && !anyPoints && this->Mover().Handles.empty() &&
+                       !(options.SelectedHandles && anySelection);
+  if (options.Moving == MOVING_SURFACES && options.Surfaces.empty() && !byTarget)
+  {
+    options.Moving = selectionMoves ? MOVING_SELECTION
+                     : byPoints     ? MOVING_EVERYTHING
+                                    : MOVING_NOTHING;
+  }
+  if (this->NeedsHandles || (options.Moving == MOVING_SELECTION && !anySelection))
+  {
+    options.Moving = MOVING_NOTHING;
+  }
+  return options;
+}
+
+std::string vtkMorphMesh::vtkMorphing::Advice(const Inputs& inputs) const
+{
+  const morph::DisplacementOptions& options = *this->Filter->Options;
+  const std::string none = "Nothing moves yet. ";
+  if (this->NeedsHandles)
+  {
+    return none + "Give a handle: add a row to Handles, choose Control Points, or copy selected "
+                  "points and tick Selected Handles.";
+  }
+  if (options.Moving == MOVING_SELECTION)
+  {
+    return none + "Select points or cells in the view, and press Copy Active Selection.";
+  }
+  if (options.Displacement == DISPLACEMENT_TARGET && !inputs.Target)
+  {
+    return none + "Choose the Target, a surface such as an STL file.";
+  }
+  return none + "Tick surfaces, or select cells in the view and press Add selected surfaces.";
+}
+
+vtkMorphMesh::vtkMorphing::Origin vtkMorphMesh::vtkMorphing::OriginOf(
+  const morph::DisplacementOptions& options, const filters::Input::Mesh& mesh,
+  const Inputs& inputs) const
+{
+  const vtkInternals& mover = this->Mover();
+  std::vector<std::pair<const void*, vtkMTimeType>> objects;
+  for (vtkObject* object : std::initializer_list<vtkObject*>{ mesh.Data, inputs.Selection,
+         inputs.Target, inputs.Zone, inputs.ControlPoints, mover.Region, mover.ZoneRegion,
+         mover.Transform, mover.RigidTransform, mover.Extractor })
+  {
+    objects.emplace_back(object, object ? object->GetMTime() : 0);
+  }
+  return { options, objects, mover.Handles, mover.LatticeDisplacements };
+}
+
+void vtkMorphMesh::vtkMorphing::Displace(const morph::DisplacementOptions& options,
+  const filters::Input::Mesh& mesh, const Inputs& inputs, filters::Monitor& monitor)
+{
+  vtkInternals& mover = this->Mover();
+  Origin origin = this->OriginOf(options, mesh, inputs);
+  // On several processes all displace it or none: it communicates.
+  if (filters::Ranks::Processes() > 1 || this->BoundaryOrigin != origin)
+  {
+    this->BoundaryOrigin.reset(); // in case it throws
+    this->Boundary->Initialize();
+    mover.ResetResults();
+    const std::vector<std::string> before = monitor.TakeWarnings();
+    morph::ProgressRange displacing(monitor, 0, 0.3);
+    mover.Displace(options, mesh, inputs, this->Boundary, displacing);
+    this->BoundaryWarnings = monitor.TakeWarnings();
+    for (const std::string& warning : before)
+    {
+      monitor.warn(warning);
+    }
+    this->BoundaryOrigin = std::move(origin);
+  }
+  for (const std::string& warning : this->BoundaryWarnings)
+  {
+    if (mover.IsTeller())
+    {
+      monitor.warn(warning);
+    }
+  }
+}
+
+void vtkMorphMesh::vtkMorphing::Show(
+  vtkUnstructuredGrid* grid, const Inputs& inputs, const filters::GridMorpher::Outputs& outputs)
+{
+  filters::SurfaceGrid::Write(grid, this->BoundaryOfGrid(), outputs.Mesh);
+  filters::SurfaceGrid::Write(this->Boundary, outputs.Surface);
+  this->Results.SetText("Advice", this->Advice(inputs));
+  this->Results.Write(outputs.Mesh);
+}
+
+std::vector<double> vtkMorphMesh::vtkMorphing::SoftCells(
+  vtkUnstructuredGrid* grid, const Inputs& inputs) const
+{
+  vtkInternals& mover = this->Mover();
+  filters::Zones::Options zones = mover.ZoneOptions(*this->Filter->Options, inputs.Zone);
+  zones.Soft = this->Filter->MeshOptions->SoftZones;
+  if (zones.Soft.empty() && zones.RegionKind != ZONE_SOFT && zones.SelectionKind != ZONE_SOFT)
+  {
+    return {};
+  }
+  std::vector<double> factors(grid->GetNumberOfCells(), 1);
+  for (const filters::Zones::Part& part : mover.FindZones(filters::Zones::Soft, grid, zones))
+  {
+    for (std::size_t c = 0; c < part.isCell.size(); ++c)
+    {
+      if (part.isCell[c])
+      {
+        factors[c] = this->Filter->MeshOptions->SoftStiffness;
+      }
+    }
+  }
+  return factors;
+}
+
+filters::GridMorpher::Method vtkMorphMesh::vtkMorphing::MethodOf(
+  vtkUnstructuredGrid* grid, const std::vector<double>& soft, morph::Monitor& monitor) const
+{
+  const morph::MorphMeshOptions& own = *this->Filter->MeshOptions;
+  vtkMorphAlgorithm* method = this->Filter->GetMethodFilter();
+  morph::MorphOptions options = method->GetOptions();
+  options.BoundaryIdArray.clear();
+  options.DisplacementArray.clear();
+  options.ScaleFactor = 1; // the boundary has it
+  options.Validity = own.Live ? int(vtkMorphAlgorithm::VALIDITY_NONE) : own.Validity;
+  options.Quality = own.Quality;
+  options.FeatureLines = own.FeatureLines;
+  options.Stepping = own.Stepping;
+  options.OutputPointsPrecision = this->Filter->Options->OutputPointsPrecision;
+  if (own.Method != METHOD_FEMWARP)
+  {
+    if (!soft.empty())
+    {
+      throw morph::Error("This method has no stiffness, so there are no soft zones. Use FEMWARP.");
+    }
+    if (own.Stiffness != 0 || !filters::Input::ArrayName(own.StiffnessArray).empty())
+    {
+      monitor.warn("This method has no stiffness: Stiffness counts for FEMWARP alone.");
+    }
+    return { options, [method] { return method->CreateMorpher(); } };
+  }
+  auto stiffness = filters::Stiffness::Take(
+    { own.Stiffness, own.StiffnessExponent, own.StiffnessArray, own.WallArray }, grid,
+    this->Boundary, soft);
+  return { options, [method, stiffness = std::move(stiffness)]
+    {
+      std::unique_ptr<morph::Morpher> morpher = method->CreateMorpher();
+      dynamic_cast<morph::FemWarp&>(*morpher).setStiffness(stiffness);
+      return morpher;
+    } };
+}
+
+std::string vtkMorphMesh::vtkMorphing::Morph(const filters::Input::Mesh& mesh, const Inputs& inputs,
+  const filters::GridMorpher::Outputs& outputs, morph::Monitor& monitor)
+{
+  auto* grid = vtkUnstructuredGrid::SafeDownCast(mesh.Data);
+  const std::vector<double> soft = this->SoftCells(grid, inputs);
+  filters::GridMorpher::Method method;
+  const auto take = [&] { method = this->MethodOf(grid, soft, monitor); };
+  mesh.IsDistributed ? filters::Ranks::Together(take) : take();
+  std::string partial = this->Morpher.Morph(
+    grid, this->Boundary, mesh.IsDistributed, this->Motion, method, outputs, monitor);
+  for (const char* name : { "SlideChange", "SlideForce" })
+  {
+    if (vtkDataArray* ofRounds = this->Boundary->GetFieldData()->GetArray(name))
+    {
+      outputs.Mesh->GetFieldData()->AddArray(ofRounds);
+    }
+  }
+  this->Results.SetText("SlideReport", this->Mover().SlideReport);
+  this->WriteDistances(grid, outputs.Mesh);
+  return partial;
+}
+
+vtkSmartPointer<vtkPolyData> vtkMorphMesh::vtkMorphing::BoundaryOfGrid() const
+{
+  vtkSmartPointer<vtkPolyData> boundary = this->Boundary.Get();
+  return this->Mover().Whole ? this->Mover().Whole->OfPiece(boundary) : boundary;
+}
+
+void vtkMorphMesh::vtkMorphing::WriteDistances(
+  vtkUnstructuredGrid* grid, vtkUnstructuredGrid* output)
+{
+  vtkPolyData* target = this->Filter->Options->Displacement == DISPLACEMENT_TARGET
+                          ? this->Mover().Fit.Surface()
+                          : nullptr;
+  const vtkSmartPointer<vtkPolyData> boundary = this->BoundaryOfGrid();
+  vtkDataArray* ids = boundary->GetPointData()->GetArray("MorphPointId");
+  vtkDataArray* roles = boundary->GetPointData()->GetArray("Role");
+  if (!target || !ids || !roles || output->GetNumberOfPoints() != grid->GetNumberOfPoints())
+  {
+    return;
+  }
+  std::vector<morph::Index> nodes;
+  for (vtkIdType i = 0; i < boundary->GetNumberOfPoints(); ++i)
+  {
+    if (roles->GetComponent(i, 0) == 1)
+    {
+      nodes.push_back(static_cast<morph::Index>(ids->GetComponent(i, 0)));
+    }
+  }
+  morph::Points before(static_cast<morph::Index>(nodes.size()), 3), after = before;
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+  {
+    grid->GetPoint(nodes[i], before.row(static_cast<morph::Index>(i)).data());
+    output->GetPoint(nodes[i], after.row(static_cast<morph::Index>(i)).data());
+  }
+  filters::TargetDistance::Summary distance =
+    filters::TargetDistance::Write(target, nodes, before, after, output);
+  if (this->Mover().Whole)
+  {
+    this->SummarizeOnRanks(nodes, output, distance);
+  }
+  this->Results.SetNumber("MaxTargetDistanceBefore", distance.MaxBefore);
+  this->Results.SetNumber("MeanTargetDistanceBefore", distance.MeanBefore);
+  this->Results.SetNumber("MaxTargetDistance", distance.Max);
+  this->Results.SetNumber("MeanTargetDistance", distance.Mean);
+}
+
+void vtkMorphMesh::vtkMorphing::SummarizeOnRanks(const std::vector<morph::Index>& nodes,
+  vtkUnstructuredGrid* output, filters::TargetDistance::Summary& distance) const
+{
+  const filters::WholeSurface& whole = *this->Mover().Whole;
+  const std::vector<std::int64_t> ids = whole.IdsOfPiece(nodes);
+  const auto summarize = [&](const char* name)
+  {
+    vtkDataArray* array = output->GetPointData()->GetArray(name);
+    std::vector<double> values;
+    for (const morph::Index node : nodes)
+    {
+      values.push_back(array->GetComponent(static_cast<vtkIdType>(node), 0));
+    }
+    return whole.MaximumAndMean(ids, values);
+  };
+  std::tie(distance.MaxBefore, distance.MeanBefore) = summarize("TargetDistanceBefore");
+  std::tie(distance.Max, distance.Mean) = summarize("TargetDistance");
 }
 
 const char* vtkMorphMesh::GetMorphStatus() const
 {
-  return this->Internals->Results.Text("MorphStatus").c_str();
+  return this->Morphing->Results.Text("MorphStatus").c_str();
 }
 
 const char* vtkMorphMesh::GetAdvice() const
 {
-  return this->Internals->Results.Text("Advice").c_str();
+  return this->Morphing->Results.Text("Advice").c_str();
 }
 
-#define morphResultMacro(name, type, kind)                          \
-  type vtkMorphMesh::Get##name() const                              \
-  {                                                                 \
-    return static_cast<type>(this->Internals->Results.kind(#name)); \
+#define morphResultMacro(name, type, kind)                         \
+  type vtkMorphMesh::Get##name() const                             \
+  {                                                                \
+    return static_cast<type>(this->Morphing->Results.kind(#name)); \
   }
 morphResultMacro(MinScaledJacobian, double, Number);
 morphResultMacro(MeanScaledJacobian, double, Number);
@@ -357,6 +608,5 @@ void vtkMorphMesh::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   this->PrintOptions(os, indent);
-  os << indent << "PickPort: " << this->GetPickPort() << "\n";
-  this->Internals->Results.Print(os, indent);
+  this->Morphing->Results.Print(os, indent);
 }

@@ -88,7 +88,8 @@ bool Options::operator==(const Options& other) const
 {
   const auto all = [](const Options& o)
   {
-    return std::tie(o.How, o.SelectionTime, o.Surfaces, o.RegionTime, o.ArrayName, o.FixedSurfaces);
+    return std::tie(
+      o.How, o.SelectionTime, o.Extractor, o.Surfaces, o.RegionTime, o.ArrayName, o.FixedSurfaces);
   };
   return all(*this) == all(other);
 }

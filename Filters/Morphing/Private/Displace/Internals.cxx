@@ -8,18 +8,13 @@
 #include "Private/Data/Output.h"
 #include "Private/Data/Surface.h"
 #include "Private/Displace/DisplacedSurface.h"
-#include "Private/Displace/InnerPoints.h"
-#include "Private/Displace/Selection.h"
-#include "Private/Displace/Zones.h"
 #include "Private/Distributed/WholeVolume.h"
-#include "Private/Options.h"
-#include "Private/Pipeline/Input.h"
 #include "Private/Pipeline/Ranks.h"
 #include "Private/Project/TargetDistance.h"
 #include "Support/Error.h"
+#include "Support/ProgressRange.h"
 
 #include <vtkAbstractTransform.h>
-#include <vtkCellData.h>
 #include <vtkFieldData.h>
 #include <vtkPointSet.h>
 #include <vtkPolyData.h>
@@ -34,21 +29,13 @@
 
 namespace filters = morph::filters;
 
+using Surroundings = morph::Surroundings;
+
 namespace
 {
 vtkMTimeType timeOf(vtkObject* object)
 {
   return object ? object->GetMTime() : 0;
-}
-
-std::vector<std::uint8_t> layerCells(vtkUnstructuredGrid* grid, const std::string& name)
-{
-  vtkDataArray* array = grid->GetCellData()->GetArray(name.c_str());
-  if (!array || array->GetNumberOfTuples() != grid->GetNumberOfCells())
-  {
-    throw morph::Error("LayersArray names '" + name + "', which is no cell array of the input.");
-  }
-  return filters::Chosen::Marked(array);
 }
 
 /// What each round of sliding has done.
@@ -89,19 +76,107 @@ Eigen::RowVector3d directionOf(int projectAlong, const std::array<double, 3>& ve
 }
 }
 
-void vtkBoundaryDisplacement::vtkInternals::Classify(
-  const vtkBoundaryDisplacement* filter, vtkPointSet* input, filters::Monitor& monitor)
+void vtkDisplacementAlgorithm::vtkInternals::ResetResults()
 {
-  filters::Geometry::Options options;
-  options.FeatureAngle = filter->Options->FeatureAngle;
-  options.CornerAngle = filter->Options->CornerAngle;
-  options.SurfaceIdArray = filters::Input::ArrayName(filter->Options->SurfaceIdArray);
-  options.UseGeometryArrays = filter->Options->UseGeometryArrays;
+  this->Count.fill(0);
+  this->SlideReport = "None";
+}
+
+void vtkDisplacementAlgorithm::vtkInternals::ClearList()
+{
+  this->SurfaceList->RemoveAllArrays();
+  this->SurfaceSizes->Initialize();
+  this->SurfaceBounds->Initialize();
+  this->SurfaceBounds->SetNumberOfComponents(6);
+  this->ZoneList->RemoveAllArrays();
+  this->ZoneSizes->Initialize();
+  this->ListedVersion = -1;
+}
+
+void vtkDisplacementAlgorithm::vtkInternals::List(const Options& options, vtkDataObject* input)
+{
+  filters::Monitor monitor(nullptr, options.NumberOfThreads);
+  try
+  {
+    vtkDataObject* data = this->Blocks.Gather(
+      input, options.CoincidentPoints, filters::GridMesh::UnknownCells::Refuse, monitor);
+    monitor.TakeWarnings(); // the execution gives them
+    auto* mesh = vtkPointSet::SafeDownCast(data);
+    if (!mesh || mesh->GetNumberOfCells() == 0)
+    {
+      return;
+    }
+    this->Classify(
+      options, filters::Input::RequireGridOrPolyData(mesh, "The input", this->Checked), monitor);
+    const std::vector<std::string> warnings = monitor.TakeWarnings();
+    this->Warnings.insert(this->Warnings.end(), warnings.begin(), warnings.end());
+  }
+  catch (const std::exception&)
+  {
+    // The execution raises the error again, and reports it.
+    this->ClearList();
+  }
+}
+
+vtkDisplacementAlgorithm::vtkInternals::Inputs vtkDisplacementAlgorithm::vtkInternals::InputsOf(
+  vtkInformationVector** inputVector)
+{
+  return { vtkSelection::GetData(inputVector[1]), vtkDataObject::GetData(inputVector[2]),
+    vtkSelection::GetData(inputVector[3]), vtkDataObject::GetData(inputVector[4]) };
+}
+
+bool vtkDisplacementAlgorithm::vtkInternals::IsTeller() const
+{
+  return !this->Whole || filters::Ranks::IsFirst();
+}
+
+void vtkDisplacementAlgorithm::vtkInternals::Displace(const Options& options,
+  const filters::Input::Mesh& mesh, const Inputs& inputs, vtkPolyData* output,
+  morph::Monitor& monitor)
+{
+  vtkPointSet* input = nullptr;
+  vtkPolyData* target = nullptr;
+  const auto check = [&]
+  {
+    input = filters::Input::RequireGridOrPolyData(mesh.Data, "The input", this->Checked);
+    const bool fits =
+      options.Displacement == DISPLACEMENT_TARGET && options.Moving != MOVING_NOTHING;
+    target = fits && inputs.Target ? filters::Input::RequirePolyData(inputs.Target, "The target")
+                                   : nullptr;
+    if (fits && !target && (mesh.IsDistributed || !mesh.IsElsewhere))
+    {
+      throw morph::Error("There is no target to move onto. Set one (Target, port 2): a surface, "
+                         "from an STL file for instance.");
+    }
+  };
+  if (mesh.IsDistributed)
+  {
+    filters::Ranks::Together(check);
+    this->DisplaceOnRanks(options, input, inputs, target, output, monitor);
+    return;
+  }
+  check();
+  this->Whole.reset();
+  if (!mesh.IsElsewhere)
+  {
+    this->Displace(
+      options, input, vtkUnstructuredGrid::SafeDownCast(input), inputs, target, output, monitor);
+  }
+}
+
+void vtkDisplacementAlgorithm::vtkInternals::Classify(
+  const Options& options, vtkPointSet* input, morph::Monitor& monitor)
+{
+  filters::Geometry::Options geometry;
+  geometry.FeatureAngle = options.FeatureAngle;
+  geometry.CornerAngle = options.CornerAngle;
+  geometry.SurfaceIdArray = filters::Input::ArrayName(options.SurfaceIdArray);
+  geometry.UseGeometryArrays = options.UseGeometryArrays;
   const int before = this->Model.ClassifyCount();
-  this->Model.Update(input, options, monitor, this->Whole.get());
+  this->Model.Update(input, geometry, monitor, this->Whole.get());
   if (this->Model.ClassifyCount() != before)
   {
-    this->Warnings = monitor.TakeWarnings();
+    this->Warnings.clear();
   }
   if (this->ListedVersion == this->Model.inputVersion)
   {
@@ -126,86 +201,68 @@ void vtkBoundaryDisplacement::vtkInternals::Classify(
   this->ListedVersion = this->Model.inputVersion;
 }
 
-void vtkBoundaryDisplacement::vtkInternals::ListZones(
-  vtkUnstructuredGrid* grid, const morph::Mesh& mesh)
+void vtkDisplacementAlgorithm::vtkInternals::Choose(
+  const Options& options, vtkPointSet* input, vtkSelection* selection)
 {
-  const filters::MergedBlocks* blocks =
-    this->OuterBlocks ? this->OuterBlocks : this->Blocks.Merged();
-  for (const filters::Zones::Listed& zone : filters::Zones::List(grid, mesh, blocks))
+  filters::Chosen::Options by;
+  by.How = static_cast<filters::Chosen::By>(options.Moving);
+  by.FixedSurfaces = options.FixedSurfaces;
+  if (options.Moving == MOVING_SELECTION)
   {
-    this->ZoneList->AddArray(zone.Name.c_str(), false);
-    this->ZoneSizes->InsertNextValue(zone.Name);
-    for (const morph::Index count : { zone.Cells, zone.Nodes })
-    {
-      this->ZoneSizes->InsertNextValue(count > 0 ? std::to_string(count) : "");
-    }
+    selection = this->Selected.OfGrid(this->Blocks, selection, this->Extractor);
+    by.Selection = selection;
+    by.SelectionTime = timeOf(selection);
+    by.Extractor = this->Extractor;
+    by.IsSelected = this->Whole ? &this->IsSelected : nullptr;
   }
-}
-
-void vtkBoundaryDisplacement::Choose(vtkPointSet* input, vtkSelection* selection)
-{
-  vtkInternals& own = *this->Internals;
-  filters::Chosen::Options options;
-  options.How = static_cast<filters::Chosen::By>(this->Options->Moving);
-  options.FixedSurfaces = this->Options->FixedSurfaces;
-  if (this->Options->Moving == MOVING_SELECTION)
+  else if (options.Moving == MOVING_SURFACES)
   {
-    selection = own.Selected.OfGrid(own.Blocks, selection, own.Extractor);
-    options.Selection = selection;
-    options.SelectionTime = timeOf(selection);
-    options.Extractor = own.Extractor;
-    options.IsSelected = own.Whole ? &own.IsSelected : nullptr;
+    const bool byTarget = options.Surfaces.empty() && options.Displacement == DISPLACEMENT_TARGET;
+    by.Surfaces =
+      byTarget ? morph::surfacesNearest(*this->Fit.Get(), this->Model) : options.Surfaces;
   }
-  else if (this->Options->Moving == MOVING_SURFACES)
+  else if (options.Moving == MOVING_REGION)
   {
-    const bool byTarget =
-      this->Options->Surfaces.empty() && this->Options->Displacement == DISPLACEMENT_TARGET;
-    options.Surfaces =
-      byTarget ? morph::surfacesNearest(*own.Fit.Get(), own.Model) : this->Options->Surfaces;
+    by.Region = this->Region;
+    by.RegionTime = timeOf(this->Region);
   }
-  else if (this->Options->Moving == MOVING_REGION)
+  else if (options.Moving == MOVING_ARRAY)
   {
-    options.Region = own.Region;
-    options.RegionTime = timeOf(own.Region);
+    by.ArrayName = filters::Input::ArrayName(options.MovingArray);
   }
-  else if (this->Options->Moving == MOVING_ARRAY)
+  if (this->ChosenVersion != this->Model.inputVersion || !(this->ChosenBy == by))
   {
-    options.ArrayName = filters::Input::ArrayName(this->Options->MovingArray);
-  }
-  if (own.ChosenVersion != own.Model.inputVersion || !(own.ChosenBy == options))
-  {
-    own.ChosenVersion = -1; // in case the choice throws
-    own.Choice = filters::Chosen::Choose(input, own.Model, options);
-    own.ChosenVersion = own.Model.inputVersion;
-    own.ChosenBy = options;
+    this->ChosenVersion = -1; // in case the choice throws
+    this->Choice = filters::Chosen::Choose(input, this->Model, by);
+    this->ChosenVersion = this->Model.inputVersion;
+    this->ChosenBy = by;
     ++this->ChooseCount;
   }
 }
 
-morph::Points vtkBoundaryDisplacement::vtkInternals::Fitted(vtkBoundaryDisplacement* filter,
+morph::Points vtkDisplacementAlgorithm::vtkInternals::Fitted(const Options& options,
   vtkPointSet* input, vtkSelection* selection, vtkPolyData* target,
-  const std::vector<morph::Index>& sliding, filters::Monitor& monitor)
+  const std::vector<morph::Index>& sliding, morph::Monitor& monitor)
 {
-  const bool align = filter->Options->AlignTarget;
-  morph::Target::Options options;
-  options.featureAngle = filter->Options->FeatureAngle;
-  options.normalAngle = filter->Options->TargetAngle;
-  options.reach = filter->Options->TargetReach * this->Model.size;
+  morph::Target::Options place;
+  place.featureAngle = options.FeatureAngle;
+  place.normalAngle = options.TargetAngle;
+  place.reach = options.TargetReach * this->Model.size;
   morph::FitOptions how;
-  if (filter->Options->ProjectAlong != PROJECT_ALONG_CLOSEST_POINT)
+  if (options.ProjectAlong != PROJECT_ALONG_CLOSEST_POINT)
   {
     how.project = morph::FitOptions::Project::Along;
-    how.direction = directionOf(filter->Options->ProjectAlong, filter->Options->ProjectVector);
+    how.direction = directionOf(options.ProjectAlong, options.ProjectVector);
   }
-  if (filter->Options->Moving == MOVING_SURFACES && filter->Options->Surfaces.empty())
+  if (options.Moving == MOVING_SURFACES && options.Surfaces.empty())
   {
-    this->Fit.Update(target, this->Model, nullptr, align, options, monitor);
-    filter->Choose(input, selection);
+    this->Fit.Update(target, this->Model, nullptr, options.AlignTarget, place, monitor);
+    this->Choose(options, input, selection);
   }
   else
   {
-    filter->Choose(input, selection);
-    this->Fit.Update(target, this->Model, &this->Choice, align, options, monitor);
+    this->Choose(options, input, selection);
+    this->Fit.Update(target, this->Model, &this->Choice, options.AlignTarget, place, monitor);
   }
   if (!this->Fit.GetWarning().empty())
   {
@@ -215,8 +272,8 @@ morph::Points vtkBoundaryDisplacement::vtkInternals::Fitted(vtkBoundaryDisplacem
     *this->Fit.Get(), this->Model, this->Choice, sliding, how, this->Mover.surroundings(), monitor);
 }
 
-std::vector<morph::Handle> vtkBoundaryDisplacement::vtkInternals::SelectedHandles(
-  const vtkBoundaryDisplacement* filter, vtkPointSet* input, vtkSelection* selection)
+std::vector<morph::Handle> vtkDisplacementAlgorithm::vtkInternals::SelectedHandles(
+  const Options& options, vtkPointSet* input, vtkSelection* selection)
 {
   std::vector<std::uint8_t> isSelected = this->IsSelected;
   if (!this->Whole)
@@ -229,40 +286,39 @@ std::vector<morph::Handle> vtkBoundaryDisplacement::vtkInternals::SelectedHandle
   {
     if (isSelected[node])
     {
-      const auto& v = filter->Options->Vector;
+      const auto& v = options.Vector;
       handles.push_back(
-        { this->Model.points().row(node), { v[0], v[1], v[2] }, filter->Options->HandleRadius });
+        { this->Model.points().row(node), { v[0], v[1], v[2] }, options.HandleRadius });
     }
   }
   return handles;
 }
 
-morph::Points vtkBoundaryDisplacement::vtkInternals::ByControlPoints(
-  const vtkBoundaryDisplacement* filter, vtkPointSet* input, vtkSelection* selection,
-  vtkDataObject* points, filters::Monitor& monitor)
+morph::Points vtkDisplacementAlgorithm::vtkInternals::ByControlPoints(const Options& options,
+  vtkPointSet* input, vtkSelection* selection, vtkDataObject* points, morph::Monitor& monitor)
 {
   const morph::Points from = this->Model.points()(this->Choice.moving, morph::allColumns);
-  if (filter->Options->Displacement == DISPLACEMENT_HANDLES)
+  if (options.Displacement == DISPLACEMENT_HANDLES)
   {
     std::vector<morph::Handle> handles = filters::ControlPoints::Handles(points, this->Handles);
-    if (filter->Options->SelectedHandles)
+    if (options.SelectedHandles)
     {
-      const std::vector<morph::Handle> more = this->SelectedHandles(filter, input, selection);
+      const std::vector<morph::Handle> more = this->SelectedHandles(options, input, selection);
       handles.insert(handles.end(), more.begin(), more.end());
     }
     return from + morph::HandleMotion(handles).displacements(from, monitor);
   }
   morph::LatticeMotion lattice;
-  lattice.basis = static_cast<morph::LatticeMotion::Basis>(filter->Options->LatticeBasis);
-  lattice.size = filter->Options->LatticeSize;
-  if (filter->Options->AutoLattice && from.rows() > 0)
+  lattice.basis = static_cast<morph::LatticeMotion::Basis>(options.LatticeBasis);
+  lattice.size = options.LatticeSize;
+  if (options.AutoLattice && from.rows() > 0)
   {
     lattice.low = from.colwise().minCoeff();
     lattice.high = from.colwise().maxCoeff();
   }
   else
   {
-    const auto& b = filter->Options->LatticeBounds;
+    const auto& b = options.LatticeBounds;
     lattice.low << b[0], b[2], b[4];
     lattice.high << b[1], b[3], b[5];
     if ((lattice.high.array() < lattice.low.array()).any())
@@ -276,79 +332,14 @@ morph::Points vtkBoundaryDisplacement::vtkInternals::ByControlPoints(
   return from + lattice.displacements(from, monitor);
 }
 
-filters::Zones::Options vtkBoundaryDisplacement::vtkInternals::ZoneOptions(
-  const vtkBoundaryDisplacement* filter, vtkSelection* zone)
-{
-  filters::Zones::Options options;
-  options.Fixed = filter->Options->FixedZones;
-  options.Rigid = filter->Options->RigidZones;
-  options.Region = this->ZoneRegion;
-  options.RegionKind = filter->Options->ZoneRegionType;
-  options.SelectionKind = filter->Options->ZoneSelectionType;
-  if (filter->Options->ZoneSelectionType != ZONE_NONE)
-  {
-    options.Selection = this->ZoneSelected.OfGrid(this->Blocks, zone, this->Extractor);
-  }
-  options.Extractor = this->Extractor;
-  return options;
-}
-
-void vtkBoundaryDisplacement::vtkInternals::FindInner(const vtkBoundaryDisplacement* filter,
-  vtkUnstructuredGrid* grid, const filters::Zones::Options& zones,
-  morph::BoundaryMover::Options& options)
-{
-  options.inner.keepLayers = filter->Options->KeepLayers;
-  options.inner.layersName = filters::Input::ArrayName(filter->Options->LayersArray);
-  if (!zones.Any() && options.inner.keepLayers == 0)
-  {
-    return;
-  }
-  if (!grid)
-  {
-    throw morph::Error("Zones and layers have inner nodes, and the input is a surface. Give the "
-                       "volume mesh to this filter.");
-  }
-  const filters::MergedBlocks* blocks =
-    this->OuterBlocks ? this->OuterBlocks : this->Blocks.Merged();
-  const auto find = [&](filters::Zones::Kind kind)
-  {
-    const std::vector<filters::Zones::Part> parts =
-      this->Whole
-        ? filters::Zones::FindOnRanks(kind, grid, filters::WholeVolume(*this->Whole), blocks, zones)
-        : filters::Zones::Find(kind, grid, this->Model.mesh, blocks, zones);
-    return std::vector<morph::Zone>(parts.begin(), parts.end());
-  };
-  options.fixedZones = find(filters::Zones::Fixed);
-  options.rigidZones = find(filters::Zones::Rigid);
-  if (this->RigidTransform)
-  {
-    options.inner.rigid = [this, factor = filter->Options->ScaleFactor](
-                            const Eigen::RowVector3d& x) -> Eigen::RowVector3d
-    {
-      Eigen::RowVector3d to;
-      this->RigidTransform->TransformPoint(x.data(), to.data());
-      return factor == 1 ? to : Eigen::RowVector3d(x + factor * (to - x));
-    };
-  }
-  const auto takeLayers = [&]
-  {
-    // Of several processes those without cells have no arrays.
-    if (!options.inner.layersName.empty() && !(this->Whole && grid->GetNumberOfCells() == 0))
-    {
-      options.inner.isLayer = layerCells(grid, options.inner.layersName);
-    }
-  };
-  this->Whole ? filters::Ranks::Together(takeLayers) : takeLayers();
-}
-
-void vtkBoundaryDisplacement::vtkInternals::WriteDistances(
-  const morph::Surroundings::Result& result, vtkPolyData* output)
+void vtkDisplacementAlgorithm::vtkInternals::WriteDistances(
+  const Surroundings::Result& result, vtkPolyData* output)
 {
   std::vector<morph::Index> points, nodes;
   for (std::size_t i = 0; i < this->Model.NodeOfPoint().size(); ++i)
   {
     const morph::Index node = this->Model.NodeOfPoint()[i];
-    if (result.roles[node] == morph::Surroundings::Moves)
+    if (result.roles[node] == Surroundings::Moves)
     {
       points.push_back(static_cast<morph::Index>(i));
       nodes.push_back(node);
@@ -358,53 +349,50 @@ void vtkBoundaryDisplacement::vtkInternals::WriteDistances(
     this->Model.points()(nodes, morph::allColumns), result.moved(nodes, morph::allColumns), output);
 }
 
-bool vtkBoundaryDisplacement::vtkInternals::Prepare(vtkBoundaryDisplacement* filter,
-  vtkPointSet* input, const Extras& extras, Moves& moves, filters::Monitor& monitor)
+bool vtkDisplacementAlgorithm::vtkInternals::Prepare(const Options& options, vtkPointSet* input,
+  const Inputs& inputs, vtkPolyData* target, Moves& moves, morph::Monitor& monitor)
 {
   try
   {
-    monitor.SetRange(0, 0.5);
-    this->Classify(filter, input, monitor);
+    morph::ProgressRange classifying(monitor, 0, 0.5);
+    this->Classify(options, input, classifying);
   }
   catch (...)
   {
     this->ClearList();
     throw;
   }
-  for (const std::string& warning : this->Warnings)
+  for (const std::string& warning : std::exchange(this->Warnings, {}))
   {
     monitor.warn(warning);
   }
-  this->Warnings.clear();
   filters::Surface::WarnOfNone(this->Model.faces, monitor);
   if (this->Model.faces.nodes.empty())
   {
     return false;
   }
-  morph::Surroundings::Options& rest = moves.Rest;
-  rest.sliding =
-    morph::surfacesNamed(this->Model, filter->Options->SlidingSurfaces, "SlidingSurfaces");
-  if (extras.Target)
+  Surroundings::Options& rest = moves.Rest;
+  rest.sliding = morph::surfacesNamed(this->Model, options.SlidingSurfaces, "SlidingSurfaces");
+  if (target)
   {
-    monitor.SetRange(0.5, 0.7);
-    moves.Given =
-      this->Fitted(filter, input, extras.Selection, extras.Target, rest.sliding, monitor);
+    morph::ProgressRange fitting(monitor, 0.5, 0.7);
+    moves.Given = this->Fitted(options, input, inputs.Selection, target, rest.sliding, fitting);
   }
   else
   {
-    filter->Choose(input, extras.Selection);
+    this->Choose(options, input, inputs.Selection);
   }
-  const bool byPoints = filter->Options->Displacement == DISPLACEMENT_HANDLES ||
-                        filter->Options->Displacement == DISPLACEMENT_LATTICE;
+  const bool byPoints =
+    options.Displacement == DISPLACEMENT_HANDLES || options.Displacement == DISPLACEMENT_LATTICE;
   if (byPoints && !this->Choice.moving.empty())
   {
     moves.Given =
-      this->ByControlPoints(filter, input, extras.Selection, extras.ControlPoints, monitor);
+      this->ByControlPoints(options, input, inputs.Selection, inputs.ControlPoints, monitor);
   }
   monitor.check();
 
   filters::Motion::Options& motion = moves.Motion;
-  motion = { *filter->Options, this->Transform, &moves.Given };
+  motion = { options, this->Transform, &moves.Given };
   moves.Choice = this->Choice;
   moves.Rest.freeNodes = filters::Motion::TakeMissing(input, motion, moves.Choice, monitor);
   moves.Targets = filters::Motion::Targets(input, this->Model, moves.Choice, motion);
@@ -424,11 +412,10 @@ bool vtkBoundaryDisplacement::vtkInternals::Prepare(vtkBoundaryDisplacement* fil
     }
   }
 
-  rest.how = static_cast<morph::Surroundings::Kind>(filter->Options->Surroundings);
-  rest.follow.method =
-    static_cast<morph::SurfaceMorphOptions::Method>(filter->Options->SurfaceMethod);
-  rest.follow.unattached = static_cast<morph::UnattachedMotion>(filter->Options->UnattachedMotion);
-  rest.free = morph::surfacesNamed(this->Model, filter->Options->FreeSurfaces, "FreeSurfaces");
+  rest.how = static_cast<Surroundings::Kind>(options.Surroundings);
+  rest.follow.method = static_cast<morph::SurfaceMorphOptions::Method>(options.SurfaceMethod);
+  rest.follow.unattached = static_cast<morph::UnattachedMotion>(options.UnattachedMotion);
+  rest.free = morph::surfacesNamed(this->Model, options.FreeSurfaces, "FreeSurfaces");
   for (const morph::Index sheet : this->Model.sheets())
   {
     if (std::count(rest.sliding.begin(), rest.sliding.end(), sheet) == 0)
@@ -437,13 +424,13 @@ bool vtkBoundaryDisplacement::vtkInternals::Prepare(vtkBoundaryDisplacement* fil
     }
   }
   std::sort(rest.free.begin(), rest.free.end());
-  rest.radius = filter->Options->FalloffRadius * this->Model.size;
+  rest.radius = options.FalloffRadius * this->Model.size;
   return true;
 }
 
-void vtkBoundaryDisplacement::vtkInternals::Displace(vtkBoundaryDisplacement* filter,
-  vtkPointSet* input, vtkUnstructuredGrid* grid, const Extras& extras, vtkPolyData* output,
-  filters::Monitor& monitor)
+void vtkDisplacementAlgorithm::vtkInternals::Displace(const Options& options, vtkPointSet* input,
+  vtkUnstructuredGrid* grid, const Inputs& inputs, vtkPolyData* target, vtkPolyData* output,
+  morph::Monitor& monitor)
 {
   const filters::WholeSurface* whole = this->Whole.get();
   // What the boundary alone decides is the same on all processes.
@@ -455,40 +442,40 @@ void vtkBoundaryDisplacement::vtkInternals::Displace(vtkBoundaryDisplacement* fi
   alike(
     [&]
     {
-      hasBoundary = this->Prepare(filter, input, extras, moves, monitor);
-      zones = this->ZoneOptions(filter, extras.Zone);
+      hasBoundary = this->Prepare(options, input, inputs, target, moves, monitor);
+      zones = this->ZoneOptions(options, inputs.Zone);
     });
   if (!hasBoundary)
   {
     return;
   }
-  morph::BoundaryMover::Options options;
-  options.rest = moves.Rest;
-  if (filter->Options->Moving != MOVING_NOTHING)
+  morph::BoundaryMover::Options mover;
+  mover.rest = moves.Rest;
+  if (options.Moving != MOVING_NOTHING)
   {
-    this->FindInner(filter, grid, zones, options);
-    options.slideRounds = filter->Options->SlideRounds;
+    this->FindInner(options, grid, zones, mover);
+    mover.slideRounds = options.SlideRounds;
   }
-  monitor.SetRange(extras.Target ? 0.7 : 0.5, 1);
   std::unique_ptr<filters::WholeVolume> pieces;
   if (whole)
   {
     pieces = std::make_unique<filters::WholeVolume>(*whole);
   }
-  this->Mover.move(this->Model, moves.Choice, moves.Targets, options, pieces.get(), monitor);
-  alike([&] { this->Write(filter, input, extras, moves, options, output, monitor); });
-  if (options.hasInner())
+  morph::ProgressRange moving(monitor, target ? 0.7 : 0.5, 1);
+  this->Mover.move(this->Model, moves.Choice, moves.Targets, mover, pieces.get(), moving);
+  alike([&] { this->Write(options, input, target, moves, mover, output, monitor); });
+  if (mover.hasInner())
   {
     alike([&] { this->AppendInner(grid, output); });
   }
-  this->Count(filter, options.hasInner());
+  this->CountRoles(mover.hasInner());
 }
 
-void vtkBoundaryDisplacement::vtkInternals::Write(vtkBoundaryDisplacement* filter,
-  vtkPointSet* input, const Extras& extras, const Moves& moves,
-  const morph::BoundaryMover::Options& options, vtkPolyData* output, filters::Monitor& monitor)
+void vtkDisplacementAlgorithm::vtkInternals::Write(const Options& options, vtkPointSet* input,
+  bool isFitted, const Moves& moves, const morph::BoundaryMover::Options& mover,
+  vtkPolyData* output, morph::Monitor& monitor)
 {
-  const morph::Surroundings::Result& result = this->Mover.result();
+  const Surroundings::Result& result = this->Mover.result();
   const std::vector<morph::Index> faces =
     morph::collapsedFaces(this->Model, moves.Choice, result.moved);
   std::vector<morph::Index> collapsed; // cells of the output
@@ -506,19 +493,19 @@ void vtkBoundaryDisplacement::vtkInternals::Write(vtkBoundaryDisplacement* filte
       "be valid: the output's cell ids " +
       morph::listIds(collapsed) + ". Is a scale zero?");
   }
-  if (options.hasInner())
+  if (mover.hasInner())
   {
     filters::Output::RequireWritable(this->Mover.inner().rest(this->Model), result.moved,
-      filters::Output::IsFloat(input, filter->Options->OutputPointsPrecision), "nodes");
+      filters::Output::IsFloat(input, options.OutputPointsPrecision), "nodes");
   }
   filters::DisplacedSurface::Write(
-    this->Model, result, input, filter->Options->OutputPointsPrecision, output);
-  if (options.slideRounds > 0)
+    this->Model, result, input, options.OutputPointsPrecision, output);
+  if (mover.slideRounds > 0)
   {
     writeRounds(this->Mover.rounds().rounds(), this->Model.size, output->GetFieldData());
     this->SlideReport = this->Mover.rounds().report(this->Model.size);
   }
-  if (options.hasInner() || options.slideRounds > 0)
+  if (mover.hasInner() || mover.slideRounds > 0)
   {
     filters::AffineArrays::Remove(output);
   }
@@ -527,51 +514,30 @@ void vtkBoundaryDisplacement::vtkInternals::Write(vtkBoundaryDisplacement* filte
     this->Fields.Write(this->Model, this->Choice, moves.Motion, moves.Rest, result,
       this->Mover.surroundings(), output, monitor);
   }
-  if (extras.Target)
+  if (isFitted)
   {
     this->WriteDistances(result, output);
   }
+  this->Displaced->ShallowCopy(output);
   if (this->Whole)
   {
-    this->WholeOutput->ShallowCopy(output);
     this->Whole->KeepOwn(output);
   }
 }
 
-void vtkBoundaryDisplacement::vtkInternals::AppendInner(
-  vtkUnstructuredGrid* grid, vtkPolyData* output)
+void vtkDisplacementAlgorithm::vtkInternals::CountRoles(bool hasInner)
 {
-  const morph::Surroundings::Result& result = this->Mover.result();
-  const std::vector<morph::Index> nodes = morph::InnerNodes::placedInside(this->Model, result);
-  std::vector<signed char> roles;
-  for (const morph::Index node : nodes)
-  {
-    roles.push_back(result.roles[node]);
-  }
-  filters::InnerPoints::Append(grid, this->Mover.inner().pointsOf(this->Model, nodes),
-    this->Mover.inner().rest(this->Model)(nodes, morph::allColumns),
-    result.moved(nodes, morph::allColumns), roles, output);
-  if (this->Whole)
-  {
-    this->Whole->MakeIdsGlobal(output, static_cast<vtkIdType>(nodes.size()));
-  }
-}
-
-void vtkBoundaryDisplacement::vtkInternals::Count(
-  vtkBoundaryDisplacement* filter, bool hasInner) const
-{
-  using morph::Surroundings;
   const std::vector<signed char>& roles = this->Mover.result().roles;
-  std::array<morph::Index, Surroundings::IsLayer + 1> count = {}, inside = {};
+  std::array<morph::Index, Surroundings::IsLayer + 1> inside = {};
   const auto whole = static_cast<std::size_t>(this->Model.points().rows());
   // Without inner nodes all nodes inside stay. On ranks the model has the boundary's nodes alone.
   for (std::size_t i = 0; hasInner && i < whole; ++i)
   {
-    ++count[roles[i]];
+    ++this->Count[roles[i]];
   }
   for (std::size_t i = 0; !hasInner && i < this->Model.faces.nodes.size(); ++i)
   {
-    ++count[roles[this->Model.faces.nodes[i]]];
+    ++this->Count[roles[this->Model.faces.nodes[i]]];
   }
   // All processes have the nodes of the boundary, and each has its own inner ones behind them.
   for (std::size_t i = whole; i < roles.size(); ++i)
@@ -581,17 +547,14 @@ void vtkBoundaryDisplacement::vtkInternals::Count(
   const filters::RankGroup processes(
     this->Whole ? filters::RankGroup::Of::All : filters::RankGroup::Of::One);
   processes.Sum(inside.data(), inside.size());
-  const auto both = [&](Surroundings::Role role) { return count[role] + inside[role]; };
-  filter->MovingPoints = both(Surroundings::Moves);
-  filter->FixedPoints = both(Surroundings::IsHeld);
-  filter->FollowingPoints = both(Surroundings::Follows);
-  filter->FreePoints = both(Surroundings::IsFree);
-  filter->ZonePoints = both(Surroundings::IsZone);
-  filter->LayerPoints = both(Surroundings::IsLayer);
+  for (std::size_t role = 0; role < inside.size(); ++role)
+  {
+    this->Count[role] += static_cast<vtkIdType>(inside[role]);
+  }
 }
 
 /// A selection's ids are those of a process's piece, so each process evaluates its own.
-void vtkBoundaryDisplacement::vtkInternals::SelectOnRanks(
+void vtkDisplacementAlgorithm::vtkInternals::SelectOnRanks(
   vtkUnstructuredGrid* piece, vtkSelection* selection)
 {
   const bool hasAny = selection && selection->GetNumberOfNodes() > 0;
@@ -610,8 +573,9 @@ void vtkBoundaryDisplacement::vtkInternals::SelectOnRanks(
   this->ChosenVersion = -1;
 }
 
-void vtkBoundaryDisplacement::vtkInternals::DisplaceOnRanks(vtkBoundaryDisplacement* filter,
-  vtkPointSet* input, const Extras& extras, vtkPolyData* output, filters::Monitor& monitor)
+void vtkDisplacementAlgorithm::vtkInternals::DisplaceOnRanks(const Options& options,
+  vtkPointSet* input, const Inputs& inputs, vtkPolyData* target, vtkPolyData* output,
+  morph::Monitor& monitor)
 {
   auto* piece = vtkUnstructuredGrid::SafeDownCast(input);
   filters::Ranks::Together(
@@ -628,29 +592,29 @@ void vtkBoundaryDisplacement::vtkInternals::DisplaceOnRanks(vtkBoundaryDisplacem
     this->Whole = std::make_unique<filters::WholeSurface>();
   }
   this->Whole->Take(piece, monitor);
-  const bool byHandles = filter->Options->Displacement == DISPLACEMENT_HANDLES;
-  if (filter->Options->Moving == MOVING_SELECTION ||
-      (filter->Options->Moving != MOVING_NOTHING && byHandles && filter->Options->SelectedHandles))
+  const bool byHandles = options.Displacement == DISPLACEMENT_HANDLES;
+  if (options.Moving == MOVING_SELECTION ||
+      (options.Moving != MOVING_NOTHING && byHandles && options.SelectedHandles))
   {
-    this->SelectOnRanks(piece, extras.Selection);
+    this->SelectOnRanks(piece, inputs.Selection);
   }
-  vtkSmartPointer<vtkPolyData> target, control;
-  if (extras.Target)
+  vtkSmartPointer<vtkPolyData> whole, control;
+  if (target)
   {
-    target = filters::WholeSurface::Gather(extras.Target);
+    whole = filters::WholeSurface::Gather(target);
   }
-  if (filters::Ranks::Count(extras.ControlPoints) > 0 &&
-      (byHandles || filter->Options->Displacement == DISPLACEMENT_LATTICE))
+  if (filters::Ranks::Count(inputs.ControlPoints) > 0 &&
+      (byHandles || options.Displacement == DISPLACEMENT_LATTICE))
   {
     filters::Ranks::Together(
       [&]
       {
-        control = byHandles ? filters::ControlPoints::AsHandles(extras.ControlPoints)
-                            : filters::ControlPoints::AsLattice(
-                                extras.ControlPoints, filter->Options->LatticeSize);
+        control = byHandles
+                    ? filters::ControlPoints::AsHandles(inputs.ControlPoints)
+                    : filters::ControlPoints::AsLattice(inputs.ControlPoints, options.LatticeSize);
       });
     control = filters::WholeSurface::Gather(control);
   }
-  this->Displace(filter, this->Whole->Grid(), piece,
-    { extras.Selection, target, extras.Zone, control }, output, monitor);
+  this->Displace(options, this->Whole->Grid(), piece,
+    { inputs.Selection, nullptr, inputs.Zone, control }, whole, output, monitor);
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What vtkBoundaryDisplacement keeps from one execution to the next, and the steps of one.
+// What a filter that displaces a boundary keeps from one execution to the next, and one execution.
 #pragma once
 
-#include "vtkBoundaryDisplacement.h"
+#include "vtkDisplacementAlgorithm.h"
 
 #include "BoundaryMover/BoundaryMover.h"
 #include "Private/Blocks/Blocks.h"
@@ -15,86 +15,108 @@
 #include "Private/Displace/Motion.h"
 #include "Private/Displace/Pick.h"
 #include "Private/Displace/Selection.h"
-#include "Private/Displace/SharedProperties.h"
 #include "Private/Displace/Zones.h"
 #include "Private/Distributed/WholeSurface.h"
+#include "Private/Options.h"
+#include "Private/Pipeline/Input.h"
 #include "Private/Pipeline/Monitor.h"
 
+#include <vtkAbstractTransform.h>
 #include <vtkDataArraySelection.h>
 #include <vtkDoubleArray.h>
+#include <vtkExtractSelection.h>
+#include <vtkImplicitFunction.h>
 #include <vtkNew.h>
 #include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
 #include <vtkStringArray.h>
 
+#include <array>
 #include <cstdint>
 #include <memory>
-#include <set>
 #include <string>
 #include <vector>
 
-struct vtkBoundaryDisplacement::vtkInternals : vtkDisplacementAlgorithm::vtkShared
+struct vtkDisplacementAlgorithm::vtkInternals
 {
-  vtkNew<vtkDataArraySelection> SurfaceList;
-  vtkNew<vtkStringArray> SurfaceSizes;
-  vtkNew<vtkDoubleArray> SurfaceBounds;
-  vtkNew<vtkDataArraySelection> ZoneList;
-  vtkNew<vtkStringArray> ZoneSizes;
-  vtkIdType ListedVersion = -1; ///< of Model
+  using Options = morph::DisplacementOptions;
 
-  morph::filters::Blocks Blocks;
-  const morph::filters::MergedBlocks* OuterBlocks = nullptr; ///< of a filter around this one
-  morph::filters::Unchanged Checked;                         ///< the input, where it is a grid
-  morph::filters::BlockSelection Selected, ZoneSelected;
+  /// The properties that are objects or lists.
+  ///@{
+  vtkSmartPointer<vtkImplicitFunction> Region, ZoneRegion;
+  vtkSmartPointer<vtkAbstractTransform> Transform, RigidTransform;
+  vtkSmartPointer<vtkExtractSelection> Extractor;
+  std::vector<std::array<double, 7>> Handles;
+  std::vector<std::array<double, 6>> LatticeDisplacements;
+  morph::filters::Picker Picker;
+  ///@}
+
+  /// The lists of surfaces and zones, of Model, of this version of it; -1: of none.
+  ///@{
+  vtkNew<vtkDataArraySelection> SurfaceList, ZoneList;
+  vtkNew<vtkStringArray> SurfaceSizes, ZoneSizes;
+  vtkNew<vtkDoubleArray> SurfaceBounds;
+  vtkIdType ListedVersion = -1;
+  ///@}
+
+  morph::filters::Blocks Blocks; ///< of the mesh
   morph::filters::InputBoundary Model;
+  morph::filters::FittedTarget Fit;
+  morph::BoundaryMover Mover;
+  /// The boundary of a mesh on several MPI processes, of which Model is then; else null.
+  std::unique_ptr<morph::filters::WholeSurface> Whole;
+  vtkNew<vtkPolyData> Displaced; ///< the whole boundary, as the last execution has displaced it
+
+  /// Results of the last execution: the points of each Surroundings::Role, and a text.
+  ///@{
+  std::array<vtkIdType, morph::Surroundings::IsLayer + 1> Count = {};
+  std::string SlideReport;
+  int ChooseCount = 0; ///< of all executions
+  ///@}
+
+  vtkInternals() { this->ResetResults(); }
+  void ResetResults();
+  void ClearList();
+  /// Finds the boundary and its geometry, and the names of patches and zones. `input`: as
+  /// Blocks.Gather() returns it; not a mesh without cells.
+  void List(const Options& options, vtkDataObject* input);
+
+  /// What the ports hold; each may be null.
+  struct Inputs
+  {
+    vtkSelection* Selection;      ///< of what moves
+    vtkDataObject* Target;        ///< of DISPLACEMENT_TARGET
+    vtkSelection* Zone;           ///< of a zone
+    vtkDataObject* ControlPoints; ///< of DISPLACEMENT_HANDLES and DISPLACEMENT_LATTICE
+  };
+  static Inputs InputsOf(vtkInformationVector** inputVector);
+
+  /// Displaces the boundary of a mesh, or a boundary that was extracted before. Of a mesh on
+  /// several MPI processes each gets the part that its cells have; then all processes call it. The
+  /// output stays empty where another process has the mesh. Throws morph::Error.
+  void Displace(const Options& options, const morph::filters::Input::Mesh& mesh,
+    const Inputs& inputs, vtkPolyData* output, morph::Monitor& monitor);
+
+  /// The zones of that kind. `grid`: the mesh of Model, or this process's piece of it. After
+  /// Displace(). Collective on ranks.
+  std::vector<morph::filters::Zones::Part> FindZones(morph::filters::Zones::Kind kind,
+    vtkUnstructuredGrid* grid, const morph::filters::Zones::Options& zones) const;
+  morph::filters::Zones::Options ZoneOptions(const Options& options, vtkSelection* zone);
+
+  /// Whether the messages of this process are shown: what is wrong with a boundary that all have is
+  /// told once.
+  bool IsTeller() const;
+
+private:
+  morph::filters::Unchanged Checked; ///< the input, where it is a grid
+  morph::filters::BlockSelection Selected, ZoneSelected;
   std::vector<std::string> Warnings; ///< of the geometry, not reported yet
   vtkIdType ChosenVersion = -1;      ///< of Model, that Choice is of
   morph::filters::Chosen::Options ChosenBy;
   morph::Choice Choice;
-  morph::BoundaryMover Mover;
   morph::filters::BoundaryFields Fields;
-  morph::filters::FittedTarget Fit;
-  morph::filters::Picker Picker;
-  /// The boundary of a mesh on several MPI processes, of which Model is then; else null.
-  std::unique_ptr<morph::filters::WholeSurface> Whole;
   std::vector<std::uint8_t> IsSelected; ///< #nodes of Whole, of MOVING_SELECTION
-  vtkNew<vtkPolyData> WholeOutput;      ///< of which the output has a part
 
-  /// Forgets the names of patches and zones.
-  void ClearList()
-  {
-    this->SurfaceList->RemoveAllArrays();
-    this->SurfaceSizes->Initialize();
-    this->SurfaceBounds->Initialize();
-    this->SurfaceBounds->SetNumberOfComponents(6);
-    this->ZoneList->RemoveAllArrays();
-    this->ZoneSizes->Initialize();
-    this->ListedVersion = -1;
-  }
-  /// Finds the boundary and its geometry, and the names of patches and zones.
-  void Classify(
-    const vtkBoundaryDisplacement* filter, vtkPointSet* input, morph::filters::Monitor& monitor);
-  /// Lists the zones of a mesh, or of this process's piece of it.
-  void ListZones(vtkUnstructuredGrid* grid, const morph::Mesh& mesh);
-  /// What the optional ports hold; each may be null.
-  struct Extras
-  {
-    vtkSelection* Selection;      ///< of what moves
-    vtkPolyData* Target;          ///< of DISPLACEMENT_TARGET
-    vtkSelection* Zone;           ///< of a zone
-    vtkDataObject* ControlPoints; ///< of DISPLACEMENT_HANDLES and DISPLACEMENT_LATTICE
-  };
-  /// `input`: with the whole boundary; `grid`: the mesh, or this process's piece of it; null for a
-  /// surface. With Whole, collective.
-  void Displace(vtkBoundaryDisplacement* filter, vtkPointSet* input, vtkUnstructuredGrid* grid,
-    const Extras& extras, vtkPolyData* output, morph::filters::Monitor& monitor);
-
-  /// Displace() for a mesh on several MPI processes: each gets the part of the displaced boundary
-  /// that its cells have. Collective.
-  void DisplaceOnRanks(vtkBoundaryDisplacement* filter, vtkPointSet* input, const Extras& extras,
-    vtkPolyData* output, morph::filters::Monitor& monitor);
-
-private:
   /// What moves, and how the rest of the boundary does.
   struct Moves
   {
@@ -103,29 +125,34 @@ private:
     morph::Choice Choice;
     morph::Surroundings::Options Rest;
   };
+  void Classify(const Options& options, vtkPointSet* input, morph::Monitor& monitor);
+  void ListZones(vtkUnstructuredGrid* grid, const morph::Mesh& mesh);
+  /// `input`: with the whole boundary; `grid`: the mesh, or this process's piece of it; null for a
+  /// surface. `target`: null for other displacements. With Whole, collective.
+  void Displace(const Options& options, vtkPointSet* input, vtkUnstructuredGrid* grid,
+    const Inputs& inputs, vtkPolyData* target, vtkPolyData* output, morph::Monitor& monitor);
+  void DisplaceOnRanks(const Options& options, vtkPointSet* input, const Inputs& inputs,
+    vtkPolyData* target, vtkPolyData* output, morph::Monitor& monitor);
   /// Finds what moves. Returns false where there is no boundary.
-  bool Prepare(vtkBoundaryDisplacement* filter, vtkPointSet* input, const Extras& extras,
-    Moves& moves, morph::filters::Monitor& monitor);
-  void Write(vtkBoundaryDisplacement* filter, vtkPointSet* input, const Extras& extras,
-    const Moves& moves, const morph::BoundaryMover::Options& options, vtkPolyData* output,
-    morph::filters::Monitor& monitor);
+  bool Prepare(const Options& options, vtkPointSet* input, const Inputs& inputs,
+    vtkPolyData* target, Moves& moves, morph::Monitor& monitor);
+  void Choose(const Options& options, vtkPointSet* input, vtkSelection* selection);
+  /// The positions of what moves, on the target. Chooses what moves, too.
+  morph::Points Fitted(const Options& options, vtkPointSet* input, vtkSelection* selection,
+    vtkPolyData* target, const std::vector<morph::Index>& sliding, morph::Monitor& monitor);
+  /// The positions of what moves, by handles or by a lattice.
+  morph::Points ByControlPoints(const Options& options, vtkPointSet* input, vtkSelection* selection,
+    vtkDataObject* points, morph::Monitor& monitor);
+  std::vector<morph::Handle> SelectedHandles(
+    const Options& options, vtkPointSet* input, vtkSelection* selection);
+  void SelectOnRanks(vtkUnstructuredGrid* piece, vtkSelection* selection);
+  /// Finds zones and the cells of layers. `grid`: null for a surface. Collective on ranks.
+  void FindInner(const Options& options, vtkUnstructuredGrid* grid,
+    const morph::filters::Zones::Options& zones, morph::BoundaryMover::Options& mover) const;
+  void Write(const Options& options, vtkPointSet* input, bool isFitted, const Moves& moves,
+    const morph::BoundaryMover::Options& mover, vtkPolyData* output, morph::Monitor& monitor);
+  void WriteDistances(const morph::Surroundings::Result& result, vtkPolyData* output);
   /// Adds zones and layers inside to the output, points without cells.
   void AppendInner(vtkUnstructuredGrid* grid, vtkPolyData* output);
-  void Count(vtkBoundaryDisplacement* filter, bool hasInner) const;
-  void SelectOnRanks(vtkUnstructuredGrid* piece, vtkSelection* selection);
-  morph::filters::Zones::Options ZoneOptions(
-    const vtkBoundaryDisplacement* filter, vtkSelection* zone);
-  /// Finds zones and the cells of layers. `grid`: null for a surface. Collective on ranks.
-  void FindInner(const vtkBoundaryDisplacement* filter, vtkUnstructuredGrid* grid,
-    const morph::filters::Zones::Options& zones, morph::BoundaryMover::Options& options);
-  /// The positions of what moves, on the target. Chooses what moves, too.
-  morph::Points Fitted(vtkBoundaryDisplacement* filter, vtkPointSet* input, vtkSelection* selection,
-    vtkPolyData* target, const std::vector<morph::Index>& sliding,
-    morph::filters::Monitor& monitor);
-  /// The positions of what moves, by handles or by a lattice.
-  morph::Points ByControlPoints(const vtkBoundaryDisplacement* filter, vtkPointSet* input,
-    vtkSelection* selection, vtkDataObject* points, morph::filters::Monitor& monitor);
-  std::vector<morph::Handle> SelectedHandles(
-    const vtkBoundaryDisplacement* filter, vtkPointSet* input, vtkSelection* selection);
-  void WriteDistances(const morph::Surroundings::Result& result, vtkPolyData* output);
+  void CountRoles(bool hasInner);
 };

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Private/Pipeline/Steps.h"
 
+#include <vtkDataObject.h>
 #include <vtkInformation.h>
 #include <vtkInformationDoubleKey.h>
 #include <vtkInformationDoubleVectorKey.h>
+#include <vtkInformationVector.h>
 #include <vtkStreamingDemandDrivenPipeline.h>
 
 #include <algorithm>
@@ -96,5 +98,15 @@ void Steps::Write(vtkInformation* output) const
   const double range[2] = { times.front(), times.back() };
   output->Set(Pipeline::TIME_STEPS(), times.data(), this->Count);
   output->Set(Pipeline::TIME_RANGE(), range, 2);
+}
+
+void Steps::WriteTime(int step, vtkInformationVector* outputs) const
+{
+  for (int port = 0;
+       this->Any() && !this->Varies && port < outputs->GetNumberOfInformationObjects(); ++port)
+  {
+    vtkDataObject* data = vtkDataObject::GetData(outputs, port);
+    data->GetInformation()->Set(vtkDataObject::DATA_TIME_STEP(), this->Time(step));
+  }
 }
 }

@@ -4,6 +4,7 @@
 #include <vector>
 
 class vtkInformation;
+class vtkInformationVector;
 
 namespace morph::filters
 {
@@ -32,6 +33,8 @@ public:
   int Asked(vtkInformation* output) const;
   /// Sets the output's time steps and range, where there are steps.
   void Write(vtkInformation* output) const;
+  /// Gives all outputs the time of a step, unless that is the boundary's.
+  void WriteTime(int step, vtkInformationVector* outputs) const;
 
 private:
   // An update of one step must not cost a pass over a million of them: equal parts are not stored.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Private/Pipeline/Follower.h"
+#include "Private/Compare/Follower.h"
 
 #include <vtkAlgorithm.h>
 

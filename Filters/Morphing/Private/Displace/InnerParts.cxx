@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What Internals do with zones and layers, which have nodes inside of the mesh.
+#include "Private/Displace/Internals.h"
+
+#include "Private/Displace/InnerPoints.h"
+#include "Private/Distributed/WholeVolume.h"
+#include "Private/Pipeline/Ranks.h"
+#include "Support/Error.h"
+
+#include <vtkCellData.h>
+#include <vtkUnstructuredGrid.h>
+
+namespace filters = morph::filters;
+
+namespace
+{
+std::vector<std::uint8_t> layerCells(vtkUnstructuredGrid* grid, const std::string& name)
+{
+  vtkDataArray* array = grid->GetCellData()->GetArray(name.c_str());
+  if (!array || array->GetNumberOfTuples() != grid->GetNumberOfCells())
+  {
+    throw morph::Error("LayersArray names '" + name + "', which is no cell array of the input.");
+  }
+  return filters::Chosen::Marked(array);
+}
+}
+
+void vtkDisplacementAlgorithm::vtkInternals::ListZones(
+  vtkUnstructuredGrid* grid, const morph::Mesh& mesh)
+{
+  for (const filters::Zones::Listed& zone : filters::Zones::List(grid, mesh, this->Blocks.Merged()))
+  {
+    this->ZoneList->AddArray(zone.Name.c_str(), false);
+    this->ZoneSizes->InsertNextValue(zone.Name);
+    for (const morph::Index count : { zone.Cells, zone.Nodes })
+    {
+      this->ZoneSizes->InsertNextValue(count > 0 ? std::to_string(count) : "");
+    }
+  }
+}
+
+filters::Zones::Options vtkDisplacementAlgorithm::vtkInternals::ZoneOptions(
+  const Options& options, vtkSelection* zone)
+{
+  filters::Zones::Options zones;
+  zones.Fixed = options.FixedZones;
+  zones.Rigid = options.RigidZones;
+  zones.Region = this->ZoneRegion;
+  zones.RegionKind = options.ZoneRegionType;
+  zones.SelectionKind = options.ZoneSelectionType;
+  if (options.ZoneSelectionType != ZONE_NONE)
+  {
+    zones.Selection = this->ZoneSelected.OfGrid(this->Blocks, zone, this->Extractor);
+  }
+  zones.Extractor = this->Extractor;
+  return zones;
+}
+
+std::vector<filters::Zones::Part> vtkDisplacementAlgorithm::vtkInternals::FindZones(
+  filters::Zones::Kind kind, vtkUnstructuredGrid* grid, const filters::Zones::Options& zones) const
+{
+  const filters::MergedBlocks* blocks = this->Blocks.Merged();
+  return this->Whole ? filters::Zones::FindOnRanks(
+                         kind, grid, filters::WholeVolume(*this->Whole), blocks, zones)
+                     : filters::Zones::Find(kind, grid, this->Model.mesh, blocks, zones);
+}
+
+void vtkDisplacementAlgorithm::vtkInternals::FindInner(const Options& options,
+  vtkUnstructuredGrid* grid, const filters::Zones::Options& zones,
+  morph::BoundaryMover::Options& mover) const
+{
+  mover.inner.keepLayers = options.KeepLayers;
+  mover.inner.layersName = filters::Input::ArrayName(options.LayersArray);
+  if (!zones.Any() && mover.inner.keepLayers == 0)
+  {
+    return;
+  }
+  if (!grid)
+  {
+    throw morph::Error("Zones and layers have inner nodes, and the input is a surface. Give the "
+                       "volume mesh to this filter.");
+  }
+  const auto find = [&](filters::Zones::Kind kind)
+  {
+    const std::vector<filters::Zones::Part> parts = this->FindZones(kind, grid, zones);
+    return std::vector<morph::Zone>(parts.begin(), parts.end());
+  };
+  mover.fixedZones = find(filters::Zones::Fixed);
+  mover.rigidZones = find(filters::Zones::Rigid);
+  if (this->RigidTransform)
+  {
+    mover.inner.rigid = [this, factor = options.ScaleFactor](
+                          const Eigen::RowVector3d& x) -> Eigen::RowVector3d
+    {
+      Eigen::RowVector3d to;
+      this->RigidTransform->TransformPoint(x.data(), to.data());
+      return factor == 1 ? to : Eigen::RowVector3d(x + factor * (to - x));
+    };
+  }
+  const auto takeLayers = [&]
+  {
+    // Of several processes those without cells have no arrays.
+    if (!mover.inner.layersName.empty() && !(this->Whole && grid->GetNumberOfCells() == 0))
+    {
+      mover.inner.isLayer = layerCells(grid, mover.inner.layersName);
+    }
+  };
+  this->Whole ? filters::Ranks::Together(takeLayers) : takeLayers();
+}
+
+void vtkDisplacementAlgorithm::vtkInternals::AppendInner(
+  vtkUnstructuredGrid* grid, vtkPolyData* output)
+{
+  const morph::Surroundings::Result& result = this->Mover.result();
+  const std::vector<morph::Index> nodes = morph::InnerNodes::placedInside(this->Model, result);
+  std::vector<signed char> roles;
+  for (const morph::Index node : nodes)
+  {
+    roles.push_back(result.roles[node]);
+  }
+  filters::InnerPoints::Append(grid, this->Mover.inner().pointsOf(this->Model, nodes),
+    this->Mover.inner().rest(this->Model)(nodes, morph::allColumns),
+    result.moved(nodes, morph::allColumns), roles, output);
+  if (this->Whole)
+  {
+    this->Whole->MakeIdsGlobal(output, static_cast<vtkIdType>(nodes.size()));
+  }
+}
