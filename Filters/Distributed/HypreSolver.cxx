@@ -319,7 +319,7 @@ SolveReport HypreSolver::solve(
       throw Error(Error::Kind::NoConvergence,
         "hypre's solver did not converge: after " + std::to_string(maxIterations) +
           " iterations the residual is " + std::to_string(residual / norm) +
-          " of the right-hand side. Repair flat cells, or raise Tolerance.");
+          " of the right-hand side. Repair flat cells, or raise `Tolerance`.");
     }
   }
   return report;

@@ -308,7 +308,7 @@ SystemMethod::Rows LogBarrierWarp::assemble(
       text << "Free nodes do not lie inside the hull of the neighbors, at inverted or strongly "
               "concave cells, and so cannot be a convex combination of them: node ids "
            << listIds(empty)
-           << ". Repair the undeformed mesh, prescribe those nodes, or set OutsideHull to Relax.";
+           << ". Repair the undeformed mesh, prescribe those nodes, or set `OutsideHull` to Relax.";
     }
     throw Error(this->relax_ ? Error::Kind::Singular : Error::Kind::InvalidInput, text.str());
   }

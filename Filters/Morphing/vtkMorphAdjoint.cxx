@@ -77,13 +77,13 @@ vtkDataArray* requireGradient(vtkPointSet* carrier, const std::string& name)
   if (name.empty())
   {
     throw morph::Error(
-      "GradientArray is not set: name the point array that holds the derivatives of the "
+      "`GradientArray` is not set: name the point array that holds the derivatives of the "
       "objective with respect to the nodes.");
   }
   vtkDataArray* array = carrier->GetPointData()->GetArray(name.c_str());
   if (!array)
   {
-    throw morph::Error("GradientArray names '" + name +
+    throw morph::Error("`GradientArray` names '" + name +
                        "', which is no numeric point array of the gradient's " +
                        "data set. Give it on port 2, or with the mesh on port 0.");
   }

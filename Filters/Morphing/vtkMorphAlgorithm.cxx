@@ -212,7 +212,7 @@ void vtkMorphAlgorithm::Transpose(vtkUnstructuredGrid* rest, vtkDataObject* boun
       (this->Options->NumberOfSteps > 0 || kept.Motion.Steps.Any()))
   {
     throw morph::Error("Relative steps have no adjoint: each depends on those before it. Set "
-                       "Stepping to Absolute.");
+                       "`Stepping` to Absolute.");
   }
   const auto take = [&] { this->TakeInputs(rest, boundary); };
   onRanks ? filters::Ranks::Together(take) : take();

@@ -121,13 +121,14 @@ morph::BoundaryTargets upTo(
     const char* what = dimension == 0   ? "vertex"
                        : dimension == 1 ? "vertex or curve"
                                         : "vertex, curve or surface";
-    throw morph::Error("None of the " + std::to_string(match.ids.size()) +
-                       " nodes that the boundary names is on a " + what + " of the mesh (it has " +
-                       std::to_string(geometry.vertices.size()) + " vertices, " +
-                       std::to_string(geometry.curves.size()) + " curves and " +
-                       std::to_string(geometry.surfaces.size()) +
-                       " surfaces). Raise PrescribedDimension, lower FeatureAngle, or name other "
-                       "nodes.");
+    throw morph::Error(
+      "None of the " + std::to_string(match.ids.size()) +
+      " nodes that the boundary names is on a " + what + " of the mesh (it has " +
+      std::to_string(geometry.vertices.size()) + " vertices, " +
+      std::to_string(geometry.curves.size()) + " curves and " +
+      std::to_string(geometry.surfaces.size()) +
+      " surfaces). Raise `PrescribedDimension`, lower `FeatureAngle`, or name other "
+      "nodes.");
   }
   return result;
 }
@@ -466,19 +467,20 @@ void vtkMorphBoundary::vtkInternals::ReportProjection(const morph::ProjectionRep
   {
     warnOfNodes(monitor, onCurves.missed,
       "Curve nodes are not projected, since no feature edge of the target is within "
-      "TargetReach: node ids ");
+      "`TargetReach`: node ids ");
   }
   else
   {
     warnOfNodes(monitor, onCurves.missed,
-      "Curve nodes are not projected, since the target has no feature edges (lower FeatureAngle?): "
+      "Curve nodes are not projected, since the target has no feature edges (lower "
+      "`FeatureAngle`?): "
       "node ids ");
   }
   warnOfNodes(monitor, onCurves.kept,
     "Curve nodes are not projected, since their curve would turn back: node ids ");
   warnOfNodes(monitor, onSurfaces.missed,
-    "Surface nodes are not projected, since the target has no place within TargetReach "
-    "whose normal is within TargetAngle: node ids ");
+    "Surface nodes are not projected, since the target has no place within `TargetReach` "
+    "whose normal is within `TargetAngle`: node ids ");
   warnOfNodes(
     monitor, onSurfaces.kept, "Surface nodes are not projected, since faces would fold: node ids ");
 }

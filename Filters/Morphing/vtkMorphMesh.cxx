@@ -123,7 +123,7 @@ private:
     const Inputs& inputs) const;
   /// What to do where nothing moves.
   std::string Advice(const Inputs& inputs) const;
-  /// The factors of soft zones, one a cell; none where there are no such zones. Throws morph::Error.
+  /// The factors of soft zones, one a cell; none without such zones. Throws morph::Error.
   /// Collective on ranks.
   std::vector<double> SoftCells(vtkUnstructuredGrid* grid, const Inputs& inputs) const;
   filters::GridMorpher::Method MethodOf(
@@ -344,8 +344,8 @@ std::string vtkMorphMesh::vtkMorphing::Advice(const Inputs& inputs) const
   const std::string none = "Nothing moves yet. ";
   if (this->NeedsHandles)
   {
-    return none + "Give a handle: add a row to Handles, choose Control Points, or copy selected "
-                  "points and tick Selected Handles.";
+    return none + "Give a handle: add a row to `Handles`, choose Control Points, or copy selected "
+                  "points and tick Selected `Handles`.";
   }
   if (options.Moving == MOVING_SELECTION)
   {
@@ -458,7 +458,7 @@ filters::GridMorpher::Method vtkMorphMesh::vtkMorphing::MethodOf(
     }
     if (own.Stiffness != 0 || !filters::Input::ArrayName(own.StiffnessArray).empty())
     {
-      monitor.warn("This method has no stiffness: Stiffness counts for FEMWARP alone.");
+      monitor.warn("This method has no stiffness: `Stiffness` counts for FEMWARP alone.");
     }
     return { options, [method] { return method->CreateMorpher(); } };
   }

@@ -158,9 +158,9 @@ void takeDesigns(const std::vector<std::string>& files, Arguments& result)
     throw UsageError("With --shapes one more file is needed, the grid; " +
                      std::to_string(files.size()) + " are given.");
   }
-  if (result.results || !result.criteria.empty())
+  if (result.results || !result.criteria.empty() || !result.report.empty())
   {
-    throw UsageError("--results and --criteria have no effect on --shapes: remove them.");
+    throw UsageError("--results, --criteria and --report have no effect on --shapes: remove them.");
   }
   result.grid = files.front();
   result.task = Arguments::Task::WriteDesigns;
@@ -181,6 +181,10 @@ void takeFiles(std::vector<std::string> files, Arguments& result)
     files.push_back(result.output);
   }
   const bool morphs = result.task == Task::Morph;
+  if (!result.report.empty() && !morphs && result.task != Task::Repair)
+  {
+    throw UsageError("--report is of a morph: it has no effect here.");
+  }
   const bool reads = morphs && files.size() == 3;
   if (!reads && files.size() != (hasOutput ? 2u : 1u))
   {
@@ -271,6 +275,11 @@ std::vector<Option> optionsOf(Arguments& result)
       "AspectRatio,\nSkewness, Warpage, JacobianRatio, Taper, NonOrthogonality, FaceSkewness, "
       "FacePyramid, FirstHeight;\nFirstHeight:BLADE is that of a surface that the file names",
       Files, text(result.criteria) },
+    { "--report", "<json>",
+      "also write status, counts, quality before and after, and messages as JSON; with --steps "
+      "one\n"
+      "file a step, as of the output",
+      Files, text(result.report) },
     { "--require-valid", "",
       "exit status 3 if the motion inverts or collapses a cell, or the boundary crosses itself",
       Files, flag(result.requireValid) },

@@ -33,6 +33,7 @@ struct Arguments
   std::vector<std::string> rotations; ///< names of shapes
   std::string table;                  ///< file of WriteDesigns
   std::string criteria;               ///< as of vtkScaledJacobian
+  std::string report;                 ///< file; empty: none
   bool requireValid = false;
   int threads = 0;
   bool quiet = false, progress = false;

@@ -144,12 +144,12 @@ vtkSmartPointer<vtkUnstructuredGrid> withPoints(
   return result;
 }
 
-/// Morphs by a part of the motion, and writes and reports the mesh.
+/// Morphs by a part of the motion, and writes and reports the mesh. `report`: of Arguments.
 int morphPart(Morphing& morphing, vtkUnstructuredGrid* grid, const Arguments& arguments,
-  const std::string& output)
+  const std::string& output, const std::string& report)
 {
-  const vtkSmartPointer<vtkScaledJacobian> before =
-    arguments.quiet ? nullptr : measure(grid, arguments);
+  const bool reports = !arguments.quiet || !arguments.report.empty();
+  const vtkSmartPointer<vtkScaledJacobian> before = reports ? measure(grid, arguments) : nullptr;
   Messages messages(morphing.filter);
   std::string partial;
   {
@@ -178,18 +178,24 @@ int morphPart(Morphing& morphing, vtkUnstructuredGrid* grid, const Arguments& ar
   }
   const double rounding = writeMorphed(
     arguments.results ? morphed : withPoints(grid, morphed).Get(), arguments.grid, output);
+  const Outcome outcome = outcomeOf(morphing.filter);
+  const vtkSmartPointer<vtkScaledJacobian> after =
+    reports && !arguments.criteria.empty() ? measure(morphed, arguments) : nullptr;
+  if (!arguments.report.empty())
+  {
+    std::vector<std::string> seen = messages.warnings();
+    seen.insert(seen.end(), messages.errors().begin(), messages.errors().end());
+    writeReport(before, outcome, after, seen, output, report);
+  }
   if (!arguments.quiet)
   {
-    printReport(before, morphing.method,
-      arguments.criteria.empty() ? nullptr : measure(morphed, arguments).Get());
+    printReport(before, outcome, after);
     if (rounding > 0)
     {
       std::cout << "largest rounding of a coordinate: " << std::scientific << rounding << "\n";
     }
   }
-  const bool valid =
-    morphing.method->GetNewInvertedCells() == 0 && morphing.method->GetCrossingFaces() <= 0;
-  return !partial.empty() || (arguments.requireValid && !valid) ? 3 : 0;
+  return !partial.empty() || (arguments.requireValid && !outcome.isValid()) ? 3 : 0;
 }
 
 int morphMesh(const Arguments& arguments)
@@ -206,7 +212,7 @@ int morphMesh(const Arguments& arguments)
   setBoundary(morphing, grid, arguments);
   if (arguments.steps == 0)
   {
-    return morphPart(morphing, grid, arguments, arguments.output);
+    return morphPart(morphing, grid, arguments, arguments.output, arguments.report);
   }
   int status = 0;
   for (int step = 1; step <= arguments.steps; ++step)
@@ -217,8 +223,8 @@ int morphMesh(const Arguments& arguments)
     {
       morphing.method->SetScaleFactor(factor);
     }
-    status =
-      std::max(status, morphPart(morphing, grid, arguments, numbered(arguments.output, step)));
+    status = std::max(status, morphPart(morphing, grid, arguments, numbered(arguments.output, step),
+                                arguments.report.empty() ? "" : numbered(arguments.report, step)));
   }
   return status;
 }

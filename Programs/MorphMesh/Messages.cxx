@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Messages.h"
 
+#include "Properties.h"
+#include "Report.h"
+
 #include <vtkAlgorithm.h>
 #include <vtkCallbackCommand.h>
 #include <vtkCommand.h>
 #include <vtkExecutive.h>
 #include <vtkLogger.h>
-#include <vtkMorphAlgorithm.h>
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
 #include <vtkOutputWindow.h>
@@ -17,7 +19,8 @@ namespace morph_mesh
 {
 namespace
 {
-/// Without "ERROR: In vtkX.cxx, line 1\nvtkX (0x1): " and the empty lines at the end.
+/// Without "ERROR: In vtkX.cxx, line 1\nvtkX (0x1): " and the empty lines at the end, and with
+/// options for properties.
 std::string bare(const char* message)
 {
   std::string text = message ? message : "";
@@ -31,7 +34,7 @@ std::string bare(const char* message)
     text.erase(0, text.find('\n') + 1);
   }
   text.erase(text.find_last_not_of(" \n") + 1);
-  return text;
+  return inOptions(text);
 }
 
 void keep(vtkObject*, unsigned long, void* list, void* message)
@@ -124,8 +127,7 @@ std::string Messages::updatePartly(const std::string& task)
 {
   this->algorithm_->Update();
   // After any other error the output is the undeformed mesh.
-  auto* morph = vtkMorphAlgorithm::SafeDownCast(this->algorithm_);
-  const bool isPart = morph && std::string(morph->GetMorphStatus()) == "Partial";
+  const bool isPart = outcomeOf(this->algorithm_).status == "Partial";
   if (!this->errors_.empty() && !isPart)
   {
     throw Failure(task + ": " + this->errors_.front());

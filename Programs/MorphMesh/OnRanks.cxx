@@ -180,21 +180,23 @@ int morphPart(const Ranks& ranks, vtkMorphAlgorithm* filter, vtkUnstructuredGrid
   before->SetInputData(grid);
   before->SetNumberOfThreads(arguments.threads);
   before->Update();
+  const Outcome outcome = outcomeOf(filter);
   if (isFirst && !arguments.quiet)
   {
-    printReport(before, filter, nullptr);
+    printReport(before, outcome, nullptr);
   }
-  const bool valid = filter->GetNewInvertedCells() == 0 && filter->GetCrossingFaces() <= 0;
-  return errors > 0 || (arguments.requireValid && !valid) ? 3 : 0;
+  return errors > 0 || (arguments.requireValid && !outcome.isValid()) ? 3 : 0;
 }
 }
 
 int morphOnRanks(vtkMorphAlgorithm* filter, const Arguments& arguments)
 {
   requireFiles(arguments); // all ranks have the same arguments
-  if (arguments.steps > 0 || !arguments.criteria.empty())
+  if (arguments.steps > 0 || !arguments.criteria.empty() || !arguments.report.empty())
   {
-    throw UsageError(std::string(arguments.steps > 0 ? "--steps" : "--criteria") +
+    throw UsageError(std::string(arguments.steps > 0           ? "--steps"
+                                 : !arguments.criteria.empty() ? "--criteria"
+                                                               : "--report") +
                      " needs one MPI rank, and mpiexec has started " +
                      std::to_string(numberOfRanks()) + ".");
   }

@@ -134,6 +134,21 @@ std::string wordsOf(const Property& property)
   return result;
 }
 
+std::string inOptions(const std::string& message)
+{
+  std::string text = message;
+  for (const Property& property : properties())
+  {
+    const std::string name = "`" + property.name + "`";
+    for (std::size_t at = text.find(name); !property.option.empty() && at != std::string::npos;
+         at = text.find(name))
+    {
+      text.replace(at, name.size(), property.option);
+    }
+  }
+  return text;
+}
+
 std::string valueName(const Property& property)
 {
   switch (property.kind)

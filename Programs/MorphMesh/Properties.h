@@ -46,6 +46,10 @@ struct Property
 /// All of them, in the order of the table. Made by cmake/properties.py.
 const std::vector<Property>& properties();
 
+/// A message of a filter, in which `TargetReach` stands for that property, in the words of the
+/// command line: --target-reach. Other words in backquotes stay.
+std::string inOptions(const std::string& message);
+
 /// How the help calls its value, "<x,y,z>" for instance; empty for a flag.
 std::string valueName(const Property& property);
 /// The words of a choice with commas between them; empty where it is none.

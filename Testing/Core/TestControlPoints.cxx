@@ -193,7 +193,7 @@ TEST(HandleMotion, RefusesWhatHasNoAnswer)
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const Row zero(0, 0, 0), one(1, 1, 1);
   const std::pair<std::vector<Handle>, const char*> cases[] = { { {}, "no handle" },
-    { { { zero, one, 0 }, { one, one, 0 }, { zero, zero, 2 } }, "Handles 0 and 2" },
+    { { { zero, one, 0 }, { one, one, 0 }, { zero, zero, 2 } }, "`Handles` 0 and 2" },
     { { { zero, one, 0 }, { one, Row(0, nan, 0), 0 } }, "handles 1," },
     { { { zero, one, -1 } }, "negative radius" },
     { std::vector<Handle>(2001, { zero, one, 0 }), "at most 2000" } };

@@ -80,7 +80,7 @@ TEST(Session, SubStepsEndAtTheLastValidMesh)
   EXPECT_EQ(step->valid.status, "Partial");
   EXPECT_GT(step->valid.largestValidStep, 0.5);
   EXPECT_LT(step->valid.largestValidStep, 1);
-  EXPECT_NE(step->valid.error.find("Validity set to Repair"), std::string::npos);
+  EXPECT_NE(step->valid.error.find("`Validity` set to Repair"), std::string::npos);
   EXPECT_EQ(box.inverted(step->moved), 0);
 }
 

@@ -239,7 +239,7 @@ TEST(RankMorphMesh, OneErrorEndsAllRanks)
   const bool isSeveral = ranks.count() > 1;
   const std::vector<std::pair<std::string, Configure>> cases = {
     { "Surface 77", [](vtkMorphMesh* filter) { filter->AddSurface("Surface 77"); } },
-    { "FixedSurfaces names",
+    { "`FixedSurfaces` names",
       [](vtkMorphMesh* filter)
       {
         filter->AddSurface("Surface 1");

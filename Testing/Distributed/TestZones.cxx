@@ -449,7 +449,7 @@ TEST(RankZones, OneErrorEndsAllRanks)
       [](vtkMorphMesh* filter) { filter->SetZoneRegionType(vtkMorphMesh::ZONE_FIXED); } },
     { "There are no layers to keep", &tets,
       [](vtkMorphMesh* filter) { filter->SetKeepLayers(2); } },
-    { "LayersArray names 'Nowhere'", &hexes,
+    { "`LayersArray` names 'Nowhere'", &hexes,
       [](vtkMorphMesh* filter)
       {
         filter->SetKeepLayers(2);
@@ -457,7 +457,7 @@ TEST(RankZones, OneErrorEndsAllRanks)
       } },
     { "whose motion its boundary does not tell of a mesh with polyhedra needs one MPI rank",
       &polyhedra, [](vtkMorphMesh* filter) { filter->AddRigidZone("Blade"); } },
-    { "SlideRounds of vtkBoundaryDisplacement of a mesh with polyhedra needs one MPI rank",
+    { "`SlideRounds` of vtkBoundaryDisplacement of a mesh with polyhedra needs one MPI rank",
       &polyhedra,
       [](vtkMorphMesh* filter)
       {

@@ -116,7 +116,7 @@ TEST(BoundaryDisplacementErrors, WhatIsChosen)
         f->AddSurface("Surface 0");
         f->AddSurface("Surface 99");
       } },
-    { "FixedSurfaces names 'Top'", [](auto* f) { f->AddFixedSurface("Top"); } },
+    { "`FixedSurfaces` names 'Top'", [](auto* f) { f->AddFixedSurface("Top"); } },
     { "No region", [](auto* f) { f->SetMovingToRegion(); } },
     { "inside the region",
       [](auto* f)
@@ -126,7 +126,7 @@ TEST(BoundaryDisplacementErrors, WhatIsChosen)
         f->SetMovingToRegion();
         f->SetRegion(box);
       } },
-    { "SurfaceIdArray names 'Absent'", [](auto* f) { f->SetSurfaceIdArray("Absent"); } },
+    { "`SurfaceIdArray` names 'Absent'", [](auto* f) { f->SetSurfaceIdArray("Absent"); } },
   };
   for (const auto& [telling, change] : cases)
   {
@@ -183,7 +183,8 @@ TEST(BoundaryDisplacementErrors, TheMotion)
         f->SetDisplacementToArray();
         f->SetDisplacementArray("Wild");
       } },
-    { "DisplacementArray moves nodes to places that are not finite (NaN or infinite): point ids 0, "
+    { "`DisplacementArray` moves nodes to places that are not finite (NaN or infinite): point ids "
+      "0, "
       "1",
       [](auto* f)
       {

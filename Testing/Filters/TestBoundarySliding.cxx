@@ -499,7 +499,7 @@ TEST(BoundarySliding, NamesWhatDoesNotExist)
   grids::Listener listener(filter);
   filter->Update();
   ASSERT_EQ(listener.Errors.size(), 1u);
-  EXPECT_NE(listener.Errors[0].find("SlidingSurfaces names 'Curve 1'"), std::string::npos);
+  EXPECT_NE(listener.Errors[0].find("`SlidingSurfaces` names 'Curve 1'"), std::string::npos);
 }
 
 TEST(BoundarySliding, SurfacesThatFoldAsTheyFollowSlideUntilTheyDoNot)

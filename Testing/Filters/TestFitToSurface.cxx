@@ -500,7 +500,7 @@ TEST(FitToSurface, NodesGoToTheTargetAlongADirection)
   filter->SetProjectVector(0, 0, 0);
   filter->Update();
   ASSERT_EQ(listener.Errors.size(), 1u);
-  EXPECT_NE(listener.Errors[0].find("ProjectVector has no length"), std::string::npos);
+  EXPECT_NE(listener.Errors[0].find("`ProjectVector` has no length"), std::string::npos);
 }
 
 TEST(FitToSurface, NodesThatMissTheTargetAlongADirectionFollowTheOthers)
@@ -514,7 +514,8 @@ TEST(FitToSurface, NodesThatMissTheTargetAlongADirectionFollowTheOthers)
   filter->Update();
   ASSERT_TRUE(listener.Errors.empty()) << listener.Errors[0];
   ASSERT_EQ(listener.Warnings.size(), 1u);
-  EXPECT_NE(listener.Warnings[0].find("within TargetReach along the direction"), std::string::npos);
+  EXPECT_NE(
+    listener.Warnings[0].find("within `TargetReach` along the direction"), std::string::npos);
   EXPECT_NEAR(filter->GetMinScaledJacobian(), 1, 0.2);
   // To its very rim, in single precision, nodes are on it.
   auto exact = make(grid, lid(3.4, 0));

@@ -278,7 +278,7 @@ TEST_F(MorphBoundaryInputs, HugePlacesWithATarget)
   this->Filter->SetTargetData(target);
   this->Filter->SetScaleFactor(1e200);
   this->Filter->SetBoundaryData(grids::boundary(this->Grid, times(2)));
-  expectError(this->Filter, { "ScaleFactor 1e+200 moves nodes beyond 1e50, at node ids" });
+  expectError(this->Filter, { "`ScaleFactor` 1e+200 moves nodes beyond 1e50, at node ids" });
   this->Filter->SetScaleFactor(1);
   target->SetPoints(grids::cloud(1e200 * grids::points(target))->GetPoints());
   expectError(this->Filter, { "The target has coordinates above 1e50" });
@@ -382,7 +382,7 @@ TEST(SinglePrecision, PositionsBeyondItAreAnError)
   morph->SetInputData(grid);
   morph->SetBoundaryData(grids::boundary(grid, times(1e40)));
   morph->SetOutputPointsPrecision(vtkAlgorithm::SINGLE_PRECISION);
-  expectError(morph, { "Single precision does not hold", "OutputPointsPrecision to double" });
+  expectError(morph, { "Single precision does not hold", "`OutputPointsPrecision` to double" });
   expectFinite(morph->GetOutput());
 
   vtkNew<vtkBoundaryDisplacement> displace;
@@ -390,14 +390,14 @@ TEST(SinglePrecision, PositionsBeyondItAreAnError)
   displace->SetDisplacementToVector();
   displace->SetVector(1e40, 0, 0);
   displace->SetOutputPointsPrecision(vtkAlgorithm::SINGLE_PRECISION);
-  expectError(displace, { "Single precision does not hold", "OutputPointsPrecision to double" });
+  expectError(displace, { "Single precision does not hold", "`OutputPointsPrecision` to double" });
   expectFinite(displace->GetOutput());
 
   vtkNew<vtkMorphBoundary> boundary;
   boundary->SetInputData(grid);
   boundary->SetBoundaryData(grids::boundary(grid, times(1e40)));
   boundary->SetOutputPointsPrecision(vtkAlgorithm::SINGLE_PRECISION);
-  expectError(boundary, { "Single precision does not hold", "OutputPointsPrecision to double" });
+  expectError(boundary, { "Single precision does not hold", "`OutputPointsPrecision` to double" });
   expectFinite(boundary->GetOutput());
 }
 
@@ -434,7 +434,7 @@ TEST(BoundaryDisplacementInputs, HugeMotions)
   expectError(filter, { "Vector moves nodes beyond 1e50: point ids" });
   filter->SetVector(1e30, 0, 0);
   filter->SetScaleFactor(1e30);
-  expectError(filter, { "ScaleFactor moves nodes beyond 1e50: point ids" });
+  expectError(filter, { "`ScaleFactor` moves nodes beyond 1e50: point ids" });
 }
 
 TEST(BoundaryDisplacementInputs, SurfaceWithAnotherNumberOfPoints)

@@ -292,7 +292,7 @@ TEST_F(AdjointInputs, MissingInputsAreNamed)
     std::string::npos);
   auto unnamed = adjointOf(this->Morph, this->Grid, this->Boundary, nullptr);
   unnamed->SetGradientArray("None");
-  EXPECT_NE(this->ErrorOf(unnamed).find("GradientArray is not set"), std::string::npos);
+  EXPECT_NE(this->ErrorOf(unnamed).find("`GradientArray` is not set"), std::string::npos);
   unnamed->SetGradientArray("Wind");
   EXPECT_NE(this->ErrorOf(unnamed).find("'Wind'"), std::string::npos);
 }

@@ -497,7 +497,7 @@ TEST(MorphBoundary, AnOpenTargetIsProjectedOntoWhereItIs)
   filter->Update();
   EXPECT_TRUE(listener.Errors.empty());
   ASSERT_EQ(listener.Warnings.size(), 1u);
-  EXPECT_NE(listener.Warnings[0].find("no place within TargetReach"), std::string::npos)
+  EXPECT_NE(listener.Warnings[0].find("no place within `TargetReach`"), std::string::npos)
     << listener.Warnings[0];
   EXPECT_EQ(filter->GetProjectedPoints(), 3 * 5);
   EXPECT_EQ(filter->GetUnprojectedPoints(), 2 * 5 + 25 + 4 * 5);
@@ -605,7 +605,7 @@ TEST(MorphBoundary, OneErrorAndNoOutput)
   const std::vector<Case> cases = { { grid, nullptr, nullptr, "Boundary: nothing is connected" },
     { grid, empty.Get(), nullptr, "no points" }, { grid, moved, empty.Get(), "no polygons" },
     { grid, moved, wrongTarget, "not finite" }, { grid, moved, grid, "polygonal data" },
-    { ball, grids::boundary(ball, same), nullptr, "Raise PrescribedDimension" },
+    { ball, grids::boundary(ball, same), nullptr, "Raise `PrescribedDimension`" },
     { grid, inside, nullptr, "vertex or curve" } };
   for (const Case& c : cases)
   {

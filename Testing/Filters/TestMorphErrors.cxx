@@ -330,10 +330,10 @@ TEST_F(MorphErrors, ArraysOfTheWrongSize)
 {
   this->Filter->Update();
   this->Filter->SetBoundaryIdArray("RestPosition");
-  this->ExpectError({ "RestPosition", "4 components", "BoundaryIdArray needs 1" });
+  this->ExpectError({ "RestPosition", "4 components", "`BoundaryIdArray` needs 1" });
   this->Filter->SetBoundaryIdArray(nullptr);
   this->Filter->SetDisplacementArray("Number");
-  this->ExpectError({ "Number", "1 components", "DisplacementArray needs 3" });
+  this->ExpectError({ "Number", "1 components", "`DisplacementArray` needs 3" });
 }
 
 TEST_F(MorphErrors, ArraysOfAnotherLength)
@@ -408,7 +408,7 @@ TEST_F(MorphErrors, NoBoundaryPointNearTheGrid)
   grids::addVectors(boundary, "Shift", Points::Constant(10, 3, 1));
   this->Filter->SetDisplacementArray("Shift");
   this->Filter->SetBoundaryData(boundary);
-  this->ExpectError({ "None of the boundary's 10 points", "MatchTolerance (1e-06 of" });
+  this->ExpectError({ "None of the boundary's 10 points", "`MatchTolerance` (1e-06 of" });
 }
 
 TEST_F(MorphErrors, BodyWithoutPrescribedNode)

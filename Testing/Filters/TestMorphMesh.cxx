@@ -414,7 +414,7 @@ TEST(MorphMesh, AfterAnErrorTheUndeformedMeshStays)
   filter->AddFixedSurface("Surface 78");
   filter->Update();
   ASSERT_EQ(listener.Errors.size(), 1u);
-  EXPECT_NE(listener.Errors[0].find("): FixedSurfaces names 'Surface 78'"), std::string::npos)
+  EXPECT_NE(listener.Errors[0].find("): `FixedSurfaces` names 'Surface 78'"), std::string::npos)
     << listener.Errors[0];
 }
 

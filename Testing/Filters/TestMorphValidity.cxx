@@ -428,7 +428,7 @@ TEST_F(MorphValidity, SubStepsThatStopPartwayPointToRepairWhereItMaySucceed)
   grids::Listener listener(filter);
   filter->Update();
   ASSERT_EQ(listener.Errors.size(), 1u);
-  EXPECT_NE(listener.Errors[0].find("Validity set to Repair"), std::string::npos)
+  EXPECT_NE(listener.Errors[0].find("`Validity` set to Repair"), std::string::npos)
     << listener.Errors[0];
   EXPECT_STREQ(filter->GetMorphStatus(), "Partial");
 }

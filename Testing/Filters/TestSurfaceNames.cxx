@@ -168,7 +168,7 @@ TEST(SurfaceNames, APartOfASurfaceCannotSlide)
   filter->Update();
   ASSERT_EQ(listener.Errors.size(), 1u);
   EXPECT_NE(
-    listener.Errors[0].find("FreeSurfaces names 'inlet', which has a part alone of Surface"),
+    listener.Errors[0].find("`FreeSurfaces` names 'inlet', which has a part alone of Surface"),
     std::string::npos)
     << listener.Errors[0];
   listener.Errors.clear();

@@ -422,7 +422,7 @@ TEST(Zones, ErrorsNameWhatIsWrong)
   EXPECT_NE(errorOf(empty).find("has no node"), std::string::npos);
   auto none = twisted(grid);
   none->SetZoneRegionType(vtkBoundaryDisplacement::ZONE_RIGID);
-  EXPECT_NE(errorOf(none).find("set ZoneRegion"), std::string::npos);
+  EXPECT_NE(errorOf(none).find("set `ZoneRegion`"), std::string::npos);
   auto surface = twisted(grids::boundary(grid, [](const Row& x) { return x; }));
   surface->AddFixedZone("Nodes");
   EXPECT_NE(errorOf(surface).find("the input is a surface"), std::string::npos);

@@ -122,7 +122,7 @@ class TwoRanks(unittest.TestCase):
 
     def test_an_error_on_one_rank_ends_both(self):
         output = self.run_ranks("later_error")
-        self.assertEqual(output.count("BoundaryIdArray names 'Nowhere'"), 1, output)
+        self.assertEqual(output.count("`BoundaryIdArray` names 'Nowhere'"), 1, output)
         self.assertIn("RESULT 729 [0.0, 8.0, 0.0, 8.0, 0.0, 8.0]", output)
 
 

@@ -278,7 +278,7 @@ class WindowTasks(unittest.TestCase):
             events.save_state(folder / "state.pvsm")
             code, messages = events.play(folder)
             self.assertEqual(code, 0, messages)
-            self.assertIn("RadiusChange needs cylinders, and Surface 3, which moves, is none",
+            self.assertIn("`RadiusChange` needs cylinders, and Surface 3, which moves, is none",
                           messages)
             self.assertEqual(messages.count("ERR|"), 1, messages)
             self.assertNotIn("FORWARD_DIRECTION", messages)

@@ -5,6 +5,7 @@ exit status.
 Run: MORPH_MESH=<path of morph-mesh> MESHMORPHING_MODELS=<folder of the small models>
          python3 morph_mesh.py
 """
+import json
 import math
 import os
 import re
@@ -308,7 +309,7 @@ class MorphMesh(unittest.TestCase):
             prescribed.append(int(re.search(r"(\d+) of them prescribed", result.stdout).group(1)))
         self.assertLess(prescribed[1], prescribed[0])
         self.assertEqual(prescribed[2], prescribed[0])  # what moves is not free
-        self.fails(1, "FreeSurfaces names 'Wall'", "--free-surfaces", "Wall", *options)
+        self.fails(1, "--free-surfaces names 'Wall'", "--free-surfaces", "Wall", *options)
 
     def test_what_slides_is_iterated_with_the_volume(self):
         options = ("--move", "Surface 1", "--translate", "0,0,0.2", BORE, self.folder / "out.vtu")
@@ -498,6 +499,30 @@ class MorphMesh(unittest.TestCase):
         self.assertEqual(wrong.returncode, 1)
         self.assertIn("'Orthogonality' is not a criterion", wrong.stderr)
         self.assertFalse((self.folder / "out.vtu").exists())
+
+    def test_the_report_holds_what_is_printed(self):
+        result = run("--move", "Surface 1", "--translate", "0,0,0.2", "--criteria", "Skewness",
+                     "--report", self.folder / "report.json", BORE, self.folder / "out.vtu")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        report = json.loads((self.folder / "report.json").read_text())
+        self.assertEqual((report["status"], report["messages"]), ("Valid", []))
+        self.assertEqual(report["part of the motion reached"], 1)
+        for label in ("minimum scaled Jacobian", "mean scaled Jacobian", "inverted cells",
+                      "worst cell"):
+            for side, printed in zip(("before", "after"), row(result.stdout, label)):
+                self.assertAlmostEqual(report[side][label], printed, delta=5e-5)
+        self.assertGreater(report["after"]["Skewness"]["worst"], 0)
+        self.fails(2, "--report is of a morph", "check", "--report", "x.json", BORE)
+
+    def test_a_motion_that_cannot_be_completed_is_written_as_far_as_it_goes(self):
+        result = run("--move", "Surface 1", "--translate", "0,0,30", "--validity", "sub-step",
+                     "--report", self.folder / "report.json", BORE, self.folder / "out.vtu")
+        self.assertEqual(result.returncode, 3, result.stderr)
+        report = json.loads((self.folder / "report.json").read_text())
+        self.assertEqual(report["status"], "Partial")
+        self.assertTrue(0 < report["part of the motion reached"] < 1)
+        self.assertEqual(report["after"]["inverted cells"], 0)
+        self.assertIn(report["messages"][-1], result.stderr)
 
     def test_validity(self):
         reported = self.morph("--scale-factor", "-5", "--validity=report")

@@ -41,7 +41,7 @@ void require(const std::vector<Handle>& handles)
   }
   if (!bad.empty())
   {
-    throw Error("Handles have a number that is not finite or beyond 1e50, or a negative radius: "
+    throw Error("`Handles` have a number that is not finite or beyond 1e50, or a negative radius: "
                 "handles " +
                 listIds(bad) + ", counted from 0.");
   }
@@ -56,7 +56,7 @@ void requireApart(const Points& places, double distance)
     {
       if ((places.row(i) - places.row(j)).norm() <= distance)
       {
-        throw Error("Handles " + std::to_string(j) + " and " + std::to_string(i) +
+        throw Error("`Handles` " + std::to_string(j) + " and " + std::to_string(i) +
                     ", counted from 0, are in the same place. Remove one of them.");
       }
     }

@@ -354,13 +354,14 @@ Points fittedTo(Target& target, const BoundaryModel& model, const Choice& choice
     throw Error("No node that moves reaches the target: it has no place within "
                 "TargetReach" +
                 along +
-                " whose normal is within TargetAngle. Align the target, or raise "
+                " whose normal is within `TargetAngle`. Align the target, or raise "
                 "TargetReach.");
   }
   if (!missed.empty())
   {
-    monitor.warn("Nodes do not reach the target, since it has no place within TargetReach" + along +
-                 " whose normal is within TargetAngle, or faces would fold there: point ids " +
+    monitor.warn("Nodes do not reach the target, since it has no place within `TargetReach`" +
+                 along +
+                 " whose normal is within `TargetAngle`, or faces would fold there: point ids " +
                  listIds(missed) + " of the input.");
   }
   return motion.moved()(choice.moving, allColumns);

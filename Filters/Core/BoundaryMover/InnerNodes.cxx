@@ -51,7 +51,7 @@ std::vector<Index> edgeOf(const Mesh& mesh, const Zone& part)
     "There are no layers to keep: no hexahedra, nor wedges on triangles, lie on the "
     "faces that move" +
     (array.empty() ? std::string(".") : " where the cell array '" + array + "' is not zero.") +
-    " Set KeepLayers to 0, or let whole faces of the wall move.");
+    " Set `KeepLayers` to 0, or let whole faces of the wall move.");
 }
 
 /// Where nodes move, in the order of their ids.

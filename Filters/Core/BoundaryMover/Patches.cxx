@@ -56,7 +56,7 @@ void requireNone(
   {
     if (missing.count(set.name) > 0)
     {
-      throw Error(std::string(option) + " names '" + set.name +
+      throw Error("`" + std::string(option) + "` names '" + set.name +
                   "', which lies inside of the mesh. Surfaces on the boundary and sets of "
                   "faces can move; a zone holds or moves the nodes of '" +
                   set.name + "'.");
@@ -64,7 +64,7 @@ void requireNone(
   }
   if (!missing.empty())
   {
-    throw Error(std::string(option) + " names '" + *missing.begin() +
+    throw Error("`" + std::string(option) + "` names '" + *missing.begin() +
                 "', which the boundary does not have; it has " + list(patchNames(model)) +
                 ". Names change with the feature angle.");
   }
@@ -87,8 +87,8 @@ std::vector<Index> wholeSurfaces(
     }
     if (count < static_cast<std::ptrdiff_t>(faces.size()))
     {
-      throw Error(std::string(option) + " names '" + set.name + "', which has a part alone of " +
-                  surfaceName(geometry.surfaces[s].id) +
+      throw Error("`" + std::string(option) + "` names '" + set.name +
+                  "', which has a part alone of " + surfaceName(geometry.surfaces[s].id) +
                   ". Nodes slide along whole surfaces: name that one, or change the feature "
                   "angle.");
     }

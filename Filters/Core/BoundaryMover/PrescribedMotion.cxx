@@ -65,12 +65,12 @@ Points movedByRadius(const BoundaryModel& model, const Choice& choice, double ch
     const std::string name = surfaceName(model.geometry, static_cast<Index>(s));
     if (shape.kind() != SurfaceShape::Kind::Cylinder)
     {
-      throw Error("RadiusChange needs cylinders, and " + name +
+      throw Error("`RadiusChange` needs cylinders, and " + name +
                   ", which moves, is none. Choose cylinders, or another displacement.");
     }
     if (shape.radius() + change <= 0)
     {
-      throw Error("RadiusChange would leave " + name + " no radius: it has " +
+      throw Error("`RadiusChange` would leave " + name + " no radius: it has " +
                   std::to_string(shape.radius()) + ".");
     }
     for (const Index node : surface.nodes)
@@ -84,7 +84,8 @@ Points movedByRadius(const BoundaryModel& model, const Choice& choice, double ch
   }
   if (std::all_of(isDone.begin(), isDone.end(), [](std::uint8_t done) { return !done; }))
   {
-    throw Error("RadiusChange needs cylinders, and no face moves. Choose surfaces that are some.");
+    throw Error(
+      "`RadiusChange` needs cylinders, and no face moves. Choose surfaces that are some.");
   }
   return to;
 }

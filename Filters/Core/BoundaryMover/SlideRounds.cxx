@@ -102,12 +102,12 @@ void SlideRounds::prepare(const BoundaryModel& model, const std::vector<Index>& 
   const Mesh& mesh = model.mesh;
   if (mesh.numberOfCells() == 0)
   {
-    throw Error("SlideRounds needs the mesh's cells, and the input is a surface. Give the "
-                "volume mesh to this filter, or set SlideRounds to 0.");
+    throw Error("`SlideRounds` needs the mesh's cells, and the input is a surface. Give the "
+                "volume mesh to this filter, or set `SlideRounds` to 0.");
   }
   if (hasPolyhedra(mesh))
   {
-    throw Error("SlideRounds does not know polyhedra, and the mesh has some. Set it to 0.");
+    throw Error("`SlideRounds` does not know polyhedra, and the mesh has some. Set it to 0.");
   }
   std::vector<Index> prescribed;
   for (const Index node : InnerNodes::prescribed(model, result))
@@ -137,7 +137,7 @@ void SlideRounds::run(const BoundaryModel& model, const std::vector<Index>& held
   this->rounds_.clear();
   if (surfaces.empty())
   {
-    monitor.warn("SlideRounds has no effect: no surface is named that slides.");
+    monitor.warn("`SlideRounds` has no effect: no surface is named that slides.");
     return;
   }
   const std::map<Index, Surfaces> sliding = slidingNodes(model, held, surfaces, result);
@@ -157,7 +157,7 @@ void SlideRounds::run(const BoundaryModel& model, const std::vector<Index>& held
   const Points before = result.moved;
   if (pieces)
   {
-    pieces->requireNoPolyhedra("SlideRounds of vtkBoundaryDisplacement");
+    pieces->requireNoPolyhedra("`SlideRounds` of vtkBoundaryDisplacement");
     Points places = before(nodes, allColumns);
     this->rounds_ = pieces->slide(
       inner.prescribedOnRanks(model, result, nodes), nodes, along(nodes), rounds, places, monitor);

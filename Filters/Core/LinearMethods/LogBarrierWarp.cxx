@@ -33,7 +33,7 @@ void requireWeights(const LogBarrierSystem& system, bool relax)
     << system.empty.size() << (system.empty.size() == 1 ? " free node does" : " free nodes do")
     << " not lie inside the hull of the neighbors, at inverted or strongly concave cells, and so "
     << "cannot be a convex combination of them: node ids " << listIds(system.empty)
-    << ". Repair the undeformed mesh, prescribe those nodes, or set OutsideHull to Relax.";
+    << ". Repair the undeformed mesh, prescribe those nodes, or set `OutsideHull` to Relax.";
   throw Error(text.str());
 }
 }

@@ -218,7 +218,7 @@ BoundaryTargets findTargets(NamedPoints named, const Mesh& rest, const BoundaryF
   {
     std::ostringstream text;
     text << scale;
-    throw Error("ScaleFactor " + text.str() + " moves nodes beyond 1e50, at node ids " +
+    throw Error("`ScaleFactor` " + text.str() + " moves nodes beyond 1e50, at node ids " +
                 listNodes(huge, globalIds) + ". Lower it.");
   }
   return result;
@@ -271,7 +271,7 @@ void conclude(const TargetOptions& options, BoundaryTargets& result)
   {
     result.warnings.push_back(
       ofPoints(result.unmatched) +
-      " are not within MatchTolerance of a node of the grid and were left out.");
+      " are not within `MatchTolerance` of a node of the grid and were left out.");
   }
 }
 

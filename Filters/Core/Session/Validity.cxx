@@ -56,7 +56,7 @@ void Validity::requireFeasible(Mode mode, const std::vector<Index>& determined)
         " cells, at corners that no free node can mend, so no valid mesh exists: "
         "cell ids " +
         listIds(determined) +
-        ". Move the boundary less there, leave some of its nodes free, or set Validity "
+        ". Move the boundary less there, leave some of its nodes free, or set `Validity` "
         "to Report to see the mesh.",
       static_cast<Index>(determined.size()));
   }
@@ -71,7 +71,7 @@ std::string Validity::note(Mode mode, const std::vector<Index>& ids)
   return std::to_string(ids.size()) +
          " cells of the undeformed mesh are inverted or degenerate. Unless they become worse, they "
          "do not count as inverted by the motion: cell ids " +
-         listIds(ids) + ". Validity set to Repair all repairs them, too.";
+         listIds(ids) + ". `Validity` set to Repair all repairs them, too.";
 }
 
 void Validity::requireFeasible() const
@@ -242,7 +242,7 @@ Validity::Outcome Validity::subStep(
         measureQuality(this->mesh, result.moved, this->orientation, {}, monitor), result.moved));
   if (!result.isForbidden && !this->isInversionFree && this->mode == Mode::SubStep)
   {
-    outcome.error += " Validity set to Repair often goes all the way where sub-steps stop.";
+    outcome.error += " `Validity` set to Repair often goes all the way where sub-steps stop.";
   }
   return outcome;
 }
@@ -282,10 +282,10 @@ Validity::Outcome Validity::ensure(Points& moved, Monitor& monitor) const
     {
       const std::string text =
         "The morph is refused: " + this->found(quality, moved) +
-        (this->isInversionFree
-            ? "Set Validity to Sub Step, or move the boundary less."
-            : "Set Validity to Repair or Sub Step, move the boundary less, or use Morph Inversion "
-              "Free.");
+        (this->isInversionFree ? "Set `Validity` to Sub Step, or move the boundary less."
+                               : "Set `Validity` to Repair or Sub Step, move the boundary less, or "
+                                 "use Morph Inversion "
+                                 "Free.");
       throw Error(text);
     }
     case Mode::Report:
@@ -293,7 +293,7 @@ Validity::Outcome Validity::ensure(Points& moved, Monitor& monitor) const
         this->found(quality, moved) + "The output Bad cells holds them all. " +
         (this->isInversionFree
             ? "Move the boundary less, or in relative steps."
-            : "Morph Inversion Free, or Validity set to Repair, keeps cells valid.");
+            : "Morph Inversion Free, or `Validity` set to Repair, keeps cells valid.");
       break;
     default:
       break;

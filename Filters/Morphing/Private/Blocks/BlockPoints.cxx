@@ -104,7 +104,7 @@ double sizeOf(const std::vector<Source>& sources)
 {
   throw morph::Error(
     subject + " has several " + what + " for one node, at points of different blocks: node ids " +
-    morph::listIds(nodes) + ". Make them equal, or keep the blocks apart with CoincidentPoints.");
+    morph::listIds(nodes) + ". Make them equal, or keep the blocks apart with `CoincidentPoints`.");
 }
 
 /// Whether values at one place differ by more than 1e-6 of the largest one.

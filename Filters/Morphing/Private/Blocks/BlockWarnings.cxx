@@ -16,7 +16,8 @@ std::string Coinciding(morph::Index count)
 {
   return std::to_string(count) +
          " points are at the place of another block's, with other global ids, and stay apart from "
-         "them as bodies in contact do. If the blocks are one body, set CoincidentPoints to merge "
+         "them as bodies in contact do. If the blocks are one body, set `CoincidentPoints` to "
+         "merge "
          "by position.";
 }
 

@@ -98,7 +98,7 @@ vtkDataArray* requireCellNumbers(vtkDataSet* input, const std::string& name)
   vtkDataArray* array = findNumbers(input->GetCellData(), name, input->GetNumberOfCells(), "cell");
   if (!array)
   {
-    throw Error("SurfaceIdArray names '" + name + "', which is no cell array of the input.");
+    throw Error("`SurfaceIdArray` names '" + name + "', which is no cell array of the input.");
   }
   return array;
 }
@@ -172,7 +172,7 @@ void readGeometryArrays(
     throw Error(
       std::string("The input has the point array ") +
       (id ? "GeometryId, but no GeometryDimension" : "GeometryDimension, but no GeometryId") +
-      ". Give both, or turn UseGeometryArrays off.");
+      ". Give both, or turn `UseGeometryArrays` off.");
   }
   for (Index value : wholeNumbers(dimension, nodes, "point"))
   {

@@ -149,7 +149,7 @@ void RequireWritable(const morph::Points& rest, const morph::Points& moved, bool
   {
     throw morph::Error(std::string("Single precision does not hold the new positions of ") + what +
                        ", which are above 3.4e38: node ids " + list(tooLarge) +
-                       ". Set OutputPointsPrecision to double.");
+                       ". Set `OutputPointsPrecision` to double.");
   }
 }
 

@@ -25,7 +25,7 @@ std::vector<std::uint8_t> insideRegion(const BoundaryModel& model, vtkImplicitFu
 {
   if (!region)
   {
-    throw Error("No region is given in which nodes move: set Region, a box for instance.");
+    throw Error("No region is given in which nodes move: set `Region`, a box for instance.");
   }
   std::vector<std::uint8_t> isInside(model.points().rows(), 0);
   for (Index node : model.faces.nodes)
@@ -40,13 +40,14 @@ std::vector<std::uint8_t> markedBy(vtkPointSet* input, const std::string& name)
 {
   if (name.empty())
   {
-    throw Error("No array is named that marks what moves: set MovingArray to a point array of the "
-                "input. Nodes move where it is not zero.");
+    throw Error(
+      "No array is named that marks what moves: set `MovingArray` to a point array of the "
+      "input. Nodes move where it is not zero.");
   }
   vtkDataArray* array = input->GetPointData()->GetArray(name.c_str());
   if (!array || array->GetNumberOfTuples() != input->GetNumberOfPoints())
   {
-    throw Error("MovingArray names '" + name + "', which is " +
+    throw Error("`MovingArray` names '" + name + "', which is " +
                 (array ? "not as long as the input has points." : "no point array of the input."));
   }
   return Chosen::Marked(array);
@@ -61,7 +62,7 @@ std::vector<std::uint8_t> markedBy(vtkPointSet* input, const std::string& name)
   }
   if (how == By::Array)
   {
-    throw Error("MovingArray is zero at all nodes of the boundary, so nothing would move.");
+    throw Error("`MovingArray` is zero at all nodes of the boundary, so nothing would move.");
   }
   throw Error("No node of the boundary is inside the region that is to move. Make it larger, or "
               "move it to the boundary.");
@@ -98,8 +99,9 @@ morph::Choice Choose(vtkPointSet* input, const BoundaryModel& model, const Optio
 {
   if (options.How == By::Surfaces && options.Surfaces.empty())
   {
-    throw Error("No surface is chosen that is to move. Choose one in Surfaces (Apply once, and the "
-                "list has their names), or choose in another way what moves.");
+    throw Error(
+      "No surface is chosen that is to move. Choose one in `Surfaces` (Apply once, and the "
+      "list has their names), or choose in another way what moves.");
   }
   const auto all = [&](std::uint8_t value)
   { return std::vector<std::uint8_t>(model.points().rows(), value); };

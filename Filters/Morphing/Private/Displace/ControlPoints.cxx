@@ -123,7 +123,7 @@ void addTo(Points& displacements, const std::array<double, 6>& row, const std::a
     {
       throw Error("The lattice has no control point " + std::to_string(row[0]) + ", " +
                   std::to_string(row[1]) + ", " + std::to_string(row[2]) +
-                  ": i, j and k are whole numbers from 0, below LatticeSize (" +
+                  ": i, j and k are whole numbers from 0, below `LatticeSize` (" +
                   std::to_string(size[0]) + ", " + std::to_string(size[1]) + ", " +
                   std::to_string(size[2]) + ").");
     }
@@ -198,7 +198,7 @@ Points Lattice(vtkDataObject* given, const std::vector<std::array<double, 6>>& l
     {
       throw Error("The lattice has " + std::to_string(count) +
                   " control points, the product of "
-                  "LatticeSize, and " +
+                  "`LatticeSize`, and " +
                   std::to_string(points->GetNumberOfPoints()) + " are given.");
     }
     vtkDataArray* vectors = arrayOf(points->GetPointData(), "Displacement", 3, count);

@@ -19,7 +19,7 @@ std::vector<std::uint8_t> layerCells(vtkUnstructuredGrid* grid, const std::strin
   vtkDataArray* array = grid->GetCellData()->GetArray(name.c_str());
   if (!array || array->GetNumberOfTuples() != grid->GetNumberOfCells())
   {
-    throw morph::Error("LayersArray names '" + name + "', which is no cell array of the input.");
+    throw morph::Error("`LayersArray` names '" + name + "', which is no cell array of the input.");
   }
   return filters::Chosen::Marked(array);
 }

@@ -69,7 +69,7 @@ Eigen::RowVector3d directionOf(int projectAlong, const std::array<double, 3>& ve
   const Eigen::RowVector3d direction(vector[0], vector[1], vector[2]);
   if (direction.isZero(0))
   {
-    throw morph::Error("ProjectVector has no length. Give the direction in which nodes are to go "
+    throw morph::Error("`ProjectVector` has no length. Give the direction in which nodes are to go "
                        "to the target.");
   }
   return direction / direction.cwiseAbs().maxCoeff();
@@ -323,7 +323,7 @@ morph::Points vtkDisplacementAlgorithm::vtkInternals::ByControlPoints(const Opti
     lattice.high << b[1], b[3], b[5];
     if ((lattice.high.array() < lattice.low.array()).any())
     {
-      throw morph::Error("LatticeBounds have a minimum above its maximum. Give xmin, xmax, ymin, "
+      throw morph::Error("`LatticeBounds` have a minimum above its maximum. Give xmin, xmax, ymin, "
                          "ymax, zmin, zmax.");
     }
   }

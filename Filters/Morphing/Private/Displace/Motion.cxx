@@ -71,14 +71,15 @@ Points arrayRows(vtkPointSet* input, const std::string& name, const std::vector<
 {
   if (name.empty())
   {
-    throw Error("No array is named that holds the displacements: set DisplacementArray to a point "
-                "vector array of the input.");
+    throw Error(
+      "No array is named that holds the displacements: set `DisplacementArray` to a point "
+      "vector array of the input.");
   }
   vtkAbstractArray* any = input->GetPointData()->GetAbstractArray(name.c_str());
   const std::string what = problem(any, input->GetNumberOfPoints());
   if (!what.empty())
   {
-    throw Error("DisplacementArray names '" + name + "', " + what + ".");
+    throw Error("`DisplacementArray` names '" + name + "', " + what + ".");
   }
   auto* array = vtkDataArray::SafeDownCast(any);
   Points rows(static_cast<Index>(nodes.size()), 3);
@@ -190,13 +191,13 @@ void requireModerate(const Points& targets, const std::vector<Index>& nodes, con
   }
   if (!notFinite.empty())
   {
-    throw Error(std::string(property) +
-                " moves nodes to places that are not finite (NaN or infinite): point ids " +
+    throw Error("`" + std::string(property) +
+                "` moves nodes to places that are not finite (NaN or infinite): point ids " +
                 morph::listIds(notFinite) + " of the input.");
   }
   if (!huge.empty())
   {
-    throw Error(std::string(property) + " moves nodes beyond 1e50: point ids " +
+    throw Error("`" + std::string(property) + "` moves nodes beyond 1e50: point ids " +
                 morph::listIds(huge) + " of the input. Move them less, or use another unit.");
   }
 }
@@ -247,7 +248,7 @@ std::vector<Index> TakeMissing(
     "'" + Input::ArrayName(options.DisplacementArray) + "' is NaN, or vtkValidPointMask 0, ";
   if (moving.empty())
   {
-    throw Error("DisplacementArray has no value where the boundary is to move: " + where +
+    throw Error("`DisplacementArray` has no value where the boundary is to move: " + where +
                 "at all of its points. Give values there, or move another part.");
   }
   if (!missing.empty())

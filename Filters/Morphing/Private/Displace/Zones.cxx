@@ -197,7 +197,7 @@ void takeRegion(const morph::Mesh& mesh, vtkImplicitFunction* region, Part& part
 {
   if (!region)
   {
-    throw Error("No region is given for the zone: set ZoneRegion, a box for instance.");
+    throw Error("No region is given for the zone: set `ZoneRegion`, a box for instance.");
   }
   Flags isNode(mesh.numberOfNodes(), 0);
   for (Index n = 0; n < mesh.numberOfNodes(); ++n)

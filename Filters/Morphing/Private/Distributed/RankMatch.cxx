@@ -68,7 +68,7 @@ Way wayOf(vtkPointSet* boundary, const DistributedMesh& mesh, bool areCopies,
     if (boundary->GetPointData()->HasArray(name))
     {
       throw Error("On several MPI ranks the point array '" + std::string(name) +
-                  "' may number each rank's points. Name it as BoundaryIdArray if its ids are "
+                  "' may number each rank's points. Name it as `BoundaryIdArray` if its ids are "
                   "global, or make the boundary with Extract Morph Boundary.");
     }
   }
@@ -76,7 +76,7 @@ Way wayOf(vtkPointSet* boundary, const DistributedMesh& mesh, bool areCopies,
   {
     throw Error("Nothing says which nodes the boundary's points are: there is no point array "
                 "MorphPointId. Make the boundary with Extract Morph Boundary, or set "
-                "BoundaryIdArray, or give undeformed points with a DisplacementArray.");
+                "`BoundaryIdArray`, or give undeformed points with a `DisplacementArray`.");
   }
   return Way::Positions;
 }

@@ -457,7 +457,7 @@ void Morphing::Transpose(vtkUnstructuredGrid* rest, vtkDataObject* boundary, vtk
         status == "Partial") &&
       ranks.rank() == 0)
   {
-    monitor.warn("PostSmooth or Validity changes the mesh after the method has made it; the "
+    monitor.warn("`PostSmooth` or `Validity` changes the mesh after the method has made it; the "
                  "gradient is that of the method alone.");
   }
   morph::Points prescribed;

@@ -163,7 +163,8 @@ morph::Validity::Outcome RankValidity::Ensure(morph::Points& moved, morph::Monit
         "On MPI ranks bad cells are repaired in patches, each on one rank. The patches would "
         "have " +
           std::to_string(report.tooLarge) + " cells of " + std::to_string(report.cells) +
-          "; at most a quarter may be gathered. Set Validity to Sub Step, move the boundary less, "
+          "; at most a quarter may be gathered. Set `Validity` to Sub Step, move the boundary "
+          "less, "
           "or run on one rank.",
         monitor);
     }
@@ -176,13 +177,13 @@ morph::Validity::Outcome RankValidity::Ensure(morph::Points& moved, morph::Monit
   if (mode == morph::Validity::Mode::Refuse)
   {
     throw morph::Error("The morph is refused: " + RankQuality::Found(this->Mesh, measured, moved) +
-                       "Set Validity to Repair or Sub Step, or move the boundary less.");
+                       "Set `Validity` to Repair or Sub Step, or move the boundary less.");
   }
   morph::Validity::Outcome outcome{ "Inverted", std::numeric_limits<double>::quiet_NaN() };
   if (mode == morph::Validity::Mode::Report)
   {
     outcome.warning = RankQuality::Found(this->Mesh, measured, moved) +
-                      "The output Bad cells holds them all. Validity set to Repair keeps cells "
+                      "The output Bad cells holds them all. `Validity` set to Repair keeps cells "
                       "valid.";
   }
   return outcome;

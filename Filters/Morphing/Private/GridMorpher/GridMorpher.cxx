@@ -230,7 +230,7 @@ std::shared_ptr<const morph::StepResult> GridMorpher::MorphSeries(vtkPointSet* d
   {
     throw morph::Error("Relative steps after a boundary that varies in time need a mesh with cells "
                        "on several MPI processes, or a single process. Distribute the mesh, or set "
-                       "Stepping to Absolute.");
+                       "`Stepping` to Absolute.");
   }
   const auto boundaryOf = [&](int step)
   {
@@ -269,7 +269,7 @@ void GridMorpher::Transpose(vtkUnstructuredGrid* rest, vtkDataObject* boundary, 
   const std::string& status = this->Results.Text("MorphStatus");
   if (options.postSmooth || status == "SubStepped" || status == "Repaired" || status == "Partial")
   {
-    monitor.warn("PostSmooth or Validity changes the mesh after the method has made it; the "
+    monitor.warn("`PostSmooth` or `Validity` changes the mesh after the method has made it; the "
                  "gradient is that of the method alone.");
   }
   Gradient::Gather(options.Matching.scaleFactor * prescribed, match.sources,

@@ -99,14 +99,14 @@ vtkDataArray* requireArray(
   vtkDataArray* array = findArray(boundary, name);
   if (!array)
   {
-    throw Error(std::string(property) + " names " + quoted(name) +
+    throw Error("`" + std::string(property) + "` names " + quoted(name) +
                 ", which the boundary does not have: " + pointArrays(boundary) + ".");
   }
   if (array->GetNumberOfComponents() != components)
   {
     throw Error("The boundary's point array " + quoted(name) + " has " +
-                std::to_string(array->GetNumberOfComponents()) + " components; " + property +
-                " needs " + std::to_string(components) + ".");
+                std::to_string(array->GetNumberOfComponents()) + " components; `" + property +
+                "` needs " + std::to_string(components) + ".");
   }
   return array;
 }
@@ -189,7 +189,7 @@ void requireCellsOfMesh(vtkPointSet* boundary, const Pairs& pairs, const morph::
       " of its " + std::to_string(count) +
       " cells join nodes that no cell of the grid joins, the cells " + morph::listIds(strange) +
       ". Its nodes come in another order, or are those of another mesh. Make the "
-      "boundary with Extract Morph Boundary, or set BoundaryIdArray.");
+      "boundary with Extract Morph Boundary, or set `BoundaryIdArray`.");
   }
 }
 
@@ -259,11 +259,11 @@ Pairs findNodes(vtkPointSet* boundary, const morph::Mesh& rest, const std::vecto
     Pairs pairs = BoundaryMatch::FindByPosition(positions, rest, outer, tolerance, named.unmatched);
     if (pairs.empty())
     {
-      throw Error(
-        "None of the boundary's " + std::to_string(positions.rows()) +
-        " points is within MatchTolerance (" + text(options.matchTolerance) +
-        " of the grid's size) of a node of the grid. Where a DisplacementArray is set, the points "
-        "have to be undeformed.");
+      throw Error("None of the boundary's " + std::to_string(positions.rows()) +
+                  " points is within `MatchTolerance` (" + text(options.matchTolerance) +
+                  " of the grid's size) of a node of the grid. Where a `DisplacementArray` is set, "
+                  "the points "
+                  "have to be undeformed.");
     }
     return pairs;
   }
@@ -271,8 +271,8 @@ Pairs findNodes(vtkPointSet* boundary, const morph::Mesh& rest, const std::vecto
               " points are (the grid has " + std::to_string(nodes) +
               " points): there is no point array MorphPointId, PointIds or vtkOriginalPointIds; " +
               pointArrays(boundary) +
-              ". Make the boundary with Extract Morph Boundary, or set BoundaryIdArray, or give "
-              "undeformed points with a DisplacementArray.");
+              ". Make the boundary with Extract Morph Boundary, or set `BoundaryIdArray`, or give "
+              "undeformed points with a `DisplacementArray`.");
 }
 }
 
@@ -478,7 +478,7 @@ void Conclude(double size, const Options& options, const Precision& precision, I
     result.warnings.push_back(
       "The boundary has " + precision.Text() +
       ". What is nearer to its old place than that stays, and what moves is as far off. Give the "
-      "boundary in double precision, or displacements (DisplacementArray), or coordinates with "
+      "boundary in double precision, or displacements (`DisplacementArray`), or coordinates with "
       "an origin near the mesh.");
   }
 }

@@ -107,7 +107,7 @@ void SetStatus(
   if (isRounded && monitor)
   {
     monitor->warn("Rounding to single precision inverts " + std::to_string(bad) +
-                  " cells. Set OutputPointsPrecision to double.");
+                  " cells. Set `OutputPointsPrecision` to double.");
   }
   results.SetText("MorphStatus", isRounded ? "Inverted" : step.valid.status);
   results.SetNumber("LargestValidStep",

@@ -23,7 +23,7 @@ vtkDataArray* require(
   if (!array || array->GetNumberOfTuples() != count || array->GetNumberOfComponents() != 1)
   {
     throw morph::Error(
-      std::string(property) + " names '" + name + "', which is " +
+      "`" + std::string(property) + "` names '" + name + "', which is " +
       (array ? "not as long as the mesh, or has more than one component."
              : (std::string(property) == "WallArray" ? "no point array of the mesh."
                                                      : "no cell array of the mesh.")));
@@ -81,7 +81,7 @@ morph::CellStiffness Take(const Options& options, vtkUnstructuredGrid* rest,
     return stiffness;
   }
   stiffness.areWallsGlobal = false;
-  stiffness.noWalls = "WallArray names '" + walls + "', which is zero at all nodes.";
+  stiffness.noWalls = "`WallArray` names '" + walls + "', which is zero at all nodes.";
   if (cells > 0)
   {
     vtkDataArray* marks = require(rest->GetPointData(), walls, nodes, "WallArray");
