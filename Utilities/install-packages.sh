@@ -34,8 +34,8 @@ packages=(
   zlib1g-dev libpython3-dev libgl-dev libx11-dev libxcursor-dev libxt-dev libgdal-dev libavcodec-dev
   libavformat-dev libavutil-dev libswscale-dev libboost-dev python3-mpi4py libcgns-dev)
 demo=(gmsh python3-gmsh xvfb xauth)
-tests=(git dpkg-dev file gdb cgns-convert netcdf-bin libgtest-dev python3-matplotlib imagemagick
-  libxtst6)
+tests=(git dpkg-dev file gdb help2man cgns-convert netcdf-bin libgtest-dev python3-matplotlib
+  imagemagick libxtst6)
 numpy=(pybind11-dev python3-dev python3-pip python3-setuptools python3-wheel python3-venv
   python3-meshio python3-scipy)
 solvers=(openfoam calculix-ccx)

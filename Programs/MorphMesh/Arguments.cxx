@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Arguments.h"
 
+#include <vtkMorphAlgorithm.h>
+
 #include <algorithm>
 #include <cerrno>
 #include <cstddef>
@@ -87,11 +89,10 @@ const char* const ExitStatus = "\n"
                                "Exit status: 0 the result is written; 1 an error, nothing is "
                                "written and an old file stays;\n"
                                "2 the command line is wrong;\n"
-                               "3 the result is written, but the motion has inverted or "
-                               "collapsed cells or made the boundary\n"
-                               "cross itself, and --require-valid was given, or --validity "
-                               "SubStep, Repair or\nRepairAll came only part "
-                               "of the way: the output does not fit the boundary.\n";
+                               "3 the result is written, but the motion inverts or collapses "
+                               "cells or makes the boundary\n"
+                               "cross itself, or came only part of the way: the output does not "
+                               "fit the boundary.\n";
 
 int wholeNumber(const char* option, const std::string& text, int least)
 {
@@ -281,7 +282,9 @@ std::vector<Option> optionsOf(Arguments& result)
       "file a step, as of the output",
       Files, text(result.report) },
     { "--require-valid", "",
-      "exit status 3 if the motion inverts or collapses a cell, or the boundary crosses itself",
+      "with --validity none or report: exit status 3 all the same if the motion inverts or "
+      "collapses\n"
+      "a cell, or the boundary crosses itself; with check: if a cell is inverted or collapsed",
       Files, flag(result.requireValid) },
     { "--threads", "<number>", "threads to compute with; by default 0, all cores", Files,
       whole("--threads", result.threads, 0) },
@@ -464,6 +467,13 @@ void takeOption(const std::vector<Option>& options, const std::string& argument,
                : option->value.empty()     ? std::string()
                                            : next(name));
 }
+}
+
+bool Arguments::wantsValid() const
+{
+  const int validity = static_cast<int>(
+    this->properties.number("Validity", double(vtkMorphAlgorithm::VALIDITY_REPAIR)));
+  return this->requireValid || vtkMorphAlgorithm::VALIDITY_REPORT < validity;
 }
 
 Arguments parseArguments(int argc, char* argv[])

@@ -44,6 +44,9 @@ struct Arguments
   {
     return this->properties.has("Method") ? this->properties.text("Method") : "FEMWARP";
   }
+  /// Whether a mesh that the motion inverts or makes cross itself has an exit status of its own. Who
+  /// asks for no more than a report has to ask for that, too.
+  bool wantsValid() const;
 };
 
 /// The error of a wrong command line.

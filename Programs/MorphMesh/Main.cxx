@@ -74,7 +74,6 @@ void configure(Morphing& morphing, const Arguments& arguments)
   morphing.filter = isMade ? static_cast<vtkAlgorithm*>(morphing.mesh) : morphing.method;
   if (isMade)
   {
-    morphing.mesh->SetValidity(vtkMorphAlgorithm::VALIDITY_REPORT);
     if (arguments.task == Arguments::Task::Repair) // a motion of zero
     {
       morphing.mesh->SetValidity(vtkMorphAlgorithm::VALIDITY_REPAIR_ALL);
@@ -85,6 +84,7 @@ void configure(Morphing& morphing, const Arguments& arguments)
     given.apply({ morphing.mesh, morphing.method }, "with " + arguments.method());
     return;
   }
+  morphing.method->SetValidity(vtkMorphAlgorithm::VALIDITY_REPAIR); // as Morph Mesh has it
   morphing.method->SetNumberOfThreads(arguments.threads);
   given.apply({ morphing.method }, "with " + arguments.method() + " and a given boundary");
 }
@@ -150,6 +150,10 @@ int morphPart(Morphing& morphing, vtkUnstructuredGrid* grid, const Arguments& ar
 {
   const bool reports = !arguments.quiet || !arguments.report.empty();
   const vtkSmartPointer<vtkScaledJacobian> before = reports ? measure(grid, arguments) : nullptr;
+  if (!report.empty())
+  {
+    std::filesystem::remove(report); // that of another run would be taken for this one's
+  }
   Messages messages(morphing.filter);
   std::string partial;
   {
@@ -195,7 +199,7 @@ int morphPart(Morphing& morphing, vtkUnstructuredGrid* grid, const Arguments& ar
       std::cout << "largest rounding of a coordinate: " << std::scientific << rounding << "\n";
     }
   }
-  return !partial.empty() || (arguments.requireValid && !outcome.isValid()) ? 3 : 0;
+  return !partial.empty() || (arguments.wantsValid() && !outcome.isValid()) ? 3 : 0;
 }
 
 int morphMesh(const Arguments& arguments)

@@ -127,7 +127,8 @@ std::string Messages::updatePartly(const std::string& task)
 {
   this->algorithm_->Update();
   // After any other error the output is the undeformed mesh.
-  const bool isPart = outcomeOf(this->algorithm_).status == "Partial";
+  const std::string status = outcomeOf(this->algorithm_).status;
+  const bool isPart = status == "Partial" || status == "Inverted";
   if (!this->errors_.empty() && !isPart)
   {
     throw Failure(task + ": " + this->errors_.front());

@@ -44,7 +44,8 @@ public:
 
   /// Runs the algorithm. Throws Failure with what it reported, `task` first ("Cannot morph x.vtu").
   void update(const std::string& task);
-  /// As update(), but errors of a morph that came part of the way are returned, one to a line.
+  /// As update(), but errors of a morph that has a mesh all the same, which came part of the way or
+  /// has inverted cells, are returned, one to a line.
   std::string updatePartly(const std::string& task);
   const std::vector<std::string>& errors() const { return this->errors_; }
   const std::vector<std::string>& warnings() const { return this->warnings_; }

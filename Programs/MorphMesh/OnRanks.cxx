@@ -185,7 +185,7 @@ int morphPart(const Ranks& ranks, vtkMorphAlgorithm* filter, vtkUnstructuredGrid
   {
     printReport(before, outcome, nullptr);
   }
-  return errors > 0 || (arguments.requireValid && !outcome.isValid()) ? 3 : 0;
+  return errors > 0 || (arguments.wantsValid() && !outcome.isValid()) ? 3 : 0;
 }
 }
 

@@ -139,17 +139,17 @@ TEST(BoundaryDisplacementErrors, WhatIsChosen)
 TEST(BoundaryDisplacementErrors, TheMotion)
 {
   const std::vector<std::pair<std::string, Change>> cases = {
-    { "Transform moves nodes to places that are not finite",
+    { "`Transform` moves nodes to places that are not finite",
       [](auto* f) { f->SetTransform(transformWith(0, 3, NAN)); } },
-    { "Transform moves nodes to places that are not finite",
+    { "`Transform` moves nodes to places that are not finite",
       [](auto* f) { f->SetTransform(transformWith(1, 1, INFINITY)); } },
-    { "Vector moves nodes beyond 1e50",
+    { "`Vector` moves nodes beyond 1e50",
       [](auto* f)
       {
         f->SetDisplacementToVector();
         f->SetVector(0, 1e60, 0);
       } },
-    { "Distance moves nodes beyond 1e50",
+    { "`Distance` moves nodes beyond 1e50",
       [](auto* f)
       {
         f->SetDisplacementToAlongNormals();

@@ -431,7 +431,7 @@ TEST(BoundaryDisplacementInputs, HugeMotions)
   filter->SetInputData(grid);
   filter->SetDisplacementToVector();
   filter->SetVector(1e60, 0, 0);
-  expectError(filter, { "Vector moves nodes beyond 1e50: point ids" });
+  expectError(filter, { "`Vector` moves nodes beyond 1e50: point ids" });
   filter->SetVector(1e30, 0, 0);
   filter->SetScaleFactor(1e30);
   expectError(filter, { "`ScaleFactor` moves nodes beyond 1e50: point ids" });

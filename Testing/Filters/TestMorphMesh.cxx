@@ -396,7 +396,7 @@ TEST(MorphMesh, AfterAnErrorTheUndeformedMeshStays)
     filter->Modified();
     filter->Update();
     ASSERT_EQ(listener.Errors.size(), 1u);
-    EXPECT_NE(listener.Errors[0].find("): Surfaces names 'Surface 77'"), std::string::npos)
+    EXPECT_NE(listener.Errors[0].find("): `Surfaces` names 'Surface 77'"), std::string::npos)
       << listener.Errors[0];
     EXPECT_TRUE(listener.ExecutiveErrors.empty());
     EXPECT_EQ(grids::points(filter->GetOutput()), grids::points(grid));
