@@ -44,7 +44,7 @@ struct Arguments
   {
     return this->properties.has("Method") ? this->properties.text("Method") : "FEMWARP";
   }
-  /// Whether a mesh that the motion inverts or makes cross itself has an exit status of its own. Who
+  /// Whether a mesh that the motion inverts or makes cross itself has a status of its own. Who
   /// asks for no more than a report has to ask for that, too.
   bool wantsValid() const;
 };
