@@ -19,6 +19,8 @@ import textwrap
 PROJECT = pathlib.Path(__file__).resolve().parent.parent
 MODULE = PROJECT / "Filters" / "Morphing"
 LISTS = {"surfaces": "Surface", "zones": "Zone"}  # sets of names that a list of the filter has
+#: Groups of the panel that have no title; the others are folded, but a filter's first.
+OPEN = ("What moves", "How it moves", "Boundary", "Method", "Motion", "Shapes")
 KINDS = ("number", "numbers", "integer", "integers", "flag", "choice", "text", "array", *LISTS,
          "own")
 
@@ -377,13 +379,21 @@ def domain(row):
     return f'<{kind}RangeDomain name="range"{least}{most}/>'
 
 
+#: The lists of surfaces are one table, which is the widget of the first.
+SURFACE_TABLE = (
+    '<SurfaceTable stays="FixedSurfaces" slides="SlidingSurfaces" free="FreeSurfaces" '
+    'moving="Moving" sizes="SurfaceSizes" pick="Pick" port="PickPort" picked="PickedSurfaces"/>')
+
+
 def property_xml(row, find, more=""):
     kind = {"number": "Double", "numbers": "Double", "integer": "Int", "integers": "Int",
             "flag": "Int", "choice": "Int"}.get(row.kind, "String")
     if row.kind in LISTS:
         what = (f'command="Set{row.name[:-1]}Status" clean_command="RemoveAll{row.name}" '
                 'information_property="SurfaceList" repeat_command="1" '
-                'number_of_elements_per_command="2" element_types="2 0" panel_widget="SurfaceList"')
+                'number_of_elements_per_command="2" element_types="2 0"')
+        what += {"zones": ' panel_widget="ZoneList"'}.get(
+            row.kind, ' panel_widget="SurfaceTable"' if row.name == "Surfaces" else "")
     else:
         default = row.default_number or ("None" if row.kind == "array" else "")
         what = (f'command="Set{row.name}" number_of_elements="{row.count}" '
@@ -395,14 +405,16 @@ def property_xml(row, find, more=""):
     animated = ' animateable="1"' if row["animated"] == "yes" else ""
     hints = []
     if row.kind in LISTS:
-        counts = {"surfaces": "Faces Area", "zones": "Cells Nodes"}[row.kind]
-        hints += ["<OmitFromLoadAllVariables/>",
-                  f'<SurfaceList sizes="{LISTS[row.kind]}Sizes" columns="{counts}"/>']
+        hints.append("<OmitFromLoadAllVariables/>")
+        hints.append('<ZoneList sizes="ZoneSizes" columns="Cells Nodes"/>'
+                     if row.kind == "zones" else SURFACE_TABLE if row.name == "Surfaces" else "")
     if row["shown"]:
         hints.append(condition(row["shown"], find))
-    if row["unit"] or row.kind in LISTS:  # lists have no label of their own
+    if row["unit"] or row.kind == "zones":  # these lists have no label of their own
         label = row.words + (f' ({row["unit"]})' if row["unit"] else "")
         hints.append(f'<PropertyWidgetDecorator type="PanelLabel" text="{label}"/>')
+    if row["told"]:
+        hints.append(f'<Told text="{row["told"]}"/>')
     hint = f"<Hints>{''.join(hints)}</Hints>" if hints else ""
     text = escaped(" ".join(row.paragraphs[0].split()))
     return (f'      <{kind}VectorProperty name="{row.name}" {what}{animated}{visible}{more}>\n'
@@ -421,17 +433,23 @@ def make_xml(folder):
         classes = [cls, *chains.get(cls, [])]
         own = rows(table, [proxy, *classes])
         find = {row.name: row for row in own}.__getitem__
+        shown = [row["group"] for row in own if row["group"] and row["panel"] != "never"]
+        opened = {*shown[:1], *OPEN}
+        own.sort(key=lambda row: row["group"] not in opened)
         made = "".join(own_xml(row, classes, find) if row.kind == "own" else property_xml(row, find)
                        for row in own)
         groups = {}
         for row in own:
-            if row["group"] and row["panel"] != "never":
+            if row["group"] not in opened and row["panel"] != "never":
                 groups.setdefault(row["group"], "")
                 groups[row["group"]] += f'        <Property name="{row.name}"/>\n'
         grouped = "".join(f'      <PropertyGroup label="{label}">\n{names}      </PropertyGroup>\n'
                           for label, names in groups.items())
         text = text.replace("@Properties@", made.rstrip("\n"))
         text = text.replace("@Groups@", grouped.rstrip("\n"))
+        text = re.sub(r'(?s)(<PropertyGroup label="([^"]+)">.*?)( *</PropertyGroup>)',
+                      r'\1        <Hints><PropertyWidgetDecorator type="Fold" title="\2"/></Hints>\n'
+                      r"\3", text)
         text = re.sub(r"@Override (\w+)@\n",
                       lambda m: property_xml(find(m[1]), find, ' override="1"'), text)
         write(folder / template.name, text)

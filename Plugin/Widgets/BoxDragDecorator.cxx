@@ -17,8 +17,10 @@
 #include <vtkSMProxy.h>
 #include <vtkSmartPointer.h>
 
+#include <QCheckBox>
 #include <QComboBox>
 #include <QEvent>
+#include <QLabel>
 #include <QTimer>
 
 #include <string>
@@ -67,6 +69,7 @@ void BoxDragDecorator::find()
 {
   this->Asked = false;
   this->labelTransforms();
+  this->shorten();
   for (auto* widget : this->parentWidget()->findChildren<pqInteractivePropertyWidget*>())
   {
     vtkAbstractWidget* const shown = widget->widgetProxy()->GetWidget();
@@ -101,6 +104,25 @@ void BoxDragDecorator::labelTransforms() const
     if (place >= 0)
     {
       list->setItemText(place, tr("Rotation about a point"));
+    }
+  }
+}
+
+void BoxDragDecorator::shorten() const
+{
+  for (const char* const name :
+    { "enableTranslation", "enableRotation", "enableScaling", "enableMoveFaces" })
+  {
+    if (auto* const tick = this->parentWidget()->findChild<QCheckBox*>(name))
+    {
+      tick->hide();
+    }
+  }
+  for (auto* const label : this->parentWidget()->findChildren<QLabel*>())
+  {
+    if (label->text().contains("Interactivity Controls"))
+    {
+      label->hide();
     }
   }
 }

@@ -44,6 +44,8 @@ private:
   void find();
   /// ParaView has no label for one of its transforms, and would show its name.
   void labelTransforms() const;
+  /// What a box can do in the view stays on: its ticks would take a fifth of the panel.
+  void shorten() const;
   void color(vtkWidgetRepresentation* shown) const;
 };
 
