@@ -447,9 +447,9 @@ def make_xml(folder):
                           for label, names in groups.items())
         text = text.replace("@Properties@", made.rstrip("\n"))
         text = text.replace("@Groups@", grouped.rstrip("\n"))
+        fold = '<Hints><PropertyWidgetDecorator type="Fold" title="{0}"/></Hints>'
         text = re.sub(r'(?s)(<PropertyGroup label="([^"]+)">.*?)( *</PropertyGroup>)',
-                      r'\1        <Hints><PropertyWidgetDecorator type="Fold" title="\2"/></Hints>\n'
-                      r"\3", text)
+                      lambda m: f"{m[1]}        {fold.format(m[2])}\n{m[3]}", text)
         text = re.sub(r"@Override (\w+)@\n",
                       lambda m: property_xml(find(m[1]), find, ' override="1"'), text)
         write(folder / template.name, text)

@@ -6,13 +6,16 @@
 
 #include <pqInteractivePropertyWidget.h>
 #include <pqPropertyWidget.h>
+#include <pqView.h>
 #include <vtkAbstractWidget.h>
 #include <vtkBoxRepresentation.h>
 #include <vtkCommand.h>
+#include <vtkPVRenderView.h>
 #include <vtkPVXMLElement.h>
 #include <vtkProperty.h>
 #include <vtkSMDoubleVectorProperty.h>
 #include <vtkSMNewWidgetRepresentationProxy.h>
+#include <vtkSMPropertyHelper.h>
 #include <vtkSMPropertyIterator.h>
 #include <vtkSMProxy.h>
 #include <vtkSmartPointer.h>
@@ -50,6 +53,7 @@ BoxDragDecorator::BoxDragDecorator(vtkPVXMLElement* xml, pqPropertyWidget* paren
   , Drag(new LiveDrag(parent))
 {
   parent->installEventFilter(this);
+  QObject::connect(parent, &pqPropertyWidget::viewChanged, this, &BoxDragDecorator::watchView);
 }
 
 BoxDragDecorator::~BoxDragDecorator() = default;
@@ -63,6 +67,32 @@ bool BoxDragDecorator::eventFilter(QObject* object, QEvent* event)
     QTimer::singleShot(0, this, [this] { this->find(); });
   }
   return this->Superclass::eventFilter(object, event);
+}
+
+void BoxDragDecorator::watchView(pqView* view)
+{
+  this->ModeEvents->Disconnect();
+  vtkSMProperty* const mode = view ? view->getProxy()->GetProperty("InteractionMode") : nullptr;
+  if (mode)
+  {
+    this->ModeEvents->Connect(mode, vtkCommand::ModifiedEvent, this, SLOT(yieldMouse()));
+  }
+}
+
+void BoxDragDecorator::yieldMouse()
+{
+  const pqView* const view = this->parentWidget()->view();
+  const int mode = vtkSMPropertyHelper(view->getProxy(), "InteractionMode").GetAsInt();
+  const bool isTurned =
+    mode == vtkPVRenderView::INTERACTION_MODE_3D || mode == vtkPVRenderView::INTERACTION_MODE_2D;
+  for (auto* widget : this->parentWidget()->findChildren<pqInteractivePropertyWidget*>())
+  {
+    if (widget->isSelected() && widget->isWidgetVisible())
+    {
+      vtkSMPropertyHelper(widget->widgetProxy(), "Enabled").Set(isTurned ? 1 : 0);
+      widget->widgetProxy()->UpdateVTKObjects();
+    }
+  }
 }
 
 void BoxDragDecorator::find()

@@ -11,6 +11,7 @@
 
 class LiveDrag;
 class QEvent;
+class pqView;
 class vtkWidgetRepresentation;
 
 /// Looks after the box, sphere or plane in the view that belongs to a property of the panel, a
@@ -30,12 +31,16 @@ public:
   bool eventFilter(QObject* object, QEvent* event) override;
 
 private Q_SLOTS:
+  void watchView(pqView* view);
+  /// While a selection is made in the view, its mouse is that of the selection.
+  void yieldMouse();
   void follow();
   void end();
 
 private:
   LiveDrag* Drag;
   vtkNew<vtkEventQtSlotConnect> Events;
+  vtkNew<vtkEventQtSlotConnect> ModeEvents; ///< of the view's way of interaction
   QSet<QObject*> Known; ///< interactive widgets that are connected
   bool Asked = false;   ///< for find(), from the event loop
 

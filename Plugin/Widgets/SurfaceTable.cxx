@@ -106,6 +106,7 @@ SurfaceTable::SurfaceTable(vtkSMProxy* filter, vtkSMProperty* moves, QWidget* pa
   , What(new QComboBox(this))
   , Search(new QLineEdit(this))
   , Rows(new QTreeWidget(this))
+  , Roles(new QMenu(this))
   , Message(new QLabel(this))
   , Highlight(new SurfaceHighlight(filter))
 {
@@ -155,6 +156,15 @@ SurfaceTable::SurfaceTable(vtkSMProxy* filter, vtkSMProperty* moves, QWidget* pa
     });
   QObject::connect(
     this->Rows, &QTreeWidget::itemSelectionChanged, this, [this] { this->highlight(); });
+
+  this->Roles->setObjectName("Roles");
+  for (const Role role : { Moves, Follows, Stays, Slides, Free })
+  {
+    QAction* const action = this->Roles->addAction(tr(RoleNames[role]));
+    action->setCheckable(true);
+    QObject::connect(action, &QAction::triggered, this,
+      [this, role] { this->setRole(this->selectedNames(), role); });
+  }
 
   auto* const button = new QPushButton(tr("Add selected surfaces"), this);
   button->setObjectName("AddSelected");
@@ -431,19 +441,12 @@ bool SurfaceTable::eventFilter(QObject* object, QEvent* event)
 
 void SurfaceTable::openRoles(const QPoint& place)
 {
-  auto* const menu = new QMenu(this);
-  menu->setObjectName("Roles");
-  menu->setAttribute(Qt::WA_DeleteOnClose);
-  const QStringList names = this->selectedNames();
+  const QString first = this->selectedNames().value(0);
   for (const Role role : { Moves, Follows, Stays, Slides, Free })
   {
-    QAction* const action = menu->addAction(tr(RoleNames[role]));
-    action->setCheckable(true);
-    action->setChecked(!names.isEmpty() && this->roleOf(names.first()) == role);
-    QObject::connect(
-      action, &QAction::triggered, this, [this, names, role] { this->setRole(names, role); });
+    this->Roles->actions()[role]->setChecked(this->roleOf(first) == role);
   }
-  menu->popup(place);
+  this->Roles->popup(place);
 }
 
 void SurfaceTable::setRole(const QStringList& names, Role role)

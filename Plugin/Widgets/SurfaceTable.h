@@ -14,6 +14,7 @@
 class QComboBox;
 class QLabel;
 class QLineEdit;
+class QMenu;
 class QTreeWidget;
 class QTreeWidgetItem;
 class SurfaceHighlight;
@@ -100,6 +101,7 @@ private:
   QComboBox* What;
   QLineEdit* Search;
   QTreeWidget* Rows;
+  QMenu* Roles;
   QLabel* Message;
   std::unique_ptr<SurfaceHighlight> Highlight;
   bool AreCurvesShown = false;

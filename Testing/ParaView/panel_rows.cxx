@@ -10,6 +10,7 @@
 #include <QLineEdit>
 #include <QMainWindow>
 #include <QScrollArea>
+#include <QTreeWidget>
 
 #include <cstring>
 
@@ -38,7 +39,8 @@ QString textOf(const QWidget* widget)
 
 /// A JSON text, to be freed, of the panel in a dock of this width in pixels: "width", that of what
 /// is seen of the panel; "rows", the names of its rows, titles that fold included; "texts", all
-/// that labels and fields say; "cut", the names of what the edge of the dock cuts off; "titles",
+/// that labels and fields say; "table", the rows of the table of surfaces that are not hidden, each
+/// with its texts, whether it is ticked and whether it is selected; "cut", the names of what the edge of the dock cuts off; "titles",
 /// with what each of them says; "height".
 extern "C" Q_DECL_EXPORT char* panel_rows(int width)
 {
@@ -51,7 +53,17 @@ extern "C" Q_DECL_EXPORT char* panel_rows(int width)
   }
   auto* const panel = dock->findChild<QWidget*>("ProxyPanel");
   auto* const area = dock->findChild<QScrollArea*>("scrollArea");
-  QJsonArray rows, texts, cut;
+  QJsonArray rows, texts, cut, table;
+  auto* const surfaces = panel->findChild<QTreeWidget*>("Rows");
+  for (int i = 0; surfaces && i < surfaces->topLevelItemCount(); ++i)
+  {
+    const QTreeWidgetItem* const row = surfaces->topLevelItem(i);
+    if (!row->isHidden())
+    {
+      table.append(QJsonArray{ row->text(0), row->text(1), row->text(2), row->text(3),
+        row->checkState(0) == Qt::Checked, row->isSelected() });
+    }
+  }
   QJsonObject titles;
   for (QWidget* const one : panel->findChildren<QWidget*>())
   {
@@ -82,7 +94,8 @@ extern "C" Q_DECL_EXPORT char* panel_rows(int width)
   }
   const QByteArray made = QJsonDocument(
     QJsonObject{ { "width", area->viewport()->width() }, { "dock", dock->width() },
-      { "height", panel->height() }, { "rows", rows }, { "texts", texts }, { "cut", cut },
+      { "height", panel->height() }, { "rows", rows }, { "table", table }, { "texts", texts },
+      { "cut", cut },
       { "titles",
         titles } }).toJson(QJsonDocument::Compact);
   return strdup(made.data());

@@ -24,7 +24,9 @@ MORE_INPUTS = ("CompareMorphMethods", "MorphShapes", "MorphBoundary", "MorphAdjo
                "MorphWeightedResidual")
 
 
-class Rows(unittest.TestCase):
+class Panels(unittest.TestCase):
+    """Looks at the panel step by step."""
+
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
@@ -47,6 +49,8 @@ class Rows(unittest.TestCase):
         lines = (self.folder / "rows.jsonl").read_text(encoding="utf-8").splitlines()
         return [json.loads(line) for line in lines]
 
+
+class Rows(Panels):
     def test_a_dozen_rows_at_most(self):
         for name in ONE_INPUT + MORE_INPUTS:
             self.events.select("/0:0/0:0")
