@@ -41,8 +41,8 @@ private:
   LiveDrag* Drag;
   vtkNew<vtkEventQtSlotConnect> Events;
   vtkNew<vtkEventQtSlotConnect> ModeEvents; ///< of the view's way of interaction
-  QSet<QObject*> Known; ///< interactive widgets that are connected
-  bool Asked = false;   ///< for find(), from the event loop
+  QSet<QObject*> Known;                     ///< interactive widgets that are connected
+  bool Asked = false;                       ///< for find(), from the event loop
 
   /// Finds interactive widgets that the panel has made since: another kind of region or transform
   /// has another one.

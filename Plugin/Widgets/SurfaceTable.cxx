@@ -4,6 +4,8 @@
 #include "SurfaceColors.h"
 #include "SurfaceHighlight.h"
 
+#include <pqActiveObjects.h>
+#include <pqApplicationCore.h>
 #include <pqComboBoxDomain.h>
 #include <pqCoreUtilities.h>
 #include <pqOutputPort.h>
@@ -11,6 +13,7 @@
 #include <pqPipelineSource.h>
 #include <pqSMAdaptor.h>
 #include <pqSelectionManager.h>
+#include <pqServerManagerModel.h>
 #include <pqSignalAdaptors.h>
 #include <pqView.h>
 #include <vtkCommand.h>
@@ -32,6 +35,7 @@
 #include <QPainter>
 #include <QPushButton>
 #include <QRegularExpression>
+#include <QSet>
 #include <QStyledItemDelegate>
 #include <QTimer>
 #include <QTreeWidget>
@@ -93,6 +97,12 @@ QIcon chipOf(const QColor& color)
   return QIcon(chip);
 }
 
+/// Empty: the row that says how many curves there are.
+QString nameOf(const QTreeWidgetItem* row)
+{
+  return row->data(NameColumn, Qt::UserRole).toString();
+}
+
 QString fourDigits(const QString& text)
 {
   bool isWhole = false;
@@ -149,7 +159,7 @@ SurfaceTable::SurfaceTable(vtkSMProxy* filter, vtkSMProperty* moves, QWidget* pa
     {
       if (!this->IsFilling && column == NameColumn)
       {
-        const QString name = row->data(NameColumn, Qt::UserRole).toString();
+        const QString name = nameOf(row);
         this->setRole(row->isSelected() ? this->selectedNames() : QStringList{ name },
           row->checkState(NameColumn) == Qt::Checked ? Moves : Follows);
       }
@@ -234,16 +244,17 @@ QStringList SurfaceTable::namesOf(Role role) const
   return names;
 }
 
-SurfaceTable::Role SurfaceTable::roleOf(const QString& name) const
+QHash<QString, SurfaceTable::Role> SurfaceTable::roles() const
 {
-  for (const Role role : { Moves, Stays, Slides, Free })
+  QHash<QString, Role> roles;
+  for (const Role role : { Free, Slides, Stays, Moves }) // a script may give several
   {
-    if (this->namesOf(role).contains(name))
+    for (const QString& name : this->namesOf(role))
     {
-      return role;
+      roles[name] = role;
     }
   }
-  return Follows;
+  return roles;
 }
 
 QVector<SurfaceTable::Surface> SurfaceTable::surfaces() const
@@ -292,73 +303,71 @@ void SurfaceTable::fillLater()
   }
 }
 
+void SurfaceTable::makeRows(const QVector<Surface>& surfaces)
+{
+  this->Rows->clear();
+  bool hasCurves = false;
+  for (const Surface& one : surfaces)
+  {
+    if (one.Rank == 3 && !hasCurves)
+    {
+      hasCurves = true;
+      auto* const row = new QTreeWidgetItem(this->Rows); // says how many there are
+      row->setFlags(Qt::ItemIsEnabled);
+      row->setFirstColumnSpanned(true);
+    }
+    auto* const row = new QTreeWidgetItem(this->Rows);
+    row->setData(NameColumn, Qt::UserRole, one.Name);
+    row->setText(NameColumn, one.Name);
+    row->setToolTip(NameColumn, one.Name);
+    row->setTextAlignment(FacesColumn, Qt::AlignRight | Qt::AlignVCenter);
+    row->setTextAlignment(AreaColumn, Qt::AlignRight | Qt::AlignVCenter);
+  }
+}
+
 void SurfaceTable::fill()
 {
   this->IsDue = false;
   this->IsFilling = true;
-  const QVector<Surface> surfaces = this->surfaces();
   const QStringList selected = this->selectedNames();
-  // Rows stay where they are while a user ticks them.
-  QStringList shown, now;
-  for (int i = 0; i < this->Rows->topLevelItemCount(); ++i)
-  {
-    shown << this->Rows->topLevelItem(i)->data(NameColumn, Qt::UserRole).toString();
-  }
+  const QVector<Surface> surfaces = this->surfaces();
+  QHash<QString, Surface> byName;
   for (const Surface& one : surfaces)
   {
-    now << one.Name;
+    byName[one.Name] = one;
   }
-  QStringList sortedBefore = shown, sortedNow = now;
-  sortedBefore.removeAll(QString());
-  sortedBefore.sort();
-  sortedNow.sort();
-  if (sortedBefore != sortedNow)
+  QSet<QString> shown;
+  for (int i = 0; i < this->Rows->topLevelItemCount(); ++i)
   {
-    this->Rows->clear();
-    bool hasCurves = false;
-    for (const Surface& one : surfaces)
-    {
-      if (one.IsCurve && one.Rank == 3 && !hasCurves)
-      {
-        hasCurves = true;
-        this->Rows->addTopLevelItem(new QTreeWidgetItem); // says how many there are
-      }
-      auto* const row = new QTreeWidgetItem(this->Rows);
-      row->setData(NameColumn, Qt::UserRole, one.Name);
-      row->setText(NameColumn, one.Name);
-      row->setIcon(NameColumn, chipOf(one.Chip));
-      row->setText(FacesColumn, one.IsCurve ? tr("%1 edges").arg(one.Faces) : one.Faces);
-      row->setText(AreaColumn, one.IsCurve ? tr("%1 long").arg(one.Area) : one.Area);
-      row->setToolTip(NameColumn, one.Name);
-      for (const int column : { FacesColumn, AreaColumn })
-      {
-        row->setTextAlignment(column, Qt::AlignRight | Qt::AlignVCenter);
-      }
-    }
+    shown.insert(nameOf(this->Rows->topLevelItem(i)));
   }
-  int curves = 0;
+  shown.remove(QString());
+  // Rows stay where they are while a user ticks them.
+  const QStringList names = byName.keys();
+  if (shown != QSet<QString>(names.begin(), names.end()))
+  {
+    this->makeRows(surfaces);
+  }
+  const QHash<QString, Role> roles = this->roles();
+  const auto curves = std::count_if(
+    surfaces.begin(), surfaces.end(), [](const Surface& one) { return one.Rank == 3; });
   for (int i = 0; i < this->Rows->topLevelItemCount(); ++i)
   {
     QTreeWidgetItem* const row = this->Rows->topLevelItem(i);
-    const QString name = row->data(NameColumn, Qt::UserRole).toString();
-    if (!name.isEmpty())
-    {
-      const Role role = this->roleOf(name);
-      row->setCheckState(NameColumn, role == Moves ? Qt::Checked : Qt::Unchecked);
-      row->setText(RoleColumn, tr(RoleNames[role]));
-      curves += name.startsWith("Curve ") ? 1 : 0;
-    }
-  }
-  for (int i = 0; i < this->Rows->topLevelItemCount(); ++i)
-  {
-    QTreeWidgetItem* const row = this->Rows->topLevelItem(i);
-    if (row->data(NameColumn, Qt::UserRole).toString().isEmpty())
+    const QString name = nameOf(row);
+    if (name.isEmpty())
     {
       row->setText(
-        NameColumn, QString("%1 %2 curves").arg(this->AreCurvesShown ? "-" : "+").arg(curves));
-      row->setFlags(Qt::ItemIsEnabled);
-      row->setFirstColumnSpanned(true);
+        NameColumn, tr(this->AreCurvesShown ? "- %1 curves" : "+ %1 curves").arg(curves));
+      continue;
     }
+    const Surface& one = byName[name];
+    const Role role = roles.value(name, Follows);
+    row->setIcon(NameColumn, chipOf(one.Chip));
+    row->setText(FacesColumn, one.IsCurve ? tr("%1 edges").arg(one.Faces) : one.Faces);
+    row->setText(AreaColumn, one.IsCurve ? tr("%1 long").arg(one.Area) : one.Area);
+    row->setCheckState(NameColumn, role == Moves ? Qt::Checked : Qt::Unchecked);
+    row->setText(RoleColumn, tr(RoleNames[role]));
   }
   this->IsFilling = false;
   this->selectNames(selected);
@@ -373,7 +382,7 @@ void SurfaceTable::hideRows()
   for (int i = 0; i < this->Rows->topLevelItemCount(); ++i)
   {
     QTreeWidgetItem* const row = this->Rows->topLevelItem(i);
-    const QString name = row->data(NameColumn, Qt::UserRole).toString();
+    const QString name = nameOf(row);
     const bool isCurve = name.startsWith("Curve ");
     const bool isFound = wanted.isEmpty() ? !isCurve || this->AreCurvesShown ||
                                               row->text(RoleColumn) != tr(RoleNames[Follows])
@@ -391,7 +400,7 @@ QStringList SurfaceTable::selectedNames() const
   QStringList names;
   for (const QTreeWidgetItem* row : this->Rows->selectedItems())
   {
-    names << row->data(NameColumn, Qt::UserRole).toString();
+    names << nameOf(row);
   }
   return names;
 }
@@ -402,7 +411,7 @@ void SurfaceTable::selectNames(const QStringList& names)
   for (int i = 0; i < this->Rows->topLevelItemCount(); ++i)
   {
     QTreeWidgetItem* const row = this->Rows->topLevelItem(i);
-    const QString name = row->data(NameColumn, Qt::UserRole).toString();
+    const QString name = nameOf(row);
     row->setSelected(!name.isEmpty() && names.contains(name));
     first = row->isSelected() && !first ? row : first;
   }
@@ -418,7 +427,7 @@ bool SurfaceTable::eventFilter(QObject* object, QEvent* event)
   {
     const auto* const press = static_cast<QMouseEvent*>(event);
     QTreeWidgetItem* const row = this->Rows->itemAt(press->pos());
-    if (row && row->data(NameColumn, Qt::UserRole).toString().isEmpty())
+    if (row && nameOf(row).isEmpty())
     {
       this->AreCurvesShown = !this->AreCurvesShown;
       this->fillLater();
@@ -441,10 +450,10 @@ bool SurfaceTable::eventFilter(QObject* object, QEvent* event)
 
 void SurfaceTable::openRoles(const QPoint& place)
 {
-  const QString first = this->selectedNames().value(0);
+  const Role present = this->roles().value(this->selectedNames().value(0), Follows);
   for (const Role role : { Moves, Follows, Stays, Slides, Free })
   {
-    this->Roles->actions()[role]->setChecked(this->roleOf(first) == role);
+    this->Roles->actions()[role]->setChecked(role == present);
   }
   this->Roles->popup(place);
 }
@@ -584,6 +593,14 @@ void SurfaceTable::pickRows(pqOutputPort* port)
     return;
   }
   this->selectNames(this->pickedNames(selection, isOwn ? port->getPortNumber() : -1));
+  // ParaView makes the input active, on which was selected; a new filter is still being filled in.
+  const auto* const model = pqApplicationCore::instance()->getServerManagerModel();
+  auto* const filter = model->findItem<pqPipelineSource*>(this->proxy());
+  if (!isOwn && filter && filter->modifiedState() == pqProxy::UNINITIALIZED)
+  {
+    QTimer::singleShot(
+      0, filter, [filter] { pqActiveObjects::instance().setActiveSource(filter); });
+  }
 }
 
 void SurfaceTable::addSelected()

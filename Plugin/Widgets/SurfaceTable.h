@@ -5,6 +5,7 @@
 #include <pqPropertyWidget.h>
 
 #include <QColor>
+#include <QHash>
 #include <QString>
 #include <QStringList>
 #include <QVector>
@@ -86,9 +87,11 @@ private:
   vtkSMProperty* named(const char* role) const;
   vtkSMProperty* listOf(Role role) const;
   QStringList namesOf(Role role) const;
-  Role roleOf(const QString& name) const;
+  /// Of those that do not follow.
+  QHash<QString, Role> roles() const;
   QVector<Surface> surfaces() const;
 
+  void makeRows(const QVector<Surface>& surfaces);
   void fill();
   void hideRows();
   void openRoles(const QPoint& place);

@@ -34,6 +34,12 @@ class Table(Panels):
     def roles(self, panel):
         return {row[0]: row[ROLE] for row in panel["table"] if row[ROLE]}
 
+    def loaded(self, look):
+        """The filter, in this process."""
+        simple.ResetSession()
+        simple.LoadState(str(self.folder / f"{look}.pvsm"))
+        return simple.FindSource("MorphMesh1")
+
     def test_roles(self):
         self.events.filter("MorphMesh")
         self.look("new")
@@ -53,8 +59,7 @@ class Table(Panels):
                                               "Surface 2": "Stays", "Surface 3": "Moves"})
         self.assertEqual(self.roles(applied), self.roles(chosen))
         self.assertEqual(applied["table"][0][0], "Surface 3")  # what moves comes first
-        simple.LoadState(str(self.folder / "applied.pvsm"))
-        morph = simple.FindSource("MorphMesh1")
+        morph = self.loaded("applied")
         self.assertEqual(list(morph.Surfaces), ["Surface 3"])
         self.assertEqual(list(morph.SlidingSurfaces), ["Surface 1"])
         self.assertEqual(list(morph.FixedSurfaces), ["Surface 0", "Surface 2"])
@@ -88,9 +93,7 @@ class Table(Panels):
         self.assertIn("Moves: Surface 3", added["texts"])
         self.assertEqual([row[0] for row in again["table"] if row[-1]], chosen)
         for name in ("selected", "again"):  # no box took the mouse
-            simple.ResetSession()
-            simple.LoadState(str(self.folder / f"{name}.pvsm"))
-            self.assertEqual(list(simple.FindSource("MorphMesh1").Transform.Translate), [0, 0, 0])
+            self.assertEqual(list(self.loaded(name).Transform.Translate), [0, 0, 0])
 
 
 if __name__ == "__main__":
