@@ -152,7 +152,9 @@ void BoxDragDecorator::shorten() const
   {
     if (label->text().contains("Interactivity Controls"))
     {
-      label->hide();
+      label->setWordWrap(true);
+      label->setText(tr(
+        "Drag a handle to stretch, a face to turn, the middle or with the middle button to move."));
     }
   }
 }

@@ -49,7 +49,7 @@ private:
   void find();
   /// ParaView has no label for one of its transforms, and would show its name.
   void labelTransforms() const;
-  /// What a box can do in the view stays on: its ticks would take a fifth of the panel.
+  /// A text says which drag does what, in place of ticks that forbid it.
   void shorten() const;
   void color(vtkWidgetRepresentation* shown) const;
 };

@@ -163,7 +163,8 @@ QString Fold::told() const
   const QStringList values = valuesOf(property);
   if (property->GetInformationOnly() != 0)
   {
-    if (words.isEmpty() || !this->hasResult())
+    if (words.isEmpty() || !this->hasResult() ||
+        values == valuesOf(defaultOf(this->parentWidget())))
     {
       return {};
     }
