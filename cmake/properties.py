@@ -62,6 +62,11 @@ class Row:
         return str(self.values.index(self.default)) if self.kind == "choice" else self.default
 
     @property
+    def has_widget(self):
+        """Of its own, in the panel."""
+        return self["panel"] not in ("never", "table")
+
+    @property
     def option(self):
         """Of morph-mesh; none: None."""
         if self["option"] == "-" or self.kind == "own":
@@ -81,6 +86,15 @@ def rows(table, classes):
     """Of a class, given with its superclasses, derived classes first."""
     return [Row(name, table[name], classes) for name in table.sections()
             if set(table[name]["filters"].split()) & set(classes)]
+
+
+def panel_order(own):
+    """The groups that are always open, and the rows with these first, each group together."""
+    groups = list(dict.fromkeys(row["group"] for row in own if row.has_widget))
+    opened = {"", *[group for group in groups if group][:1], *OPEN}
+    groups.sort(key=lambda group: group not in opened)
+    place = {group: i for i, group in enumerate(groups)}
+    return opened, sorted(own, key=lambda row: place.get(row["group"], -1))
 
 
 def bases():
@@ -400,15 +414,17 @@ def property_xml(row, find, more=""):
                 f'default_values="{default}"')
     if row.name.isupper():  # else ParaView puts spaces between the letters
         what += f' label="{row.name}"'
-    panel = row["panel"] or "default"
+    panel = {"table": "never"}.get(row["panel"], row["panel"] or "default")
     visible = f' panel_visibility="{panel}"' if panel != "default" else ""
     animated = ' animateable="1"' if row["animated"] == "yes" else ""
     hints = []
     if row.kind in LISTS:
         hints.append("<OmitFromLoadAllVariables/>")
-        hints.append('<ZoneList sizes="ZoneSizes" columns="Cells Nodes"/>'
-                     if row.kind == "zones" else SURFACE_TABLE if row.name == "Surfaces" else "")
-    if row["shown"]:
+    if row.kind == "zones":
+        hints.append('<ZoneList sizes="ZoneSizes" columns="Cells Nodes"/>')
+    if row.name == "Surfaces":  # always shown: the table chooses what moves, too
+        hints.append(SURFACE_TABLE)
+    elif row["shown"]:
         hints.append(condition(row["shown"], find))
     if row["unit"] or row.kind == "zones":  # these lists have no label of their own
         label = row.words + (f' ({row["unit"]})' if row["unit"] else "")
@@ -433,14 +449,12 @@ def make_xml(folder):
         classes = [cls, *chains.get(cls, [])]
         own = rows(table, [proxy, *classes])
         find = {row.name: row for row in own}.__getitem__
-        shown = [row["group"] for row in own if row["group"] and row["panel"] != "never"]
-        opened = {*shown[:1], *OPEN}
-        own.sort(key=lambda row: row["group"] not in opened)
+        opened, own = panel_order(own)
         made = "".join(own_xml(row, classes, find) if row.kind == "own" else property_xml(row, find)
                        for row in own)
         groups = {}
         for row in own:
-            if row["group"] not in opened and row["panel"] != "never":
+            if row["group"] not in opened and row.has_widget:
                 groups.setdefault(row["group"], "")
                 groups[row["group"]] += f'        <Property name="{row.name}"/>\n'
         grouped = "".join(f'      <PropertyGroup label="{label}">\n{names}      </PropertyGroup>\n'
@@ -622,7 +636,7 @@ def make_pages(folder):
         page = [f"# {label}", "", f"The properties of *{label}* (`{proxy}` in Python, "
                 f"`vtk{cls}` in C++), in the order of its panel."]
         group = None
-        for row in rows(table, [proxy, cls, *chains.get(cls, [])]):
+        for row in panel_order(rows(table, [proxy, cls, *chains.get(cls, [])]))[1]:
             if row.kind == "own" or row["panel"] == "never":
                 continue
             if row["group"] != group:
