@@ -39,7 +39,7 @@ QString textOf(const QWidget* widget)
 
 /// A JSON text, to be freed, of the panel in a dock of this width in pixels: "width", that of what
 /// is seen of the panel; "rows", the names of its rows, titles that fold included; "texts", all
-/// that labels and fields say; "table", the rows of the table of surfaces that are not hidden, each
+/// that labels and fields say; "styles", of labels with a style of their own, by their texts; "table", the rows of the table of surfaces that are not hidden, each
 /// with its texts, whether it is ticked and whether it is selected; "cut", the names of what the edge of the dock cuts off; "titles",
 /// with what each of them says; "height".
 extern "C" Q_DECL_EXPORT char* panel_rows(int width)
@@ -64,7 +64,7 @@ extern "C" Q_DECL_EXPORT char* panel_rows(int width)
         row->checkState(0) == Qt::Checked, row->isSelected() });
     }
   }
-  QJsonObject titles;
+  QJsonObject titles, styles;
   for (QWidget* const one : panel->findChildren<QWidget*>())
   {
     if (!one->isVisible())
@@ -83,6 +83,7 @@ extern "C" Q_DECL_EXPORT char* panel_rows(int width)
     if (!textOf(one).isEmpty())
     {
       texts.append(textOf(one));
+      styles[textOf(one)] = one->styleSheet();
     }
     const int right = one->mapTo(area->viewport(), QPoint(one->width(), 0)).x();
     if (right > area->viewport()->width())
@@ -92,11 +93,8 @@ extern "C" Q_DECL_EXPORT char* panel_rows(int width)
                    .arg(one->minimumSizeHint().width()));
     }
   }
-  const QByteArray made = QJsonDocument(
-    QJsonObject{ { "width", area->viewport()->width() }, { "dock", dock->width() },
-      { "height", panel->height() }, { "rows", rows }, { "table", table }, { "texts", texts },
-      { "cut", cut },
-      { "titles",
-        titles } }).toJson(QJsonDocument::Compact);
-  return strdup(made.data());
+  const QJsonObject all{ { "width", area->viewport()->width() }, { "dock", dock->width() },
+    { "height", panel->height() }, { "rows", rows }, { "table", table }, { "texts", texts },
+    { "styles", styles }, { "cut", cut }, { "titles", titles } };
+  return strdup(QJsonDocument(all).toJson(QJsonDocument::Compact).data());
 }

@@ -11,10 +11,14 @@ import tempfile
 import unittest
 from pathlib import Path
 
+from paraview import simple
+
 from window_events import HERE, Events
 
-MESH = HERE.parents[1] / "Data/Models/small/canister_hex_small.vtu"
+SMALL = HERE.parents[1] / "Data/Models/small"
 MOST, DOCK = 12, 340
+simple.LoadPlugin(os.environ["MESHMORPHING_PLUGIN"], remote=False, ns=globals())
+
 #: With one input, and with a dialog for more.
 ONE_INPUT = ("MorphMesh", "FitToSurface", "BoundaryDisplacement", "ScaledJacobian",
              "ClassifyBoundary", "ExtractMorphBoundary")
@@ -26,6 +30,7 @@ MORE_INPUTS = ("CompareMorphMethods", "MorphShapes", "MorphBoundary", "MorphAdjo
 
 class Panels(unittest.TestCase):
     """Looks at the panel step by step."""
+    mesh = "canister_hex_small.vtu"
 
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
@@ -33,7 +38,7 @@ class Panels(unittest.TestCase):
         self.folder = Path(folder.name)
         self.events = Events()
         self.events.load_plugin(os.environ["MESHMORPHING_PLUGIN"])
-        self.events.open(str(MESH))
+        self.events.open(str(SMALL / self.mesh))
 
     def look(self, name):
         self.events.save_state(self.folder / f"{name}.pvsm")
@@ -81,6 +86,40 @@ class Rows(Panels):
         self.assertEqual(set(opened["rows"]) - set(closed["rows"]),
                          {"ScaleFactor", "NumberOfSteps", "Stepping"})
         self.assertIn("KeepLayers", filled["rows"])  # a value opens its group
+
+
+class Status(Panels):
+    """The first line of the panel says how the morph ended, in a color."""
+    mesh = "bore_hex_small.vtu"
+    GREEN, ORANGE, RED = "#2e7d32", "#b35900", "#b71c1c"
+
+    def test_valid_partial_inverted_failed(self):
+        up = {"Surfaces": ["Surface 1"], "Displacement": "Vector", "Surroundings": "Stay"}
+        morph = MorphMesh(Input=simple.OpenDataFile(str(SMALL / self.mesh)), **up)
+        self.events.filter("MorphMesh")
+        for command, buttons in (("mousePress", "1,1"), ("mouseRelease", "1,0")):
+            self.events.set("Surfaces/Rows", command, f"{buttons},0,12,8,/1:0")
+        self.events.set("Displacement/ComboBox", "set_string", "Vector")
+        self.events.set("Surroundings/ComboBox", "set_string", "Stay")
+        said = []
+        for height, validity in ((0.1, "Repair"), (1.5, "Sub step"), (1.5, "Report")):
+            morph.Vector, morph.Validity = [0, 0, height], validity
+            morph.UpdatePipeline()
+            said.append({"Valid": "Valid", "Partial": f"Reached {int(100 * morph.LargestValidStep)}"
+                         " % of the motion", "Inverted": f"{morph.InvertedCells} inverted cells"}
+                        [morph.MorphStatus] + f", minimum {morph.MinScaledJacobian:.3g}")
+            self.events.set("Validity/ComboBox", "set_string", validity)
+            self.events.set("Vector/DoubleLineEdit2", "set_string", str(height))
+            self.events.apply()
+            self.look(validity)
+        self.events.set("Displacement/ComboBox", "set_string", "Radius")
+        self.events.set("RadiusChange/DoubleLineEdit0", "set_string", "-9")
+        self.events.apply()  # more than there is
+        self.look("Radius")
+        said.append("Failed: the mesh is undeformed")
+        colors = self.GREEN, self.ORANGE, self.RED, self.RED
+        for panel, text, color in zip(self.play(), said, colors, strict=True):
+            self.assertIn(color, panel["styles"].get(text, ""), panel["texts"])
 
 
 if __name__ == "__main__":
