@@ -32,9 +32,9 @@ class Tutorial(Events):
         self.open(str(MESH))
 
     def tick(self, row):
-        """In the list of surfaces, which ParaView sorts: curves come first."""
+        """In the table of surfaces."""
         for command, buttons in (("mousePress", "1,1"), ("mouseRelease", "1,0")):
-            self.set("Surfaces/ArraySelectionWidget", command, f"{buttons},0,12,8,/{row}:0")
+            self.set("Surfaces/Rows", command, f"{buttons},0,12,8,/{row}:0")
 
     def show_the_surfaces(self):
         self.filter("MorphMesh")
@@ -42,7 +42,7 @@ class Tutorial(Events):
 
     def widen_the_hole(self):
         self.filter("MorphMesh")
-        self.tick(4)
+        self.tick(0)
         self.set("Displacement/ComboBox", "set_string", "Radius")
         self.set("RadiusChange/DoubleLineEdit0", "set_string", "0.1")
         self.apply()

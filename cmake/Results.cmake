@@ -30,6 +30,17 @@ set(morph_label_MeanTargetDistanceBefore "Mean distance before")
 set(morph_label_MaxTargetDistance "Largest distance after")
 set(morph_label_MeanTargetDistance "Mean distance after")
 
+# What the title of a closed group says of a result, %1 being its value (Plugin/Widgets/Fold.h).
+set(morph_told_MorphStatus "%1")
+set(morph_told_MinScaledJacobian "minimum %1")
+set(morph_told_InvertedCells "%1 inverted")
+set(morph_told_BestMethod "%1")
+set(morph_told_FoldedFaces "%1 folded")
+set(morph_told_MaxTargetDistance "distance %1")
+set(morph_told_MovingPoints "%1 nodes move")
+set(morph_told_FollowingPoints "%1 follow")
+set(morph_told_NumberOfSurfaces "%1 surfaces")
+
 # morph_results(SECTION ...) reads these sections and sets, in the caller's scope,
 #   ResultRows         their rows as C++ (Private/Data/Results.h),
 #   <group>Properties  for each group: the information properties of ParaView's XML,
@@ -109,10 +120,14 @@ function (morph_result_xml name kind none panel documentation)
   endif ()
   set(hints)
   if (morph_label_${name})
-    string(CONCAT hints
-      "        <Hints>\n"
-      "          <PropertyWidgetDecorator type=\"PanelLabel\" text=\"${morph_label_${name}}\"/>\n"
-      "        </Hints>\n")
+    set(hints
+      "          <PropertyWidgetDecorator type=\"PanelLabel\" text=\"${morph_label_${name}}\"/>\n")
+  endif ()
+  if (morph_told_${name})
+    string(APPEND hints "          <Told text=\"${morph_told_${name}}\"/>\n")
+  endif ()
+  if (hints)
+    string(CONCAT hints "        <Hints>\n" "${hints}" "        </Hints>\n")
   endif ()
   string(CONCAT property
     "      <${type}VectorProperty name=\"${name}\" command=\"Get${name}\"\n"

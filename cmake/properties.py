@@ -19,6 +19,8 @@ import textwrap
 PROJECT = pathlib.Path(__file__).resolve().parent.parent
 MODULE = PROJECT / "Filters" / "Morphing"
 LISTS = {"surfaces": "Surface", "zones": "Zone"}  # sets of names that a list of the filter has
+#: Groups of the panel that have no title; the others are folded, but a filter's first.
+OPEN = ("What moves", "How it moves", "Boundary", "Method", "Motion", "Shapes")
 KINDS = ("number", "numbers", "integer", "integers", "flag", "choice", "text", "array", *LISTS,
          "own")
 
@@ -60,6 +62,11 @@ class Row:
         return str(self.values.index(self.default)) if self.kind == "choice" else self.default
 
     @property
+    def has_widget(self):
+        """Of its own, in the panel."""
+        return self["panel"] not in ("never", "table")
+
+    @property
     def option(self):
         """Of morph-mesh; none: None."""
         if self["option"] == "-" or self.kind == "own":
@@ -79,6 +86,15 @@ def rows(table, classes):
     """Of a class, given with its superclasses, derived classes first."""
     return [Row(name, table[name], classes) for name in table.sections()
             if set(table[name]["filters"].split()) & set(classes)]
+
+
+def panel_order(own):
+    """The groups that are always open, and the rows with these first, each group together."""
+    groups = list(dict.fromkeys(row["group"] for row in own if row.has_widget))
+    opened = {"", *[group for group in groups if group][:1], *OPEN}
+    groups.sort(key=lambda group: group not in opened)
+    place = {group: i for i, group in enumerate(groups)}
+    return opened, sorted(own, key=lambda row: place.get(row["group"], -1))
 
 
 def bases():
@@ -377,32 +393,44 @@ def domain(row):
     return f'<{kind}RangeDomain name="range"{least}{most}/>'
 
 
+#: The lists of surfaces are one table, which is the widget of the first.
+SURFACE_TABLE = (
+    '<SurfaceTable stays="FixedSurfaces" slides="SlidingSurfaces" free="FreeSurfaces" '
+    'moving="Moving" sizes="SurfaceSizes" pick="Pick" port="PickPort" picked="PickedSurfaces"/>')
+
+
 def property_xml(row, find, more=""):
     kind = {"number": "Double", "numbers": "Double", "integer": "Int", "integers": "Int",
             "flag": "Int", "choice": "Int"}.get(row.kind, "String")
     if row.kind in LISTS:
         what = (f'command="Set{row.name[:-1]}Status" clean_command="RemoveAll{row.name}" '
                 'information_property="SurfaceList" repeat_command="1" '
-                'number_of_elements_per_command="2" element_types="2 0" panel_widget="SurfaceList"')
+                'number_of_elements_per_command="2" element_types="2 0"')
+        what += {"zones": ' panel_widget="ZoneList"'}.get(
+            row.kind, ' panel_widget="SurfaceTable"' if row.name == "Surfaces" else "")
     else:
         default = row.default_number or ("None" if row.kind == "array" else "")
         what = (f'command="Set{row.name}" number_of_elements="{row.count}" '
                 f'default_values="{default}"')
     if row.name.isupper():  # else ParaView puts spaces between the letters
         what += f' label="{row.name}"'
-    panel = row["panel"] or "default"
+    panel = {"table": "never"}.get(row["panel"], row["panel"] or "default")
     visible = f' panel_visibility="{panel}"' if panel != "default" else ""
     animated = ' animateable="1"' if row["animated"] == "yes" else ""
     hints = []
     if row.kind in LISTS:
-        counts = {"surfaces": "Faces Area", "zones": "Cells Nodes"}[row.kind]
-        hints += ["<OmitFromLoadAllVariables/>",
-                  f'<SurfaceList sizes="{LISTS[row.kind]}Sizes" columns="{counts}"/>']
-    if row["shown"]:
+        hints.append("<OmitFromLoadAllVariables/>")
+    if row.kind == "zones":
+        hints.append('<ZoneList sizes="ZoneSizes" columns="Cells Nodes"/>')
+    if row.name == "Surfaces":  # always shown: the table chooses what moves, too
+        hints.append(SURFACE_TABLE)
+    elif row["shown"]:
         hints.append(condition(row["shown"], find))
-    if row["unit"] or row.kind in LISTS:  # lists have no label of their own
+    if row["unit"] or row.kind == "zones":  # these lists have no label of their own
         label = row.words + (f' ({row["unit"]})' if row["unit"] else "")
         hints.append(f'<PropertyWidgetDecorator type="PanelLabel" text="{label}"/>')
+    if row["told"]:
+        hints.append(f'<Told text="{row["told"]}"/>')
     hint = f"<Hints>{''.join(hints)}</Hints>" if hints else ""
     text = escaped(" ".join(row.paragraphs[0].split()))
     return (f'      <{kind}VectorProperty name="{row.name}" {what}{animated}{visible}{more}>\n'
@@ -421,17 +449,21 @@ def make_xml(folder):
         classes = [cls, *chains.get(cls, [])]
         own = rows(table, [proxy, *classes])
         find = {row.name: row for row in own}.__getitem__
+        opened, own = panel_order(own)
         made = "".join(own_xml(row, classes, find) if row.kind == "own" else property_xml(row, find)
                        for row in own)
         groups = {}
         for row in own:
-            if row["group"] and row["panel"] != "never":
+            if row["group"] not in opened and row.has_widget:
                 groups.setdefault(row["group"], "")
                 groups[row["group"]] += f'        <Property name="{row.name}"/>\n'
         grouped = "".join(f'      <PropertyGroup label="{label}">\n{names}      </PropertyGroup>\n'
                           for label, names in groups.items())
         text = text.replace("@Properties@", made.rstrip("\n"))
         text = text.replace("@Groups@", grouped.rstrip("\n"))
+        fold = '<Hints><PropertyWidgetDecorator type="Fold" title="{0}"/></Hints>'
+        text = re.sub(r'(?s)(<PropertyGroup label="([^"]+)">.*?)( *</PropertyGroup>)',
+                      lambda m: f"{m[1]}        {fold.format(m[2])}\n{m[3]}", text)
         text = re.sub(r"@Override (\w+)@\n",
                       lambda m: property_xml(find(m[1]), find, ' override="1"'), text)
         write(folder / template.name, text)
@@ -604,7 +636,7 @@ def make_pages(folder):
         page = [f"# {label}", "", f"The properties of *{label}* (`{proxy}` in Python, "
                 f"`vtk{cls}` in C++), in the order of its panel."]
         group = None
-        for row in rows(table, [proxy, cls, *chains.get(cls, [])]):
+        for row in panel_order(rows(table, [proxy, cls, *chains.get(cls, [])]))[1]:
             if row.kind == "own" or row["panel"] == "never":
                 continue
             if row["group"] != group:

@@ -177,9 +177,20 @@ void BoxAboutCenter::placeLater()
   QTimer::singleShot(0, this, SLOT(place()));
 }
 
+bool BoxAboutCenter::isOfNothing(const vtkBoundingBox& box) const
+{
+  return this->List && this->Moving && !box.IsValid() &&
+         vtkSMUncheckedPropertyHelper(this->Moving).GetAsInt() == this->MovingList;
+}
+
 void BoxAboutCenter::place()
 {
   const vtkBoundingBox box = this->ticked();
+  if (this->isOfNothing(box) != this->IsOfNothing)
+  {
+    this->IsOfNothing = !this->IsOfNothing;
+    this->Box->setWidgetVisible(!this->IsOfNothing && !this->isAboutCenter());
+  }
   vtkSMProxy* const shown = this->Box->widgetProxy();
   if (box.IsValid())
   {

@@ -16,7 +16,7 @@ class vtkSMProxy;
 /// does so about the origin, and places its box around the whole input.
 ///
 /// The box is placed around the surfaces that are ticked, so that it turns about their center when
-/// it is dragged. Where a region moves, whose own box may be around the whole input as well, it is
+/// it is dragged. With nothing ticked there is no box: it would take the mouse from the view. Where a region moves, whose own box may be around the whole input as well, it is
 /// a bit larger than the input. When a rotation or a scale is typed, the translation is changed
 /// with it, so that the center stays where it is. The filter's property Center is the center where
 /// AutoCenter is off.
@@ -53,6 +53,7 @@ private:
   int MovingRegion = -1; ///< of Moving
   Triple Middle{};       ///< of the box before it is moved
   Numbers Before{};
+  bool IsOfNothing = false; ///< and hidden
 
   vtkSMProperty* named(vtkPVXMLElement* hint, const char* role) const;
   Numbers read() const;
@@ -60,6 +61,8 @@ private:
   bool isAboutCenter() const;
   /// Around what is ticked; not valid where nothing is.
   vtkBoundingBox ticked() const;
+  /// Whether the list says what moves, and nothing is ticked.
+  bool isOfNothing(const vtkBoundingBox& box) const;
 };
 
 #endif

@@ -6,19 +6,24 @@
 
 #include <pqInteractivePropertyWidget.h>
 #include <pqPropertyWidget.h>
+#include <pqView.h>
 #include <vtkAbstractWidget.h>
 #include <vtkBoxRepresentation.h>
 #include <vtkCommand.h>
+#include <vtkPVRenderView.h>
 #include <vtkPVXMLElement.h>
 #include <vtkProperty.h>
 #include <vtkSMDoubleVectorProperty.h>
 #include <vtkSMNewWidgetRepresentationProxy.h>
+#include <vtkSMPropertyHelper.h>
 #include <vtkSMPropertyIterator.h>
 #include <vtkSMProxy.h>
 #include <vtkSmartPointer.h>
 
+#include <QCheckBox>
 #include <QComboBox>
 #include <QEvent>
+#include <QLabel>
 #include <QTimer>
 
 #include <string>
@@ -48,6 +53,7 @@ BoxDragDecorator::BoxDragDecorator(vtkPVXMLElement* xml, pqPropertyWidget* paren
   , Drag(new LiveDrag(parent))
 {
   parent->installEventFilter(this);
+  QObject::connect(parent, &pqPropertyWidget::viewChanged, this, &BoxDragDecorator::watchView);
 }
 
 BoxDragDecorator::~BoxDragDecorator() = default;
@@ -63,10 +69,37 @@ bool BoxDragDecorator::eventFilter(QObject* object, QEvent* event)
   return this->Superclass::eventFilter(object, event);
 }
 
+void BoxDragDecorator::watchView(pqView* view)
+{
+  this->ModeEvents->Disconnect();
+  vtkSMProperty* const mode = view ? view->getProxy()->GetProperty("InteractionMode") : nullptr;
+  if (mode)
+  {
+    this->ModeEvents->Connect(mode, vtkCommand::ModifiedEvent, this, SLOT(yieldMouse()));
+  }
+}
+
+void BoxDragDecorator::yieldMouse()
+{
+  const pqView* const view = this->parentWidget()->view();
+  const int mode = vtkSMPropertyHelper(view->getProxy(), "InteractionMode").GetAsInt();
+  const bool isTurned =
+    mode == vtkPVRenderView::INTERACTION_MODE_3D || mode == vtkPVRenderView::INTERACTION_MODE_2D;
+  for (auto* widget : this->parentWidget()->findChildren<pqInteractivePropertyWidget*>())
+  {
+    if (widget->isSelected() && widget->isWidgetVisible())
+    {
+      vtkSMPropertyHelper(widget->widgetProxy(), "Enabled").Set(isTurned ? 1 : 0);
+      widget->widgetProxy()->UpdateVTKObjects();
+    }
+  }
+}
+
 void BoxDragDecorator::find()
 {
   this->Asked = false;
   this->labelTransforms();
+  this->shorten();
   for (auto* widget : this->parentWidget()->findChildren<pqInteractivePropertyWidget*>())
   {
     vtkAbstractWidget* const shown = widget->widgetProxy()->GetWidget();
@@ -101,6 +134,27 @@ void BoxDragDecorator::labelTransforms() const
     if (place >= 0)
     {
       list->setItemText(place, tr("Rotation about a point"));
+    }
+  }
+}
+
+void BoxDragDecorator::shorten() const
+{
+  for (const char* const name :
+    { "enableTranslation", "enableRotation", "enableScaling", "enableMoveFaces" })
+  {
+    if (auto* const tick = this->parentWidget()->findChild<QCheckBox*>(name))
+    {
+      tick->hide();
+    }
+  }
+  for (auto* const label : this->parentWidget()->findChildren<QLabel*>())
+  {
+    if (label->text().contains("Interactivity Controls"))
+    {
+      label->setWordWrap(true);
+      label->setText(tr(
+        "Drag a handle to stretch, a face to turn, the middle or with the middle button to move."));
     }
   }
 }

@@ -11,6 +11,7 @@
 
 class LiveDrag;
 class QEvent;
+class pqView;
 class vtkWidgetRepresentation;
 
 /// Looks after the box, sphere or plane in the view that belongs to a property of the panel, a
@@ -30,20 +31,26 @@ public:
   bool eventFilter(QObject* object, QEvent* event) override;
 
 private Q_SLOTS:
+  void watchView(pqView* view);
+  /// While a selection is made in the view, its mouse is that of the selection.
+  void yieldMouse();
   void follow();
   void end();
 
 private:
   LiveDrag* Drag;
   vtkNew<vtkEventQtSlotConnect> Events;
-  QSet<QObject*> Known; ///< interactive widgets that are connected
-  bool Asked = false;   ///< for find(), from the event loop
+  vtkNew<vtkEventQtSlotConnect> ModeEvents; ///< of the view's way of interaction
+  QSet<QObject*> Known;                     ///< interactive widgets that are connected
+  bool Asked = false;                       ///< for find(), from the event loop
 
   /// Finds interactive widgets that the panel has made since: another kind of region or transform
   /// has another one.
   void find();
   /// ParaView has no label for one of its transforms, and would show its name.
   void labelTransforms() const;
+  /// A text says which drag does what, in place of ticks that forbid it.
+  void shorten() const;
   void color(vtkWidgetRepresentation* shown) const;
 };
 

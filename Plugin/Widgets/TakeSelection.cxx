@@ -6,6 +6,8 @@
 #include <pqPropertyWidget.h>
 #include <pqSelectionInputWidget.h>
 #include <pqServerManagerModel.h>
+#include <vtkPVXMLElement.h>
+#include <vtkSMProperty.h>
 #include <vtkSMPropertyHelper.h>
 #include <vtkSMProxy.h>
 #include <vtkSMSourceProxy.h>
@@ -40,5 +42,11 @@ void TakeSelection::take()
   if (copier && source && source->GetSelectionInput(input.GetOutputPort()))
   {
     QMetaObject::invokeMethod(copier, "copyActiveSelection"); // a protected slot
+    const char* const moving = this->xml()->GetAttribute("moving");
+    vtkSMProperty* const what = moving ? proxy->GetProperty("Moving") : nullptr;
+    if (what)
+    {
+      vtkSMPropertyHelper(what).Set(moving);
+    }
   }
 }

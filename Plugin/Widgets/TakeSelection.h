@@ -5,9 +5,10 @@
 #include <pqPropertyWidgetDecorator.h>
 
 /// Gives a new filter the selection that its input has in the view, as if *Copy Active Selection*
-/// were pressed. For an input property that takes a selection:
+/// were pressed, and the filter's property Moving the entry `moving`. For an input property that
+/// takes a selection:
 ///
-///     <PropertyWidgetDecorator type="TakeSelection"/>
+///     <PropertyWidgetDecorator type="TakeSelection" moving="Selection"/>
 class TakeSelection : public pqPropertyWidgetDecorator
 {
   Q_OBJECT

@@ -52,12 +52,13 @@ if (PARAVIEW_USE_QT)
   morph_auto_start(FirstHit)
   morph_auto_start(SeriesColors)
   morph_action_group(SaveCoordinates "MenuBar/File")
-  morph_property_widget(SurfaceList SurfaceList WIDGET)
-  morph_property_widget(SurfacePicker surface_picker WIDGET)
-  morph_property_widget(Advice Advice WIDGET)
+  morph_property_widget(ZoneList ZoneList WIDGET)
+  morph_property_widget(SurfaceTable SurfaceTable WIDGET)
+  morph_property_widget(StatusLine StatusLine WIDGET)
   morph_property_widget(WholeNumber WholeNumber WIDGET)
   morph_property_widget(PanelLabel PanelLabel WIDGET_DECORATOR)
-  morph_property_widget(NarrowPanel NarrowPanel WIDGET_DECORATOR)
+  morph_property_widget(Beside Beside WIDGET_DECORATOR)
+  morph_property_widget(Fold Fold WIDGET_DECORATOR)
   morph_property_widget(CopiedSelection CopiedSelection WIDGET_DECORATOR)
   morph_property_widget(StretchedColumns StretchedColumns WIDGET_DECORATOR)
   morph_property_widget(TakeSelection TakeSelection WIDGET_DECORATOR)
@@ -68,6 +69,8 @@ if (PARAVIEW_USE_QT)
   endif ()
   list(APPEND widget_sources
     Widgets/BoxAboutCenter.cxx Widgets/BoxAboutCenter.h
+    Widgets/FoldTitle.cxx Widgets/FoldTitle.h
+    Widgets/Folds.cxx Widgets/Folds.h
     Widgets/HintedResults.cxx Widgets/HintedResults.h
     Widgets/LiveDrag.cxx Widgets/LiveDrag.h
     Widgets/SurfaceColors.cxx Widgets/SurfaceColors.h

@@ -29,6 +29,15 @@ def field(name, value):
     return f"{PANEL}{name}/{'Number' if isinstance(value, int) else 'DoubleLineEdit0'}"
 
 
+def rows(names):
+    """In the order of the table of surfaces: those that the file names, then by number."""
+    def place(name):
+        kind, _, number = name.partition(" ")
+        numbered = kind in ("Surface", "Curve") and number.isdigit()
+        return (1 + ("Surface", "Curve").index(kind), int(number)) if numbered else (0, 0)
+    return sorted(names, key=place)
+
+
 def category(name):
     """The menu of a filter of the plugin."""
     return "Mesh Morphing" if name in FIRST else "Mesh Morphing Steps"

@@ -17,7 +17,7 @@ from paraview import servermanager, simple
 from paraview.vtk.util.numpy_support import vtk_to_numpy
 
 from versions import BOX_FIELDS, blocks_for_exodus
-from window_events import PANEL
+from window_events import PANEL, rows
 from window_morph_mesh import BOX, text
 from window_tasks import COLORS, NUMBERS, Tasks
 
@@ -70,10 +70,10 @@ class FirstTasks(unittest.TestCase):
         self.events.clicks = 0
 
     def names(self, path):
-        """As ParaView sorts them in its list."""
+        """In the order of the table."""
         mesh = simple.OpenDataFile(str(path))
         mesh.UpdatePipeline()
-        return mesh, sorted(MorphMesh(Input=mesh).GetProperty("Surfaces").GetAvailable())
+        return mesh, rows(MorphMesh(Input=mesh).GetProperty("Surfaces").GetAvailable())
 
     def test_fit_to_an_stl_file(self):
         mesh = simple.OpenDataFile(str(CANISTER))
@@ -105,7 +105,7 @@ class FirstTasks(unittest.TestCase):
         self.events.filter("MorphMesh")
         self.events.apply()
         self.events.expect(COLORS, "SurfaceId", "currentText")
-        self.events.tick("Surfaces/ArraySelectionWidget", names.index(TOP))
+        self.events.tick("Surfaces/Rows", names.index(TOP))
         self.events.type(BOX + "translateZ", UP)
         self.events.apply()
         self.events.done()
@@ -142,7 +142,7 @@ class FirstTasks(unittest.TestCase):
         self.open(CANISTER)
         self.events.task("turn a surface")
         self.events.filter("MorphMesh")
-        self.events.tick("Surfaces/ArraySelectionWidget", names.index(LID))
+        self.events.tick("Surfaces/Rows", names.index(LID))
         self.events.type(BOX + "rotateX", "5")
         self.events.apply()
         self.events.done()
@@ -164,8 +164,8 @@ class FirstTasks(unittest.TestCase):
         self.open(BORE)
         self.events.task("drag a surface")
         self.events.filter("MorphMesh")
-        self.events.tick("Surfaces/ArraySelectionWidget", names.index(TOP))
-        self.events.toggle("LiveDrag")
+        self.events.tick("Surfaces/Rows", names.index(TOP))
+        self.events.toggle("Displacement/LiveDrag")
         self.events.apply()
         self.events.drag((0.5, 0.5), (0.53, 0.52))
         self.events.done()
@@ -185,9 +185,9 @@ class FirstTasks(unittest.TestCase):
         self.open(BORE)
         self.events.task("drag a region")
         self.events.filter("MorphMesh")
-        self.events.choose("Moving", "Region")
+        self.events.choose("Surfaces", "Region", "Moving")
         self.events.type(REGION + "scaleX", "3")
-        self.events.toggle("LiveDrag")
+        self.events.toggle("Displacement/LiveDrag")
         self.events.apply()
         self.events.drag((0.5, 0.5), (0.52, 0.51))
         self.events.done()
@@ -215,7 +215,7 @@ class FirstTasks(unittest.TestCase):
         updated(morph)
         self.open(BORE)
         self.events.filter("MorphMesh")
-        self.events.tick("Surfaces/ArraySelectionWidget", names.index(TOP))
+        self.events.tick("Surfaces/Rows", names.index(TOP))
         self.events.type(BOX + "translateZ", UP)
         self.events.apply()
         self.events.task("save a state")
@@ -246,7 +246,7 @@ class FirstTasks(unittest.TestCase):
         self.open(file)
         self.events.task("morph an Exodus file")
         self.events.filter("MorphMesh")
-        self.events.tick("Surfaces/ArraySelectionWidget", names.index(TOP))
+        self.events.tick("Surfaces/Rows", names.index(TOP))
         self.events.type(BOX + "translateZ", UP)
         self.events.apply()
         self.events.done()
@@ -276,8 +276,8 @@ class FirstTasks(unittest.TestCase):
         self.assertEqual(best, "Inversion-free")  # the only valid one
         self.open(BORE)
         self.events.filter("BoundaryDisplacement")
-        self.events.choose("Moving", "Surfaces")
-        self.events.tick("Surfaces/ArraySelectionWidget", names.index(TOP))
+        self.events.choose("Surfaces", "Surfaces", "Moving")
+        self.events.tick("Surfaces/Rows", names.index(TOP))
         self.events.choose("Displacement", "Vector")
         self.events.type("Vector/DoubleLineEdit2", "1.5")
         self.events.choose("Surroundings", "Stay")

@@ -14,7 +14,7 @@ from pathlib import Path
 from paraview import simple
 
 from versions import BOX_FIELDS
-from window_events import PANEL, Events, field
+from window_events import PANEL, Events, field, rows
 
 PLUGIN = os.environ["MESHMORPHING_PLUGIN"]
 simple.LoadPlugin(PLUGIN, remote=False, ns=globals())
@@ -47,6 +47,11 @@ class Clicks(Events):
         """The box at the left of a row of a list."""
         for command, buttons in (("mousePress", "1,1"), ("mouseRelease", "1,0")):
             self.set(widget, command, f"{buttons},0,12,8,/{row}:0")
+        self.clicks += 1
+
+    def unfold(self, title):
+        """A title of the panel: its group opens."""
+        self.set("Fold" + title, "activate", "")
         self.clicks += 1
 
     def type(self, widget, text):
@@ -83,8 +88,7 @@ class MorphMeshInTheWindow(unittest.TestCase):
             events.open(str(MESH))
             events.clicks = 0
             events.filter("MorphMesh")
-            # ParaView sorts them: curves come first.
-            events.tick("Surfaces/ArraySelectionWidget", sorted(names).index(SURFACE))
+            events.tick("Surfaces/Rows", rows(names).index(SURFACE))
             events.type(BOX + "translateZ", UP)
             events.apply()
             self.assertEqual((events.clicks, events.typed), (6, 1))

@@ -17,7 +17,7 @@ from vtkmodules.vtkCommonDataModel import VTK_HEXAHEDRON
 import ranks
 from distributed import grid_of, model, write, write_pieces
 from versions import BOX_FIELDS
-from window_events import PANEL, VIEW, Events, field
+from window_events import PANEL, VIEW, Events, field, rows
 
 PLUGIN = os.environ["MESHMORPHING_PLUGIN"]
 simple.LoadPlugin(PLUGIN, remote=False, ns=globals())
@@ -40,7 +40,7 @@ class WindowOnRanks(unittest.TestCase):
             serial.Transform.Translate = [0, 0, float(UP)]
             serial.UpdatePipeline()
             self.assertEqual(serial.MorphStatus, "Valid")
-            names = sorted(serial.GetProperty("Surfaces").GetAvailable())
+            names = rows(serial.GetProperty("Surfaces").GetAvailable())
             path = write_pieces(
                 str(folder), "pieces", points, cells, VTK_HEXAHEDRON, owner, 2, True)
 
@@ -54,7 +54,7 @@ class WindowOnRanks(unittest.TestCase):
             events.filter("MorphMesh")
             events.apply()  # lists the surfaces
             for command, buttons in (("mousePress", "1,1"), ("mouseRelease", "1,0")):
-                events.set("Surfaces/ArraySelectionWidget", command,
+                events.set("Surfaces/Rows", command,
                            f"{buttons},0,12,8,/{names.index(SURFACE)}:0")
             events.set(BOX + "translateZ", "set_string", UP)
             events.apply()

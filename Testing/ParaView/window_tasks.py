@@ -16,7 +16,7 @@ from pathlib import Path
 
 from paraview import simple
 
-from window_events import MAIN, PANEL, PROPERTIES, VIEW, field
+from window_events import MAIN, PANEL, PROPERTIES, VIEW, field, rows
 from window_morph_mesh import Clicks, text
 
 PLUGIN = os.environ["MESHMORPHING_PLUGIN"]
@@ -33,8 +33,8 @@ ZONES = {"FixedZones": "Fixed Zones", "RigidZones": "Rigid Zones", "SoftZones": 
 ONE_INPUT = ("MorphMesh", "FitToSurface", "BoundaryDisplacement")
 #: Of each task; numbers are typed besides.
 CLICKS = {"see which surface has which number": 4, "open the filter's page": 1,
-          "widen a hole by a number": 8, "count and see inverted cells": 11,
-          "undo and redo": 4, "move a surface along a vector, in 20 steps": 10,
+          "widen a hole by a number": 8, "count and see inverted cells": 12,
+          "undo and redo": 4, "move a surface along a vector, in 20 steps": 11,
           "an error keeps the picture": 8}
 
 
@@ -174,7 +174,7 @@ class WindowTasks(unittest.TestCase):
     def setUpClass(cls):
         cls.mesh = simple.OpenDataFile(str(MESH))
         cls.mesh.UpdatePipeline()
-        cls.names = sorted(MorphMesh(Input=cls.mesh).GetProperty("Surfaces").GetAvailable())
+        cls.names = rows(MorphMesh(Input=cls.mesh).GetProperty("Surfaces").GetAvailable())
 
     def expected(self, **properties):
         morph = MorphMesh(Input=self.mesh, **properties)
@@ -184,7 +184,6 @@ class WindowTasks(unittest.TestCase):
         return morph
 
     def row(self, surface):
-        """ParaView sorts the list: curves come first."""
         return self.names.index(surface)
 
     def test_tasks(self):
@@ -216,7 +215,7 @@ class WindowTasks(unittest.TestCase):
             events.select("/0:0/0:0")
             events.task("widen a hole by a number")
             events.filter("MorphMesh")
-            events.tick("Surfaces/ArraySelectionWidget", self.row(HOLE))
+            events.tick("Surfaces/Rows", self.row(HOLE))
             events.choose("Displacement", "Radius")
             events.type("RadiusChange/DoubleLineEdit0", "0.1")
             events.apply()
@@ -233,9 +232,10 @@ class WindowTasks(unittest.TestCase):
             events.select("/0:0/0:0")
             events.task("move a surface along a vector, in 20 steps")
             events.filter("MorphMesh")
-            events.tick("Surfaces/ArraySelectionWidget", self.row(LID))
+            events.tick("Surfaces/Rows", self.row(LID))
             events.choose("Displacement", "Vector")
             events.type("Vector/DoubleLineEdit2", "0.3")
+            events.unfold("Steps")
             events.type("NumberOfSteps/LineEdit0", "20")
             events.apply()
             events.do(MAIN + "VCRToolbar/actionVCRLastFrame", "activate")
@@ -246,9 +246,10 @@ class WindowTasks(unittest.TestCase):
             events.select("/0:0/0:0")
             events.task("count and see inverted cells")
             events.filter("MorphMesh")
-            events.tick("Surfaces/ArraySelectionWidget", self.row(HOLE))
+            events.tick("Surfaces/Rows", self.row(HOLE))
             events.choose("Displacement", "Vector")
             events.type("Vector/DoubleLineEdit0", str(ASIDE))
+            events.unfold("Methodsoptions")
             events.choose("Validity", "Report")
             events.apply()
             events.select("/0:0/0:0/3:0/1:0")  # the second output, Bad cells
@@ -259,7 +260,7 @@ class WindowTasks(unittest.TestCase):
             events.select("/0:0/0:0")
             events.task("an error keeps the picture")
             events.filter("MorphMesh")
-            events.tick("Surfaces/ArraySelectionWidget", self.row(LID))
+            events.tick("Surfaces/Rows", self.row(LID))
             events.choose("Displacement", "Radius")
             events.type("RadiusChange/DoubleLineEdit0", "0.1")
             events.apply()

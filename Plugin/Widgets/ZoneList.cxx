@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "SurfaceList.h"
+#include "ZoneList.h"
 
 #include <pqArrayListDomain.h>
 #include <pqArraySelectionWidget.h>
@@ -20,14 +20,14 @@
 #include <QToolTip>
 #include <QVBoxLayout>
 
-SurfaceList::SurfaceList(vtkSMProxy* filter, vtkSMProperty* list, QWidget* parent)
+ZoneList::ZoneList(vtkSMProxy* filter, vtkSMProperty* list, QWidget* parent)
   : Superclass(filter, parent)
   , List(new pqArraySelectionWidget(3, this))
   , Sizes(nullptr)
   , Name(filter->GetPropertyName(list))
 {
   vtkPVXMLElement* const hints = list->GetHints();
-  vtkPVXMLElement* const own = hints ? hints->FindNestedElementByName("SurfaceList") : nullptr;
+  vtkPVXMLElement* const own = hints ? hints->FindNestedElementByName("ZoneList") : nullptr;
   const char* const sizes = own ? own->GetAttribute("sizes") : nullptr;
   const QStringList columns = QString(own ? own->GetAttribute("columns") : "").split(' ');
   this->Sizes = sizes ? filter->GetProperty(sizes) : nullptr;
@@ -76,9 +76,9 @@ SurfaceList::SurfaceList(vtkSMProxy* filter, vtkSMProperty* list, QWidget* paren
   this->showSizes();
 }
 
-SurfaceList::~SurfaceList() = default;
+ZoneList::~ZoneList() = default;
 
-void SurfaceList::showSizes()
+void ZoneList::showSizes()
 {
   if (!this->Sizes)
   {
@@ -90,21 +90,14 @@ void SurfaceList::showSizes()
   for (unsigned int i = 0; i + 2 < sizes.GetNumberOfElements(); i += 3)
   {
     const QString name = sizes.GetAsString(i);
-    const QString text = sizes.GetAsString(i + 2);
-    bool isWhole = false;
-    text.toLongLong(&isWhole); // a count, or none
-    const QString measure =
-      isWhole || text.isEmpty() ? text : QString::number(text.toDouble(), 'g', 4);
-    const bool isCurve = name.startsWith("Curve ");
-    counts[name] =
-      isCurve ? tr("%1 edges").arg(sizes.GetAsString(i + 1)) : sizes.GetAsString(i + 1);
-    measures[name] = isCurve ? tr("%1 long").arg(measure) : measure;
+    counts[name] = sizes.GetAsString(i + 1);
+    measures[name] = sizes.GetAsString(i + 2);
   }
   this->List->setColumnData(1, this->Name, std::move(counts));
   this->List->setColumnData(2, this->Name, std::move(measures));
 }
 
-bool SurfaceList::eventFilter(QObject* object, QEvent* event)
+bool ZoneList::eventFilter(QObject* object, QEvent* event)
 {
   if (event->type() == QEvent::ToolTip && object == this->List->viewport())
   {

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the properties panel of ParaView's window shows, for tests: a library that a script loads
+// into the window's process.
+#include <QApplication>
+#include <QDockWidget>
+#include <QJsonArray>
+#include <QJsonDocument>
+#include <QJsonObject>
+#include <QLabel>
+#include <QLineEdit>
+#include <QMainWindow>
+#include <QScrollArea>
+#include <QTreeWidget>
+
+#include <cstring>
+
+namespace
+{
+template <typename Widget>
+Widget* named(const char* name)
+{
+  for (QWidget* const top : QApplication::topLevelWidgets())
+  {
+    if (auto* const found = top->findChild<Widget*>(name))
+    {
+      return found;
+    }
+  }
+  return nullptr;
+}
+
+QString textOf(const QWidget* widget)
+{
+  const auto* const label = qobject_cast<const QLabel*>(widget);
+  const auto* const field = qobject_cast<const QLineEdit*>(widget);
+  return label ? label->text() : field ? field->text() : QString();
+}
+}
+
+/// A JSON text, to be freed, of the panel in a dock of this width in pixels: "width", that of what
+/// is seen of the panel; "rows", the names of its rows, titles that fold included; "texts", all
+/// that labels and fields say; "styles", of labels with a style of their own, by their texts; "table", the rows of the table of surfaces that are not hidden, each
+/// with its texts, whether it is ticked and whether it is selected; "cut", the names of what the edge of the dock cuts off; "titles",
+/// with what each of them says; "height".
+extern "C" Q_DECL_EXPORT char* panel_rows(int width)
+{
+  auto* const dock = named<QDockWidget>("propertiesDock");
+  auto* const window = qobject_cast<QMainWindow*>(dock->parentWidget());
+  window->resizeDocks({ dock }, { width }, Qt::Horizontal);
+  for (int i = 0; i < 5; ++i)
+  {
+    QApplication::processEvents();
+  }
+  auto* const panel = dock->findChild<QWidget*>("ProxyPanel");
+  auto* const area = dock->findChild<QScrollArea*>("scrollArea");
+  QJsonArray rows, texts, cut, table;
+  auto* const surfaces = panel->findChild<QTreeWidget*>("Rows");
+  for (int i = 0; surfaces && i < surfaces->topLevelItemCount(); ++i)
+  {
+    const QTreeWidgetItem* const row = surfaces->topLevelItem(i);
+    if (!row->isHidden())
+    {
+      table.append(QJsonArray{ row->text(0), row->text(1), row->text(2), row->text(3),
+        row->checkState(0) == Qt::Checked, row->isSelected() });
+    }
+  }
+  QJsonObject titles, styles;
+  for (QWidget* const one : panel->findChildren<QWidget*>())
+  {
+    if (!one->isVisible())
+    {
+      continue;
+    }
+    const bool isTitle = one->inherits("FoldTitle");
+    if (one->parentWidget() == panel && (isTitle || one->inherits("pqPropertyWidget")))
+    {
+      rows.append(one->objectName());
+    }
+    if (isTitle)
+    {
+      titles[one->objectName()] = one->property("held").toString();
+    }
+    if (!textOf(one).isEmpty())
+    {
+      texts.append(textOf(one));
+      styles[textOf(one)] = one->styleSheet();
+    }
+    const int right = one->mapTo(area->viewport(), QPoint(one->width(), 0)).x();
+    if (right > area->viewport()->width())
+    {
+      cut.append(QString("%1 %2 (%3)")
+                   .arg(one->metaObject()->className(), one->objectName())
+                   .arg(one->minimumSizeHint().width()));
+    }
+  }
+  const QJsonObject all{ { "width", area->viewport()->width() }, { "dock", dock->width() },
+    { "height", panel->height() }, { "rows", rows }, { "table", table }, { "texts", texts },
+    { "styles", styles }, { "cut", cut }, { "titles", titles } };
+  return strdup(QJsonDocument(all).toJson(QJsonDocument::Compact).data());
+}

@@ -1,0 +1,100 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Morph Mesh's table of surfaces in ParaView's window: ticks, roles for one row or several, the
+search field, and rows that a selection in the view selects. A script reads the same lists.
+
+Run: MESHMORPHING_PLUGIN=<path of MeshMorphing.so> MESHMORPHING_PANEL_ROWS=<path of its library>
+         xvfb-run -s "-screen 0 1280x1024x24" pvpython window_table.py
+"""
+import os
+import unittest
+
+from paraview import simple
+
+from window_events import PANEL
+from window_rows import Panels
+
+simple.LoadPlugin(os.environ["MESHMORPHING_PLUGIN"], remote=False, ns=globals())
+
+ROWS, ROLES = "Surfaces/Rows", PANEL + "Surfaces/Roles"
+CONTROL = 0x04000000  # Qt::ControlModifier
+ROLE = 3  # its column
+
+
+class Table(Panels):
+    def press(self, row, column=0, x=40, keys=0, button=1):
+        """In a row of the table, by default on its name."""
+        for command, down in (("mousePress", button), ("mouseRelease", 0)):
+            self.events.set(ROWS, command, f"{button},{down},{keys},{x},8,/{row}:{column}")
+
+    def choose(self, row, role):
+        """From the drop-down of a row."""
+        self.press(row, ROLE)
+        self.events.do(ROLES, "activate", role)
+
+    def roles(self, panel):
+        return {row[0]: row[ROLE] for row in panel["table"] if row[ROLE]}
+
+    def loaded(self, look):
+        """The filter, in this process."""
+        simple.ResetSession()
+        simple.LoadState(str(self.folder / f"{look}.pvsm"))
+        return simple.FindSource("MorphMesh1")
+
+    def test_roles(self):
+        self.events.filter("MorphMesh")
+        self.look("new")
+        self.press(3, x=12)  # its box
+        self.choose(1, "Slides")
+        self.press(0)
+        self.press(2, keys=CONTROL)
+        self.choose(2, "Stays")
+        self.look("chosen")
+        self.events.apply()
+        self.look("applied")
+        new, chosen, applied = self.play()
+        self.assertEqual([row[0] for row in new["table"]],
+                         [*(f"Surface {i}" for i in range(4)), "+ 4 curves"])
+        self.assertEqual(set(self.roles(new).values()), {"Follows"})
+        self.assertEqual(self.roles(chosen), {"Surface 0": "Stays", "Surface 1": "Slides",
+                                              "Surface 2": "Stays", "Surface 3": "Moves"})
+        self.assertEqual(self.roles(applied), self.roles(chosen))
+        self.assertEqual(applied["table"][0][0], "Surface 3")  # what moves comes first
+        morph = self.loaded("applied")
+        self.assertEqual(list(morph.Surfaces), ["Surface 3"])
+        self.assertEqual(list(morph.SlidingSurfaces), ["Surface 1"])
+        self.assertEqual(list(morph.FixedSurfaces), ["Surface 0", "Surface 2"])
+        self.assertEqual(len(morph.FreeSurfaces), 0)
+
+    def test_rows_are_found(self):
+        self.events.filter("MorphMesh")
+        self.events.set("Surfaces/Search", "set_string", "e 3")
+        self.look("found")
+        self.events.set("Surfaces/Search", "set_string", "")
+        self.press(4)  # that of the curves
+        self.look("curves")
+        found, curves = self.play()
+        self.assertEqual([row[0] for row in found["table"]], ["Surface 3", "Curve 3"])
+        self.assertEqual([row[0] for row in curves["table"]][5:], [f"Curve {i}" for i in range(4)])
+
+    def test_a_selection_in_the_view_selects_rows(self):
+        self.events.filter("MorphMesh")
+        self.events.apply()
+        self.events.select_cells((0.6, 0.5), (0.62, 0.52))  # of the end that is seen
+        self.look("selected")
+        self.events.set("Surfaces/AddSelected", "activate", "")
+        self.look("added")
+        self.events.select_cells((0.45, 0.35), (0.47, 0.37))  # now there is a box
+        self.look("again")
+        selected, added, again = self.play()
+        chosen = [row[0] for row in selected["table"] if row[-1]]
+        self.assertEqual(chosen, ["Surface 3"])
+        self.assertEqual([row[0] for row in added["table"] if row[-2]], chosen)
+        self.assertEqual([row[0] for row in added["table"] if row[-1]], [])
+        self.assertIn("Moves: Surface 3", added["texts"])
+        self.assertEqual([row[0] for row in again["table"] if row[-1]], chosen)
+        for name in ("selected", "again"):  # no box took the mouse
+            self.assertEqual(list(self.loaded(name).Transform.Translate), [0, 0, 0])
+
+
+if __name__ == "__main__":
+    unittest.main()
