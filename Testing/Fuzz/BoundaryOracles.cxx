@@ -14,6 +14,8 @@
 #include <limits>
 #include <map>
 #include <set>
+#include <sstream>
+#include <string>
 
 namespace fuzz
 {
@@ -25,6 +27,13 @@ using Row = Eigen::RowVector3d;
 std::string nodeText(Index node)
 {
   return "node " + std::to_string(node);
+}
+
+std::string offText(const Row& x, const Row& wanted, const Case& made)
+{
+  std::ostringstream text;
+  text << (x - wanted).norm() / made.grid.size << " sizes off";
+  return text.str();
 }
 
 /// The point array, or null where it is not as long as the output.
@@ -121,7 +130,7 @@ Finding checkMovedBoundary(const Case& made, vtkAlgorithm* algorithm, const Run&
     if (isKnown && !((x - wanted).cwiseAbs().maxCoeff() <=
                      10 * roundingOf(output, wanted) + 1e-12 * made.grid.size + rounding))
     {
-      return { "given node", nodeText(node) };
+      return { "given node", nodeText(node) + " is " + offText(x, wanted, made) };
     }
     const Row mapped = rest * made.boundary.matrix.transpose() + made.boundary.shift;
     const Row image = rest + scale * (mapped - rest);
@@ -130,7 +139,8 @@ Finding checkMovedBoundary(const Case& made, vtkAlgorithm* algorithm, const Run&
     if (isAffine && !((x - image).norm() <= allowed))
     {
       return { "affine map of the boundary",
-        nodeText(node) + " of dimension " + std::to_string(static_cast<int>(dimension)) };
+        nodeText(node) + " of dimension " + std::to_string(static_cast<int>(dimension)) + " is " +
+          offText(x, image, made) };
     }
   }
   return {};
