@@ -277,7 +277,8 @@ TEST(CosphericalStars, NodesInTheSidesOfATurnedBoxAreFound)
     Monitor monitor;
     const PointLocation found = locatePoints(star.delaunay, points, places, monitor);
     EXPECT_TRUE(found.extrapolated.empty())
-      << "trial " << trial << ", seed " << meshes::seed() << "\n" << found.barycentric;
+      << "trial " << trial << ", seed " << meshes::seed() << "\n"
+      << found.barycentric;
   }
 }
 

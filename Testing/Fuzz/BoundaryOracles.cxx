@@ -234,9 +234,9 @@ Finding checkMovedBoundary(const Case& made, vtkAlgorithm* algorithm, const Run&
                            100 * roundingOf(output, image) + 100 * roundingOf(output, rest);
     if (isAffine && (dimension < 2 || unknown.count(p) == 0) && !((x - image).norm() <= allowed))
     {
-      return { "affine map of the boundary",
-        nodeText(node) + " of dimension " + std::to_string(static_cast<int>(dimension)) + " is " +
-          offText(x, image, made) };
+      return { "affine map of the boundary", nodeText(node) + " of dimension " +
+                                               std::to_string(static_cast<int>(dimension)) +
+                                               " is " + offText(x, image, made) };
     }
   }
   return {};

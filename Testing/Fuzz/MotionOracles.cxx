@@ -366,14 +366,15 @@ Finding checkFrame(Case& made, vtkAlgorithm* filter, const Run& first)
   const double lost = std::max(rounding(x, false) / unit, rounding(y, false));
   if (isExact(made, filter) && isExact(made, other))
   {
-    double most = 0;
+    std::pair<double, Index> most = { 0, -1 };
     for (Index p = 0; p < x.rows(); ++p)
     {
-      most = std::max(most, (x.row(p) - frame.point(y.row(p))).norm() / unit);
+      most = std::max(most, { (x.row(p) - frame.point(y.row(p))).norm() / unit, p });
     }
-    return most <= 1e-9 * made.grid.size + 1e3 * lost
+    return most.first <= 1e-9 * made.grid.size + 1e3 * lost
              ? Finding{}
-             : Finding{ "frame", "a node is " + text(most / made.grid.size) + " sizes off" };
+             : Finding{ "frame", "point " + std::to_string(most.second) + " is " +
+                                   text(most.first / made.grid.size) + " sizes off" };
   }
   // A motion that the other frame's digits do not show is none there, and leaves a valid mesh.
   const double motion = motionOf(made, filter) * made.grid.size;
@@ -466,11 +467,13 @@ Finding checkRanges(Case& made, vtkAlgorithm* filter, const Run& run)
       shapes->SetWeight(static_cast<int>(i), tried[i]);
     }
     const Run again = execute(shapes, made.time);
-    // Of places that are too far the determinants are rounding.
+    // Of places that are too far, and of cells without volume, the determinants are rounding.
+    constexpr double Rounding = 1e-12;
     const bool isFar =
       pointsOf(vtkPointSet::SafeDownCast(again.outputs.front())).cwiseAbs().maxCoeff() >
       1e4 * made.grid.size;
-    if (again.errors.empty() && !isFar && shapes->GetNewInvertedCells() > 0)
+    if (again.errors.empty() && !isFar && shapes->GetNewInvertedCells() > 0 &&
+        shapes->GetMinScaledJacobian() < -Rounding)
     {
       std::string list;
       for (const double weight : tried)

@@ -120,8 +120,7 @@ struct Step
         subtract(products(bound.lengths, false), Rounding, bound.value);
         // Other steps follow, and few where the bound is nearly the determinant.
         const double precision = this->degree == 3 ? 1e-12 : 1e-2;
-        length =
-          std::min(length, firstPositiveRoot(bound.value.data(), this->degree, precision));
+        length = std::min(length, firstPositiveRoot(bound.value.data(), this->degree, precision));
       }
     }
     this->bounds.clear();
@@ -154,8 +153,8 @@ double unitOf(const NodeMotion& motion)
     speed = std::max(speed, std::abs(turn.angle));
   }
   return speed > 0 && std::isfinite(speed)
-    ? std::ldexp(1, std::clamp(-std::ilogb(speed), -1000, 1000))
-    : 1;
+           ? std::ldexp(1, std::clamp(-std::ilogb(speed), -1000, 1000))
+           : 1;
 }
 
 /// One cell's nodes, and what moves them.
