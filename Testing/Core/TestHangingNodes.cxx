@@ -17,6 +17,9 @@
 #include <map>
 #include <memory>
 #include <random>
+#include <set>
+#include <utility>
+#include <vector>
 
 namespace
 {
@@ -29,15 +32,20 @@ using motions::Row;
 
 constexpr int Width = 3, Height = 2; // cells of the box before refinement
 
-/// A box of cubes, some of them in eight, and the nodes that hang with the corners of their face or
-/// edge.
+/// A box of cubes, some of them in eight, some of these in eight again, and the nodes that hang.
 struct Octree
 {
-  using Place = std::array<int, 3>; ///< in halves of a cube
+  using Place = std::array<int, 3>; ///< in quarters of a cube
+  struct Hanging
+  {
+    Index node;
+    std::vector<Index> corners; ///< of the face or edge that it lies on
+    std::vector<double> weights;
+  };
 
   Mesh mesh;
   std::map<Place, Index> nodeAt;
-  std::map<Index, std::vector<Index>> hanging; ///< in the middle of these
+  std::vector<Hanging> hanging;
   morph::Monitor monitor;
 
   explicit Octree(unsigned seed)
@@ -45,77 +53,102 @@ struct Octree
     std::mt19937 random(seed);
     mesh.offsets = { 0 };
     mesh.points.resize(0, 3);
-    std::vector<std::pair<Place, int>> boxes; // corners and sizes
+    std::vector<std::pair<Place, int>> boxes, open; // corners and sizes
     for (int c = 0; c < Width * Width * Height; ++c)
     {
-      const Place low = { 2 * (c % Width), 2 * (c / Width % Width), 2 * (c / Width / Width) };
-      const bool isFine = c == 0 || (c > 1 && random() % 3 == 0); // the second is coarse
-      for (int k = 0; k < (isFine ? 8 : 1); ++k)
+      open.push_back({ { 4 * (c % Width), 4 * (c / Width % Width), 4 * (c / Width / Width) }, 4 });
+    }
+    for (std::size_t i = 0; i < open.size(); ++i)
+    {
+      const auto [low, size] = open[i];
+      if (size == 1 || (i != 0 && (i == 1 || random() % 3 > 0))) // the second stays whole
       {
-        boxes.push_back({ { low[0] + k % 2, low[1] + k / 2 % 2, low[2] + k / 4 }, isFine ? 1 : 2 });
+        boxes.emplace_back(low, size);
+        continue;
+      }
+      for (int k = 0; k < 8; ++k)
+      {
+        open.emplace_back(at(low, { k % 2, k / 2 % 2, k / 4 }, size / 2), size / 2);
       }
     }
-    constexpr int Corner[8][3] = { { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, 0 }, { 0, 0, 1 },
-      { 1, 0, 1 }, { 1, 1, 1 }, { 0, 1, 1 } };
     for (const auto& [low, size] : boxes)
     {
       std::vector<Index> nodes;
-      for (const auto& at : Corner)
+      for (const Place& corner : Corner)
       {
-        nodes.push_back(
-          node({ low[0] + size * at[0], low[1] + size * at[1], low[2] + size * at[2] }));
+        nodes.push_back(node(at(low, corner, size)));
       }
       meshes::add(mesh, morph::Hexahedron, nodes);
     }
     for (const auto& [low, size] : boxes)
     {
-      for (int k = 0; size == 2 && k < 27; ++k)
-      {
-        const int at[3] = { k % 3, k / 3 % 3, k / 9 };
-        const auto found = nodeAt.find({ low[0] + at[0], low[1] + at[1], low[2] + at[2] });
-        const auto middles = std::count(at, at + 3, 1);
-        if (found != nodeAt.end() && middles > 0)
-        {
-          std::vector<Index>& corners = hanging[found->second];
-          corners.clear();
-          for (const auto& c : Corner)
-          {
-            Place place = low;
-            bool isOwn = true;
-            for (int j = 0; j < 3; ++j)
-            {
-              place[j] += 2 * c[j];
-              isOwn = isOwn && (at[j] == 1 || at[j] == 2 * c[j]);
-            }
-            if (isOwn)
-            {
-              corners.push_back(nodeAt.at(place));
-            }
-          }
-        }
-      }
+      findHanging(low, size);
     }
   }
 
+  static constexpr Place Corner[8] = { { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, 0 },
+    { 0, 0, 1 }, { 1, 0, 1 }, { 1, 1, 1 }, { 0, 1, 1 } };
+
+  static Place at(const Place& low, const Place& step, int size)
+  {
+    return { low[0] + size * step[0], low[1] + size * step[1], low[2] + size * step[2] };
+  }
   Index node(const Place& place)
   {
     const auto [found, isNew] = nodeAt.emplace(place, mesh.numberOfNodes());
     if (isNew)
     {
       mesh.points.conservativeResize(found->second + 1, 3);
-      mesh.points.row(found->second) << place[0] / 2., place[1] / 2., place[2] / 2.;
+      mesh.points.row(found->second) << place[0] / 4., place[1] / 4., place[2] / 4.;
     }
     return found->second;
   }
+  /// Nodes on a box that are no corners of it.
+  void findHanging(const Place& low, int size)
+  {
+    for (int k = 0; k < (size + 1) * (size + 1) * (size + 1); ++k)
+    {
+      const Place step = { k % (size + 1), k / (size + 1) % (size + 1),
+        k / (size + 1) / (size + 1) };
+      const auto found = nodeAt.find(at(low, step, 1));
+      if (found == nodeAt.end())
+      {
+        continue;
+      }
+      Hanging own = { found->second, {}, {} };
+      for (const Place& corner : Corner)
+      {
+        double weight = 1;
+        for (int j = 0; j < 3; ++j)
+        {
+          const double part = static_cast<double>(step[j]) / size;
+          weight *= corner[j] == 1 ? part : 1 - part;
+        }
+        if (weight > 0)
+        {
+          own.corners.push_back(nodeAt.at(at(low, corner, size)));
+          own.weights.push_back(weight);
+        }
+      }
+      if (own.corners.size() > 1)
+      {
+        hanging.push_back(own);
+      }
+    }
+  }
 
-  /// The largest distance of a node that hangs from the middle of its face or edge.
+  /// The largest distance of a node that hangs from its place on its face or edge.
   double gap(const Points& points) const
   {
     double most = 0;
-    for (const auto& [node, corners] : hanging)
+    for (const Hanging& own : hanging)
     {
-      const Row middle = points(corners, morph::allColumns).colwise().mean();
-      most = std::max(most, (points.row(node) - middle).norm());
+      Row off = points.row(own.node);
+      for (std::size_t k = 0; k < own.corners.size(); ++k)
+      {
+        off -= own.weights[k] * points.row(own.corners[k]);
+      }
+      most = std::max(most, off.norm());
     }
     return most;
   }
@@ -159,12 +192,13 @@ TEST(HangingNodes, AreThoseOfTheRefinement)
     Octree octree(meshes::seed() + trial);
     HangingNodes found;
     const morph::BoundaryFaces outer = morph::boundaryFaces(octree.mesh, found, octree.monitor);
-    std::vector<Index> expected;
-    for (const auto& [node, corners] : octree.hanging)
+    std::set<Index> expected;
+    for (const Octree::Hanging& own : octree.hanging)
     {
-      expected.push_back(node);
+      expected.insert(own.node);
     }
-    EXPECT_EQ(found.nodes(), expected) << "seed " << meshes::seed() << ", trial " << trial;
+    EXPECT_EQ(std::set<Index>(found.nodes().begin(), found.nodes().end()), expected)
+      << "seed " << meshes::seed() << ", trial " << trial;
     const auto isOnBox = [&](Index node)
     {
       const Row x = octree.mesh.points.row(node);

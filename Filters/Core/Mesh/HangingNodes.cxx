@@ -189,6 +189,54 @@ private:
   Adjacency ofNode_;
 };
 
+/// The nodes on edges, whose ends ascend, and how far they are from the first end, in lengths of it.
+using NodesOnEdges = std::map<std::pair<Index, Index>, std::map<Index, double>>;
+
+/// Adds nodes on a part of an edge to the edge, and those of an edge to its parts: each may have
+/// been found at another face.
+void complete(NodesOnEdges& onEdge)
+{
+  for (bool isChanged = true; isChanged;)
+  {
+    isChanged = false;
+    const NodesOnEdges before = onEdge;
+    for (const auto& [edge, nodes] : before)
+    {
+      std::vector<std::pair<double, Index>> chain = { { 0, edge.first }, { 1, edge.second } };
+      for (const auto& [node, at] : nodes)
+      {
+        chain.emplace_back(at, node);
+      }
+      std::sort(chain.begin(), chain.end());
+      const std::size_t count = chain.size();
+      for (std::size_t i = 0; i < count; ++i)
+      {
+        for (std::size_t j = i + 1; j < count && j - i + 1 < count; ++j)
+        {
+          const auto [from, first] = chain[i];
+          const auto [to, last] = chain[j];
+          const bool isReversed = first > last;
+          const auto part = std::minmax(first, last);
+          for (std::size_t k = i + 1; k < j; ++k)
+          {
+            const double at = (chain[k].first - from) / (to - from);
+            isChanged |= onEdge[part].emplace(chain[k].second, isReversed ? 1 - at : at).second;
+          }
+          const auto found = before.find(part);
+          if (found != before.end())
+          {
+            for (const auto& [node, at] : found->second)
+            {
+              const double along = from + (isReversed ? 1 - at : at) * (to - from);
+              isChanged |= onEdge[edge].emplace(node, along).second;
+            }
+          }
+        }
+      }
+    }
+  }
+}
+
 /// What a node is tied to, and by what weights.
 using Tie = std::map<Index, double>;
 
@@ -239,7 +287,7 @@ std::vector<std::uint8_t> HangingNodes::find(
 
   std::vector<std::uint8_t> isInside(count, 0);
   std::map<Index, Tie> ties;
-  std::map<Edge, std::map<double, Index>> onEdge; // by the place, from the first end on
+  NodesOnEdges onEdge;
   for (Index f = 0; f < count; ++f)
   {
     if (parts[f].empty())
@@ -270,7 +318,7 @@ std::vector<std::uint8_t> HangingNodes::find(
         }
         if (tie.size() == 2)
         {
-          onEdge[{ tie.begin()->first, tie.rbegin()->first }].emplace(tie.rbegin()->second, *node);
+          onEdge[{ tie.begin()->first, tie.rbegin()->first }].emplace(*node, tie.rbegin()->second);
         }
         // On an edge of one face and inside another, the edge is what all sides have.
         const auto [known, isNew] = ties.try_emplace(*node, tie);
@@ -285,9 +333,16 @@ std::vector<std::uint8_t> HangingNodes::find(
   {
     return {};
   }
+  complete(onEdge);
   for (const auto& [edge, nodes] : onEdge)
   {
-    for (const auto& [at, node] : nodes)
+    std::vector<std::pair<double, Index>> sorted;
+    for (const auto& [node, at] : nodes)
+    {
+      sorted.emplace_back(at, node);
+    }
+    std::sort(sorted.begin(), sorted.end());
+    for (const auto& [at, node] : sorted)
     {
       this->onEdge_[edge].push_back(node);
     }
