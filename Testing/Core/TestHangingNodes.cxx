@@ -205,6 +205,8 @@ TEST(HangingNodes, AreThoseOfTheRefinement)
       return (x.array() == 0 || x.array() == Row(Width, Width, Height).array()).any();
     };
     EXPECT_TRUE(std::all_of(outer.nodes.begin(), outer.nodes.end(), isOnBox));
+    EXPECT_TRUE(
+      morph::UndeformedMesh(octree.mesh, nullptr, octree.monitor).touchingNodes().empty());
     const Mesh conforming = found.conforming(octree.mesh);
     EXPECT_NO_THROW(morph::validate(conforming));
     EXPECT_EQ(morph::boundaryFaces(conforming, octree.monitor).nodes, outer.nodes);

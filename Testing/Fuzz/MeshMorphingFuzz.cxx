@@ -162,8 +162,8 @@ void add(const std::string& features, Features& to)
   }
 }
 
-/// Whether a share of cases is below the demanded one by more than chance explains: by three standard
-/// deviations of a sample of this size.
+/// Whether a share of cases is below the demanded one by more than chance explains: by three
+/// standard deviations of a sample of this size.
 bool isRare(std::uint64_t has, std::uint64_t all, double demanded)
 {
   const double n = static_cast<double>(all);

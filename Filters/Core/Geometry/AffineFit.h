@@ -23,7 +23,7 @@ public:
   /// `spread`: the sum of (x - c)^T (x - c) over `count` points about their mean position c.
   PrincipalDirections(const Eigen::Matrix3d& spread, double count);
 
-  /// Measures the extents anew along the directions: small ones lose digits in the spread's squares.
+  /// Measures the extents along the directions: small ones lose digits in the spread's squares.
   /// `arms`: of the points, from their mean position. Before limit().
   void measure(const Points& arms);
 

@@ -189,7 +189,7 @@ private:
   Adjacency ofNode_;
 };
 
-/// The nodes on edges, whose ends ascend, and how far they are from the first end, in lengths of it.
+/// The nodes on edges, whose ends ascend, and how far they are from the first end, in its lengths.
 using NodesOnEdges = std::map<std::pair<Index, Index>, std::map<Index, double>>;
 
 /// Adds nodes on a part of an edge to the edge, and those of an edge to its parts: each may have

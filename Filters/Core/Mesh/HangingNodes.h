@@ -16,11 +16,11 @@
 namespace morph
 {
 /// Faces that are divided on one side alone, as where a cell meets cells of half its size (2:1
-/// refinement, octree meshes). Several outer faces of other cells then lie in one, have its corners,
-/// and fill it. All of them are inside the mesh. The nodes of the small faces that are no corners of
-/// the large one hang: they are tied to its corners by the shape functions at their place, or to the
-/// ends of an edge if they lie on it. So no gap opens. A tie to a node that hangs, too, is one to
-/// what that is tied to.
+/// refinement, octree meshes). Faces of other cells then lie in one, have its corners, and fill it.
+/// All of them are inside the mesh. The nodes of the small faces that are no corners of the large
+/// one hang. They are tied to its corners by the shape functions at their place, or to the ends of
+/// an edge if they lie on it. So no gap opens. A tie to a node that hangs, too, is one to what that
+/// is tied to.
 ///
 /// Cells are linear: tetrahedra, hexahedra, wedges and pyramids. A mesh with polyhedra has none, as
 /// these have the small faces themselves.

@@ -27,7 +27,7 @@ bool hasPieces(const UndeformedMesh& mesh)
   return hasPolyhedra(mesh.mesh()) || !mesh.hanging().empty();
 }
 
-/// A method with these options, not prepared, for the cells of `mesh`, with its own points or others.
+/// A method with these options, not prepared, for the cells of `mesh` at its points or others.
 std::unique_ptr<Morpher> makeMethod(const Session::Options& options, const UndeformedMesh& mesh)
 {
   return morpherForCells(mesh.mesh(), mesh.hanging(), options.settings(hasPieces(mesh)));

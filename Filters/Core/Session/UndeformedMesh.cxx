@@ -21,8 +21,18 @@ UndeformedMesh::UndeformedMesh(Mesh mesh, const UndeformedMesh* sameCells, Monit
   const bool hasOuter = sameCells && sameCells->hanging_.empty();
   this->outer_ = hasOuter ? sameCells->outer_ : boundaryFaces(this->mesh_, this->hanging_, monitor);
   this->repeated_ = sameCells ? sameCells->repeated_ : morph::repeatedCells(this->mesh_, monitor);
-  this->touching_ =
-    sameCells ? sameCells->touching_ : morph::touchingNodes(this->mesh_, this->outer_);
+  if (sameCells)
+  {
+    this->touching_ = sameCells->touching_;
+  }
+  else if (this->hanging_.empty())
+  {
+    this->touching_ = morph::touchingNodes(this->mesh_, this->outer_);
+  }
+  else
+  {
+    this->touching_ = morph::touchingNodes(this->hanging_.conforming(this->mesh_), this->outer_);
+  }
   this->size_ = meshSize(this->mesh_);
 }
 
