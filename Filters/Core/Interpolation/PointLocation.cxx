@@ -115,9 +115,9 @@ Place bestAround(const Delaunay& delaunay, const Row& x, int start)
   return best;
 }
 
-/// Tries the tetrahedron `found` with its `frame` first, then bestAround(). A walk may end too early
-/// in flat tetrahedra, which lie in one plane with x: where x is outside the best, others go on from
-/// there, through the face that x is farthest beyond, while they come closer.
+/// Tries the tetrahedron `found` with its `frame` first, then bestAround(). A walk may end too soon
+/// in flat tetrahedra, which lie in one plane with x. Where x is outside the best, others go on
+/// from there, through the face that x is farthest beyond, while they come closer.
 Place place(const Delaunay& delaunay, const Row& x, int found, const Frame& frame)
 {
   if (!frame.flat())

@@ -13,8 +13,8 @@ namespace morph
 /// move as the mean of their nodes; the other centers are unknowns, dropped from the result. Ids of
 /// cells in the method's messages are those of pieces: beyond the mesh's cells for all but the
 /// first piece of a polyhedron. `cutsAll`: see PolyhedronPieces. Cost: that of the method on the
-/// pieces. `hanging`: of the mesh, whose cells at divided faces are cut into pieces, too. Nodes that
-/// hang and are free move by their ties, and not as the method has it.
+/// pieces. `hanging`: of the mesh, whose cells at divided faces are cut into pieces, too. Nodes
+/// that hang and are free move by their ties, and not as the method has it.
 std::unique_ptr<Morpher> morpherForPolyhedra(
   std::unique_ptr<Morpher> method, bool cutsAll = false, HangingNodes hanging = {});
 

@@ -19,10 +19,10 @@ class Morpher;
 /// inversion-free one.
 void adaptToPieces(Morpher& method);
 
-/// Repairs a mesh with polyhedra or divided faces, its nodes at `moved`, #nodes x 3, in rounds. Each
-/// puts the centers back to the means of their nodes, repairs the pieces, and ties what hangs. The
-/// mesh with the fewest bad polyhedra and other cells is kept. Returns whether none are left. Ends
-/// where the boundary itself inverts a piece of each that is left. `reference`: see
+/// Repairs a mesh with polyhedra or divided faces, its nodes at `moved`, #nodes x 3, in rounds.
+/// Each puts the centers back to the means of their nodes, repairs the pieces, and ties what hangs.
+/// The mesh with the fewest bad polyhedra and other cells is kept. Returns whether none are left.
+/// Ends where the boundary itself inverts a piece of each that is left. `reference`: see
 /// Morpher::setReference(). `bad`: returns their ids.
 bool repairPolyhedra(const Mesh& mesh, const HangingNodes& hanging, const Points& reference,
   const NodePartition& partition,

@@ -390,8 +390,8 @@ Pairs FindByPosition(const Points& positions, const morph::Mesh& rest,
   }
 
   // Bodies that touch have a node each in the same place, but for rounding: an outer node that no
-  // point is closest to goes along with the nearest node that has one. It is in the same place if it
-  // is closer than to its neighbors.
+  // point is closest to goes along with the nearest node that has one. It is in the same place if
+  // it is closer than to its neighbors.
   struct Companion
   {
     Index Node;
