@@ -474,11 +474,12 @@ void DistributedMesh::findOuter(Monitor& monitor)
       all = boundaryFaces(this->mesh_, hanging, monitor);
       if (!hanging.empty())
       {
+        std::vector<Index> ids = this->idsOfNodes(hanging.nodes());
+        std::sort(ids.begin(), ids.end());
         throw Error("The mesh has faces that are divided on one side alone (2:1 refinement). Such "
                     "nodes hang in faces of their neighbors, which several MPI processes cannot "
                     "treat: point ids " +
-                    listIds(this->idsOfNodes(hanging.nodes())) +
-                    ". Run on one process, or refine both sides alike.");
+                    listIds(ids) + ". Run on one process, or refine both sides alike.");
       }
       this->repeated_ = morph::repeatedCells(this->mesh_, monitor);
       this->touching_ = morph::touchingNodes(this->mesh_, all);
