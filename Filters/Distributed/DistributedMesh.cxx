@@ -3,6 +3,7 @@
 
 #include "Mesh/CellShape.h"
 #include "Mesh/FacesOfCells.h"
+#include "Mesh/HangingNodes.h"
 #include "Mesh/Polyhedra.h"
 #include "Mesh/ShapeVolumes.h"
 #include "Mesh/SharedCorners.h"
@@ -466,10 +467,20 @@ void DistributedMesh::findBodies(Monitor& monitor)
 void DistributedMesh::findOuter(Monitor& monitor)
 {
   BoundaryFaces all;
+  HangingNodes hanging;
   this->ranks_->together(
     [&]
     {
-      all = boundaryFaces(this->mesh_, monitor);
+      all = boundaryFaces(this->mesh_, hanging, monitor);
+      if (!hanging.empty())
+      {
+        std::vector<Index> ids = this->idsOfNodes(hanging.nodes());
+        std::sort(ids.begin(), ids.end());
+        throw Error("The mesh has faces that are divided on one side alone (2:1 refinement). Such "
+                    "nodes hang in faces of their neighbors, which several MPI processes cannot "
+                    "treat: point ids " +
+                    listIds(ids) + ". Run on one process, or refine both sides alike.");
+      }
       this->repeated_ = morph::repeatedCells(this->mesh_, monitor);
       this->touching_ = morph::touchingNodes(this->mesh_, all);
     });

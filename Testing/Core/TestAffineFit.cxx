@@ -48,6 +48,28 @@ TEST(AffineFit, IsTheLeastSquaresSolutionOfMinimumNorm)
   }
 }
 
+// Squares of an unevenness of 3e-6 have four digits beside those of the extent.
+TEST(AffineFit, OfNearlyFlatPointsTurnsWithThem)
+{
+  std::mt19937 random(meshes::seed());
+  Eigen::Matrix3d turn;
+  turn << 0, 1, 0, -1, 0, 0, 0, 0, 1;
+  for (int trial = 0; trial < 20; ++trial)
+  {
+    Points rest = randomPoints(40, random);
+    rest.col(0) *= 3e-6;
+    const Points u = randomPoints(40, random), turned = rest * turn;
+    const AffineFit fit = AffineLeastSquares(rest).fit(u);
+    const AffineFit other = AffineLeastSquares(turned).fit(u * turn);
+    for (Index i = 0; i < rest.rows(); ++i)
+    {
+      const Eigen::RowVector3d expected = fit.displacement(rest.row(i)) * turn;
+      EXPECT_LT((other.displacement(turned.row(i)) - expected).norm(), 1e-9)
+        << "seed " << meshes::seed() << ", trial " << trial;
+    }
+  }
+}
+
 TEST(AffineFit, TransposeIsTheAdjoint)
 {
   std::mt19937 random(meshes::seed());

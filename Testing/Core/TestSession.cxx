@@ -153,8 +153,8 @@ TEST(Session, WhereTheBoundaryInvertsAllThatIsLeftNothingStartsAgain)
     ++asked;
     return morph::invertedCells(mesh, points, signs, monitor);
   };
-  EXPECT_FALSE(
-    morph::repairPolyhedra(mesh, mesh.points, motions::outerPartition(mesh), bad, moved, monitor));
+  EXPECT_FALSE(morph::repairPolyhedra(
+    mesh, {}, mesh.points, motions::outerPartition(mesh), bad, moved, monitor));
   EXPECT_EQ(asked, 1);
   EXPECT_EQ(moved, start);
   EXPECT_EQ(bad(moved), std::vector<morph::Index>{ 0 });

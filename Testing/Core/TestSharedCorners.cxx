@@ -3,6 +3,7 @@
 #include "Mesh/SharedCorners.h"
 #include "Meshes.h"
 #include "PolyhedralMeshes.h"
+#include "Session/UndeformedMesh.h"
 
 #include <gtest/gtest.h>
 
@@ -14,7 +15,7 @@ namespace
 std::vector<Index> touching(const Mesh& mesh)
 {
   Monitor monitor;
-  return touchingNodes(mesh, boundaryFaces(mesh, monitor));
+  return UndeformedMesh(mesh, nullptr, monitor).touchingNodes();
 }
 
 /// Both meshes, nodes in one place being one.

@@ -173,6 +173,41 @@ TEST(ValidRange, OfACubeThatIsFlattened)
   EXPECT_EQ(range.lowestCell, 0);
 }
 
+TEST(ValidRange, EndsBeforeAllEdgesVanishTogether)
+{
+  std::mt19937 random(meshes::seed());
+  for (int trial = 0; trial < 50; ++trial)
+  {
+    Case problem;
+    problem.mesh = meshes::hexes(1, 1, 1);
+    problem.mesh.points += .2 * meshes::noise(8, 1, random);
+    problem.first = (-problem.mesh.points).rowwise() + problem.mesh.points.row(0);
+    problem.motion = { &problem.mesh.points, &problem.first, {} };
+    Monitor monitor;
+    const ValidRange range = validRange(problem.mesh, problem.motion, {}, {}, monitor);
+    EXPECT_LE(range.highest, 1) << "seed " << meshes::seed() << ", trial " << trial;
+    EXPECT_GT(range.highest, 1 - 1e-9); // a triple root
+    EXPECT_TRUE(problem.isValid((1 - 1e-9) * range.highest));
+  }
+}
+
+TEST(ValidRange, OfAMotionByATinyFactorIsThatOfTheMotion)
+{
+  std::mt19937 random(meshes::seed());
+  const Mesh mesh = meshes::tets(2, 2, 2);
+  const Points fast = meshes::noise(mesh.points.rows(), 1, random), slow = 1e-300 * fast;
+  Monitor monitor;
+  const ValidRange own = validRange(mesh, { &mesh.points, &fast, {} }, {}, {}, monitor);
+  const ValidRange range = validRange(mesh, { &mesh.points, &slow, {} }, {}, {}, monitor);
+  ASSERT_LT(own.highest, HUGE_VAL);
+  EXPECT_NEAR(range.highest / 1e300, own.highest, 1e-9 * own.highest);
+
+  const NodeMotion turn = { &mesh.points, nullptr, { { &fast, &fast, 1 } } };
+  const NodeMotion slowTurn = { &mesh.points, nullptr, { { &fast, &fast, 1e-300 } } };
+  EXPECT_NEAR(validRange(mesh, slowTurn, {}, {}, monitor).highest / 1e300,
+    validRange(mesh, turn, {}, {}, monitor).highest, 1e-9);
+}
+
 TEST(PolynomialRoot, FindsTheFirst)
 {
   const double cubic[] = { 6, -11, 6, -1 }; // (1 - t)(2 - t)(3 - t)

@@ -12,6 +12,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <iterator>
 #include <numeric>
 #include <set>
 #include <utility>
@@ -277,6 +279,25 @@ TEST_F(MorphMatching, PositionRouteLeavesInteriorNodesNearbyAlone)
   this->Filter->SetMatchTolerance(0.5);
   EXPECT_LT((this->RunAgain() - this->Expected).cwiseAbs().maxCoeff(), 1e-9);
   EXPECT_EQ(this->Filter->GetPrescribedPoints(), static_cast<vtkIdType>(this->Outer.size()));
+}
+
+TEST_F(MorphMatching, PositionRouteLeavesOuterNodesOfTheSameCellAlone)
+{
+  // Only the top face is given, and the tolerance reaches several cells.
+  std::vector<Index> top;
+  std::copy_if(this->Outer.begin(), this->Outer.end(), std::back_inserter(top),
+    [this](Index id) { return this->Mesh.points(id, 2) == 4; });
+  auto boundary = grids::cloud(meshes::rows(this->Mesh.points, top));
+  grids::addVectors(boundary, "Shift", Points::Constant(25, 3, 0.125));
+  this->Filter->SetBoundaryData(boundary);
+  this->Filter->SetDisplacementArray("Shift");
+  this->Filter->SetMatchTolerance(0.5);
+  const Points moved = this->RunAgain();
+  for (const Index id : this->Outer)
+  {
+    const double shift = this->Mesh.points(id, 2) == 4 ? 0.125 : 0;
+    EXPECT_EQ(moved.row(id), this->Mesh.points.row(id) + grids::Row::Constant(shift)) << id;
+  }
 }
 
 TEST_F(MorphMatching, DisplacementArrayWithIds)

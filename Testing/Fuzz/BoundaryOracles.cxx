@@ -3,17 +3,27 @@
 
 #include "RandomMesh.h"
 #include "Recount.h"
+#include "Support/UnionFind.h"
 #include "vtkBoundaryDisplacement.h"
 #include "vtkMorphBoundary.h"
 
+#include <vtkCell.h>
+#include <vtkCellData.h>
 #include <vtkPointData.h>
 #include <vtkPointSet.h>
 #include <vtkPoints.h>
+#include <vtkPolyData.h>
 
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
 #include <set>
+#include <sstream>
+#include <string>
+#include <tuple>
 
 namespace fuzz
 {
@@ -27,11 +37,94 @@ std::string nodeText(Index node)
   return "node " + std::to_string(node);
 }
 
+std::string offText(const Row& x, const Row& wanted, const Case& made)
+{
+  std::ostringstream text;
+  text << (x - wanted).norm() / made.grid.size << " sizes off";
+  return text.str();
+}
+
 /// The point array, or null where it is not as long as the output.
 vtkDataArray* arrayOf(vtkPointSet* output, const char* name)
 {
   vtkDataArray* array = output->GetPointData()->GetArray(name);
   return array && array->GetNumberOfTuples() == output->GetNumberOfPoints() ? array : nullptr;
+}
+
+/// Whether the known points tell an affine map at all others: along each of their principal
+/// directions these are no farther out than three of their extents.
+bool areDetermined(const std::vector<Row>& known, const std::vector<Row>& others)
+{
+  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+  Row center = Row::Zero();
+  const auto share = 1 / static_cast<double>(known.size());
+  for (const Row& x : known)
+  {
+    center += share * x;
+  }
+  for (const Row& x : known)
+  {
+    spread += share * (x - center).transpose() * (x - center);
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(spread);
+  const Row extent = solver.eigenvalues().cwiseMax(0).cwiseSqrt().transpose();
+  return std::all_of(others.begin(), others.end(),
+    [&](const Row& x)
+    {
+      const Row arm = (x - center) * solver.eigenvectors();
+      return ((arm.cwiseAbs() - 3 * extent).array() <= 1e-7 * extent[2]).all();
+    });
+}
+
+/// The points of surfaces on which the nodes that others follow do not tell an affine map.
+/// `isKnown`: #points of the output.
+std::set<vtkIdType> undetermined(
+  const morph::Points& rest, vtkPolyData* output, const std::vector<bool>& isKnown)
+{
+  vtkDataArray* ids = arrayOf(output, "MorphPointId");
+  vtkDataArray* surfaces = output->GetCellData()->GetArray("GeometryId");
+  // A surface is what hangs together by edges, of two faces each.
+  std::map<std::tuple<double, vtkIdType, vtkIdType>, std::vector<vtkIdType>> cellsOfEdge;
+  for (vtkIdType cell = 0; cell < output->GetNumberOfCells(); ++cell)
+  {
+    const double surface = surfaces->GetComponent(cell, 0);
+    vtkIdList* points = output->GetCell(cell)->GetPointIds();
+    for (vtkIdType k = 0; k < points->GetNumberOfIds(); ++k)
+    {
+      const auto [low, high] =
+        std::minmax({ points->GetId(k), points->GetId((k + 1) % points->GetNumberOfIds()) });
+      cellsOfEdge[{ surface, low, high }].push_back(cell);
+    }
+  }
+  morph::UnionFind<vtkIdType> parts(output->GetNumberOfCells());
+  for (const auto& [edge, cells] : cellsOfEdge)
+  {
+    if (cells.size() == 2)
+    {
+      parts.join(cells[0], cells[1]);
+    }
+  }
+  std::map<vtkIdType, std::set<vtkIdType>> pointsOf;
+  for (vtkIdType cell = 0; cell < output->GetNumberOfCells(); ++cell)
+  {
+    vtkIdList* points = output->GetCell(cell)->GetPointIds();
+    pointsOf[parts.root(cell)].insert(points->begin(), points->end());
+  }
+  std::set<vtkIdType> result;
+  for (const auto& [part, points] : pointsOf)
+  {
+    std::vector<Row> known, others;
+    for (const vtkIdType p : points)
+    {
+      const Row x = rest.row(static_cast<Index>(ids->GetComponent(p, 0)));
+      (isKnown[p] ? known : others).push_back(x);
+    }
+    if (!areDetermined(known, others))
+    {
+      result.insert(points.begin(), points.end());
+    }
+  }
+  return result;
 }
 
 double roundingOf(vtkPointSet* output, const Row& x)
@@ -81,7 +174,7 @@ Finding checkClassified(const Case& made, vtkPointSet* output)
 Finding checkMovedBoundary(const Case& made, vtkAlgorithm* algorithm, const Run& run)
 {
   auto* filter = vtkMorphBoundary::SafeDownCast(algorithm);
-  auto* output = vtkPointSet::SafeDownCast(run.outputs.front());
+  auto* output = vtkPolyData::SafeDownCast(run.outputs.front());
   vtkDataArray* ids = arrayOf(output, "MorphPointId");
   vtkDataArray* dimensions = arrayOf(output, "GeometryDimension");
   if (!ids || !dimensions)
@@ -102,6 +195,18 @@ Finding checkMovedBoundary(const Case& made, vtkAlgorithm* algorithm, const Run&
     made.choices.value("property.FeatureAngle") < 60 &&
     filter->GetUnattachedMotion() == vtkMorphBoundary::UNATTACHED_MOTION_FOLLOW_AFFINELY &&
     made.choices.value("hostile.mesh") == 0 && isValid(made.grid.mesh, made.grid.mesh.points, 0.02);
+  const auto isGivenPoint = [&](vtkIdType p)
+  {
+    return targets.count(static_cast<Index>(ids->GetComponent(p, 0))) > 0 &&
+           dimensions->GetComponent(p, 0) <= filter->GetPrescribedDimension();
+  };
+  std::vector<bool> isFollowed;
+  for (vtkIdType p = 0; p < output->GetNumberOfPoints(); ++p)
+  {
+    isFollowed.push_back(dimensions->GetComponent(p, 0) < 2 || isGivenPoint(p));
+  }
+  const std::set<vtkIdType> unknown =
+    isAffine ? undetermined(made.grid.mesh.points, output, isFollowed) : std::set<vtkIdType>();
   for (vtkIdType p = 0; p < output->GetNumberOfPoints(); ++p)
   {
     const auto node = static_cast<Index>(ids->GetComponent(p, 0));
@@ -110,7 +215,7 @@ Finding checkMovedBoundary(const Case& made, vtkAlgorithm* algorithm, const Run&
     const Row rest = made.grid.mesh.points.row(node);
     Row x;
     output->GetPoint(p, x.data());
-    const bool isGiven = target != targets.end() && dimension <= filter->GetPrescribedDimension();
+    const bool isGiven = isGivenPoint(p);
     const Row wanted = isGiven ? Row(rest + scale * (target->second - rest)) : rest;
     // Below 1e-38 floats are multiples of one number.
     const double rounding = made.choices.value("boundary.float") == 0
@@ -121,16 +226,17 @@ Finding checkMovedBoundary(const Case& made, vtkAlgorithm* algorithm, const Run&
     if (isKnown && !((x - wanted).cwiseAbs().maxCoeff() <=
                      10 * roundingOf(output, wanted) + 1e-12 * made.grid.size + rounding))
     {
-      return { "given node", nodeText(node) };
+      return { "given node", nodeText(node) + " is " + offText(x, wanted, made) };
     }
     const Row mapped = rest * made.boundary.matrix.transpose() + made.boundary.shift;
     const Row image = rest + scale * (mapped - rest);
     const double allowed = 1e-6 * made.grid.size * (1 + std::abs(scale)) + rounding +
                            100 * roundingOf(output, image) + 100 * roundingOf(output, rest);
-    if (isAffine && !((x - image).norm() <= allowed))
+    if (isAffine && (dimension < 2 || unknown.count(p) == 0) && !((x - image).norm() <= allowed))
     {
-      return { "affine map of the boundary",
-        nodeText(node) + " of dimension " + std::to_string(static_cast<int>(dimension)) };
+      return { "affine map of the boundary", nodeText(node) + " of dimension " +
+                                               std::to_string(static_cast<int>(dimension)) +
+                                               " is " + offText(x, image, made) };
     }
   }
   return {};

@@ -5,6 +5,7 @@
 #include "Workers.h"
 
 #include <chrono>
+#include <cmath>
 #include <cstdlib>
 #include <cstring>
 #include <iostream>
@@ -161,6 +162,15 @@ void add(const std::string& features, Features& to)
   }
 }
 
+/// Whether a share of cases is below the demanded one by more than chance explains: by three
+/// standard deviations of a sample of this size.
+bool isRare(std::uint64_t has, std::uint64_t all, double demanded)
+{
+  const double n = static_cast<double>(all);
+  const double spread = std::sqrt(n * demanded * (1 - demanded));
+  return static_cast<double>(has) < n * demanded - 3 * spread;
+}
+
 /// Each is to be in 2 % of these cases.
 bool printFeatures(const Features& features, bool isChecked)
 {
@@ -168,7 +178,7 @@ bool printFeatures(const Features& features, bool isChecked)
   for (const auto& [name, counts] : features)
   {
     const auto [has, all] = counts;
-    const bool isEnough = 50 * has >= all;
+    const bool isEnough = !isRare(has, all, 0.02);
     good = good && isEnough;
     std::cout << "  " << name << ": " << 1000 * has / all / 10. << " % of " << all << " cases"
               << (isEnough ? "" : ", too few") << "\n";
@@ -188,7 +198,7 @@ bool printShares(const std::map<std::string, Share>& shares, bool isChecked)
   }
   for (const auto& [name, share] : shares)
   {
-    const bool isEnough = 50 * share.cases >= all.cases;
+    const bool isEnough = !isRare(share.cases, all.cases, 0.02);
     std::cout << "  " << name << ": " << share.cases << " cases, "
               << 100 * share.useful / share.cases << " % with free nodes and without an error"
               << (isEnough ? "" : ", too few cases") << "\n";
@@ -197,7 +207,7 @@ bool printShares(const std::map<std::string, Share>& shares, bool isChecked)
   std::cout << "  all: " << all.cases << " cases, " << 100 * all.useful / all.cases
             << " % with free nodes and without an error\n";
   return !isChecked ||
-         (good && shares.size() == fuzz::filters().size() && 10 * all.useful >= 6 * all.cases);
+         (good && shares.size() == fuzz::filters().size() && !isRare(all.useful, all.cases, 0.6));
 }
 }
 
@@ -246,8 +256,7 @@ int main(int argc, char** argv)
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
   const bool isChecked =
     options.filter.empty() && options.count >= 1000 && !(options.stops && found);
-  // Few cases of the rarest filter say nothing about its properties.
-  const bool areCovered = printFeatures(features, isChecked && options.count >= 5000);
+  const bool areCovered = printFeatures(features, isChecked);
   const bool good = printShares(shares, isChecked) && areCovered;
   std::cout << "Seeds " << options.from << " to " << options.from + options.count - 1 << ": "
             << found << " findings, " << seconds.count() << " s\n";

@@ -5,6 +5,7 @@
 #include "Recount.h"
 #include "SameData.h"
 #include "vtkDisplacementAlgorithm.h"
+#include "vtkLBWarpMorph.h"
 #include "vtkMorphAlgorithm.h"
 #include "vtkMorphBoundary.h"
 #include "vtkMorphMesh.h"
@@ -173,6 +174,7 @@ struct Frame
   Row vector(const Row& x) const { return x * this->matrix.transpose(); }
 };
 
+constexpr int Origin = 2;     ///< far away
 constexpr int Reflection = 4; ///< the last kind of frame
 
 Frame randomFrame(Choices& choices, int kind, double size)
@@ -244,16 +246,29 @@ bool isExact(const Case& made, vtkAlgorithm* filter)
                        std::string(morph->GetMorphStatus()) == "Inverted"));
 }
 
+/// All outer nodes are prescribed.
+bool isHeld(const Case& made)
+{
+  return made.choices.value("property.FixUnnamedBoundary") != 0 &&
+         made.choices.value("with.mask") == 0;
+}
+
+/// Whether rounding decides if free nodes in a flat side lie in the hull of their neighbors.
+bool isOnHull(const Case& made, vtkAlgorithm* filter)
+{
+  auto* shapes = vtkMorphShapes::SafeDownCast(filter);
+  return !isHeld(made) && (vtkLBWarpMorph::SafeDownCast(filter) ||
+                            (shapes && shapes->GetMethod() == vtkMorphShapes::METHOD_LBWARP));
+}
+
 /// Whether rounding decides which of a target's places is nearest, or which simplex extrapolates to
 /// a node outside all.
 bool isUndecided(const Case& made, vtkAlgorithm* filter)
 {
   const auto extrapolates = [](auto* morph) { return morph && morph->GetExtrapolatedNodes() > 0; };
   auto* shapes = vtkMorphShapes::SafeDownCast(filter);
-  const bool isHeld =
-    made.choices.value("property.FixUnnamedBoundary") != 0 && made.choices.value("with.mask") == 0;
   return (vtkMorphBoundary::SafeDownCast(filter) && made.inputs[2]) ||
-         (shapes && !isHeld &&
+         (shapes && !isHeld(made) &&
            (shapes->GetMethod() == vtkMorphShapes::METHOD_SIMPLEX_LINEAR ||
              shapes->GetMethod() == vtkMorphShapes::METHOD_SIMPLEX_NATURAL_NEIGHBOR)) ||
          extrapolates(vtkSimplexLinearMorph::SafeDownCast(filter)) ||
@@ -334,6 +349,7 @@ Finding checkFrame(Case& made, vtkAlgorithm* filter, const Run& first)
   if (kind == 0 || !isPlain(made) || tolerance > 1e-10 || !isMatched || !output || !input ||
       !isOfType(output, VTK_DOUBLE) || !isOfType(input, VTK_DOUBLE) ||
       made.choices.value("boundary.float") != 0 || isUndecided(made, filter) ||
+      (kind == Origin && isOnHull(made, filter)) || // digits are lost far away
       (kind == Reflection && isInvertedByMirror(made.grid.mesh)))
   {
     return {};
@@ -366,14 +382,15 @@ Finding checkFrame(Case& made, vtkAlgorithm* filter, const Run& first)
   const double lost = std::max(rounding(x, false) / unit, rounding(y, false));
   if (isExact(made, filter) && isExact(made, other))
   {
-    double most = 0;
+    std::pair<double, Index> most = { 0, -1 };
     for (Index p = 0; p < x.rows(); ++p)
     {
-      most = std::max(most, (x.row(p) - frame.point(y.row(p))).norm() / unit);
+      most = std::max(most, { (x.row(p) - frame.point(y.row(p))).norm() / unit, p });
     }
-    return most <= 1e-9 * made.grid.size + 1e3 * lost
+    return most.first <= 1e-9 * made.grid.size + 1e3 * lost
              ? Finding{}
-             : Finding{ "frame", "a node is " + text(most / made.grid.size) + " sizes off" };
+             : Finding{ "frame", "point " + std::to_string(most.second) + " is " +
+                                   text(most.first / made.grid.size) + " sizes off" };
   }
   // A motion that the other frame's digits do not show is none there, and leaves a valid mesh.
   const double motion = motionOf(made, filter) * made.grid.size;
@@ -466,11 +483,13 @@ Finding checkRanges(Case& made, vtkAlgorithm* filter, const Run& run)
       shapes->SetWeight(static_cast<int>(i), tried[i]);
     }
     const Run again = execute(shapes, made.time);
-    // Of places that are too far the determinants are rounding.
+    // Of places that are too far, and of cells without volume, the determinants are rounding.
+    constexpr double Rounding = 1e-12;
     const bool isFar =
       pointsOf(vtkPointSet::SafeDownCast(again.outputs.front())).cwiseAbs().maxCoeff() >
       1e4 * made.grid.size;
-    if (again.errors.empty() && !isFar && shapes->GetNewInvertedCells() > 0)
+    if (again.errors.empty() && !isFar && shapes->GetNewInvertedCells() > 0 &&
+        shapes->GetMinScaledJacobian() < -Rounding)
     {
       std::string list;
       for (const double weight : tried)

@@ -43,6 +43,16 @@ PrincipalDirections::PrincipalDirections(const Eigen::Matrix3d& spread, double c
   this->limit(Eigen::RowVector3d::Ones(), Eigen::RowVector3d::Ones());
 }
 
+void PrincipalDirections::measure(const Points& arms)
+{
+  Eigen::RowVector3d squares = Eigen::RowVector3d::Zero();
+  for (Index i = 0; i < arms.rows(); ++i)
+  {
+    squares += (arms.row(i) * this->axes_).cwiseAbs2();
+  }
+  this->extent_ = (squares / std::max(this->count_, 1.)).cwiseSqrt();
+}
+
 Eigen::RowVector3d PrincipalDirections::leverages(const Eigen::RowVector3d& arm) const
 {
   const Eigen::RowVector3d x = arm * this->axes_;
@@ -121,6 +131,7 @@ AffineLeastSquares::AffineLeastSquares(const Points& rest, const ConstPoints& pl
     Q.noalias() += this->arms_.row(i).transpose() * this->arms_.row(i);
   }
   this->directions_ = PrincipalDirections(Q, static_cast<double>(rest.rows()));
+  this->directions_.measure(this->arms_);
   const auto largest = [&](const ConstPoints& of)
   {
     Eigen::RowVector3d leverages = Eigen::RowVector3d::Zero();

@@ -23,6 +23,10 @@ public:
   /// `spread`: the sum of (x - c)^T (x - c) over `count` points about their mean position c.
   PrincipalDirections(const Eigen::Matrix3d& spread, double count);
 
+  /// Measures the extents along the directions: small ones lose digits in the spread's squares.
+  /// `arms`: of the points, from their mean position. Before limit().
+  void measure(const Points& arms);
+
   /// Unit vectors, by ascending extent, as columns.
   const Eigen::Matrix3d& axes() const { return this->axes_; }
   /// The leverages of a place at `arm` from the center.

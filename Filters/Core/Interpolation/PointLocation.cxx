@@ -115,8 +115,9 @@ Place bestAround(const Delaunay& delaunay, const Row& x, int start)
   return best;
 }
 
-/// Tries the tetrahedron `found` with its `frame` first, then bestAround(). A walk through flat
-/// tetrahedra may end too early: where x is outside the best, another walk goes on from there.
+/// Tries the tetrahedron `found` with its `frame` first, then bestAround(). A walk may end too soon
+/// in flat tetrahedra, which lie in one plane with x. Where x is outside the best, others go on
+/// from there, through the face that x is farthest beyond, while they come closer.
 Place place(const Delaunay& delaunay, const Row& x, int found, const Frame& frame)
 {
   if (!frame.flat())
@@ -128,13 +129,25 @@ Place place(const Delaunay& delaunay, const Row& x, int found, const Frame& fram
     }
   }
   const Place best = bestAround(delaunay, x, found);
-  if (best.tetrahedron == Delaunay::Outside || best.barycentric.minCoeff() >= -InsideTolerance)
+  Place here = best;
+  while (here.tetrahedron != Delaunay::Outside)
   {
-    return best;
+    Index face = 0;
+    const double outside = here.barycentric.minCoeff(&face);
+    if (outside >= -InsideTolerance)
+    {
+      return here;
+    }
+    const int beyond = delaunay.tetrahedra()[here.tetrahedron].neighbors[face];
+    const Place next =
+      bestAround(delaunay, x, delaunay.locate(x, beyond < 0 ? here.tetrahedron : beyond));
+    if (next.tetrahedron == Delaunay::Outside || next.barycentric.minCoeff() <= outside)
+    {
+      break;
+    }
+    here = next;
   }
-  const Place next = bestAround(delaunay, x, delaunay.locate(x, best.tetrahedron));
-  const bool isInside = next.barycentric.minCoeff() >= -InsideTolerance;
-  return next.tetrahedron != Delaunay::Outside && isInside ? next : best;
+  return best;
 }
 }
 

@@ -65,7 +65,7 @@ double meshSize(const Mesh& mesh)
       box.extend(mesh.points.row(mesh.cell(c)[k]).transpose());
     }
   }
-  return box.isEmpty() ? 0 : box.diagonal().norm();
+  return box.isEmpty() ? 0 : box.diagonal().stableNorm();
 }
 
 void requireExtent(double size, const char* subject)

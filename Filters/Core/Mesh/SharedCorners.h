@@ -16,8 +16,9 @@ std::vector<Index> repeatedCells(const Mesh& mesh, Monitor& monitor);
 /// Returns the nodes, ascending, where cells meet that are not joined by faces there, as where two
 /// bodies share a node by chance. Two cells are joined if they have three corners in common. Left
 /// out are all corners of an outer face if they are all such nodes: a cell of one side meets
-/// several of the other side there. `faces`: the mesh's boundaryFaces(). Cost: a pass over the
-/// faces and, where there may be such nodes, one over the cells.
+/// several of the other side there. `mesh`: HangingNodes::conforming() where faces are divided on
+/// one side alone. `faces`: the mesh's boundaryFaces(). Cost: a pass over the faces and, where
+/// there may be such nodes, one over the cells.
 std::vector<Index> touchingNodes(const Mesh& mesh, const BoundaryFaces& faces);
 
 /// The number of mirrored bodies: those that have cells of orientation -1. `orientation`: #cells,

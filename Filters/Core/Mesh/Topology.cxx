@@ -4,6 +4,7 @@
 #include "Mesh/CellShape.h"
 #include "Mesh/FaceTable.h"
 #include "Mesh/FacesOfCells.h"
+#include "Mesh/HangingNodes.h"
 #include "Mesh/Polyhedra.h"
 #include "Mesh/ShapeVolumes.h"
 #include "Mesh/ShapeWindings.h"
@@ -300,8 +301,29 @@ BoundaryFaces describeFaces(const Mesh& mesh, const std::vector<Place>& faces)
 
 BoundaryFaces boundaryFaces(const Mesh& mesh, Monitor& monitor)
 {
-  return describeFaces(
-    mesh, hasPolyhedra(mesh) ? outerFacesAmongAll(mesh, monitor) : outerFaces(mesh, monitor));
+  HangingNodes hanging;
+  return boundaryFaces(mesh, hanging, monitor);
+}
+
+BoundaryFaces boundaryFaces(const Mesh& mesh, HangingNodes& hanging, Monitor& monitor)
+{
+  const std::vector<Place> places =
+    hasPolyhedra(mesh) ? outerFacesAmongAll(mesh, monitor) : outerFaces(mesh, monitor);
+  BoundaryFaces faces = describeFaces(mesh, places);
+  const std::vector<std::uint8_t> isInside = hanging.find(mesh, faces, monitor);
+  if (isInside.empty())
+  {
+    return faces;
+  }
+  std::vector<Place> outside;
+  for (std::size_t f = 0; f < places.size(); ++f)
+  {
+    if (!isInside[f])
+    {
+      outside.push_back(places[f]);
+    }
+  }
+  return describeFaces(mesh, outside);
 }
 
 BoundaryFaces facesOfCells(

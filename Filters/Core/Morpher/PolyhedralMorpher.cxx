@@ -16,9 +16,10 @@ template <typename Method>
 class OnPieces
 {
 public:
-  OnPieces(std::unique_ptr<Method> method, bool cutsAll)
+  OnPieces(std::unique_ptr<Method> method, bool cutsAll, HangingNodes hanging)
     : method_(std::move(method))
     , cutsAll_(cutsAll)
+    , hanging_(std::move(hanging))
   {
   }
 
@@ -27,7 +28,8 @@ public:
 
   void prepare(const Mesh& rest, const NodePartition& partition, Monitor& monitor)
   {
-    this->pieces_ = std::make_unique<PolyhedronPieces>(rest, monitor, this->cutsAll_);
+    this->pieces_ = std::make_unique<PolyhedronPieces>(
+      this->hanging_.empty() ? rest : this->hanging_.conforming(rest), monitor, this->cutsAll_);
     this->nodes_ = rest.numberOfNodes();
     if (this->reference_.rows() > 0)
     {
@@ -45,7 +47,8 @@ public:
       stiffness.values = this->pieces_->extend(stiffness.values);
       stiff->setStiffness(std::move(stiffness));
     }
-    this->method_->prepare(this->pieces_->mesh(), this->pieces_->extend(partition), monitor);
+    const NodePartition ofMesh = this->hanging_.extend(partition);
+    this->method_->prepare(this->pieces_->mesh(), this->pieces_->extend(ofMesh), monitor);
   }
 
   EvaluateReport displace(
@@ -53,6 +56,7 @@ public:
   {
     Points displacement = Points::Zero(this->nodes_, 3);
     displacement(partition.prescribed, allColumns) = prescribed;
+    this->hanging_.apply(displacement);
     const Points all = this->pieces_->extend(displacement);
     const std::vector<Index>& ids = this->method_->partition().prescribed;
     const Points& rest = this->method_->restPoints();
@@ -62,11 +66,12 @@ public:
       targets.row(i) = rest.row(ids[i]) + all.row(ids[i]);
     }
     const EvaluateReport report = this->method_->evaluate(targets, moved, monitor);
-    for (Index i = 0; i < free.rows(); ++i)
+    for (const Index node : partition.free)
     {
-      const Index node = partition.free[i];
-      free.row(i) = moved.row(node) - rest.row(node);
+      displacement.row(node) = moved.row(node) - rest.row(node);
     }
+    this->hanging_.apply(displacement);
+    free = displacement(partition.free, allColumns);
     return report;
   }
 
@@ -76,6 +81,8 @@ public:
     Points three = Points::Zero(this->nodes_, 3), fourth = three;
     three(partition.prescribed, allColumns) = prescribed.leftCols<3>();
     fourth(partition.prescribed, 0) = prescribed.col(3);
+    this->hanging_.apply(three);
+    this->hanging_.apply(fourth);
     three = this->pieces_->extend(three);
     fourth = this->pieces_->extend(fourth);
     const std::vector<Index>& ids = this->method_->partition().prescribed;
@@ -83,25 +90,37 @@ public:
     given << three(ids, allColumns), fourth(ids, 0);
     EvaluateReport report;
     const FourFields all = this->method_->fields(given, monitor, &report);
-    free = all(partition.free, allColumns);
+    three = all.topLeftCorner(this->nodes_, 3);
+    fourth.setZero();
+    fourth.col(0) = all.col(3).head(this->nodes_);
+    this->hanging_.apply(three);
+    this->hanging_.apply(fourth);
+    free << three(partition.free, allColumns), fourth(partition.free, 0);
     return report;
   }
 
   EvaluateReport displaceTranspose(
     const NodePartition& partition, const Points& free, Points& prescribed, Monitor& monitor) const
   {
+    Points own = Points::Zero(this->nodes_, 3);
+    own(partition.free, allColumns) = free;
+    this->hanging_.applyTranspose(own);
+    prescribed += own(partition.prescribed, allColumns);
     Points gradient = Points::Zero(this->method_->restPoints().rows(), 3), given;
-    gradient(partition.free, allColumns) = free;
+    gradient(partition.free, allColumns) = own(partition.free, allColumns);
     const EvaluateReport report = this->method_->applyTranspose(gradient, given, monitor);
     Points all = Points::Zero(gradient.rows(), 3);
     all(this->method_->partition().prescribed, allColumns) = given;
-    prescribed += this->pieces_->extendTranspose(all)(partition.prescribed, allColumns);
+    own = this->pieces_->extendTranspose(all);
+    this->hanging_.applyTranspose(own);
+    prescribed += own(partition.prescribed, allColumns);
     return report;
   }
 
 private:
   std::unique_ptr<Method> method_;
   bool cutsAll_;
+  HangingNodes hanging_;
   std::unique_ptr<PolyhedronPieces> pieces_;
   Points reference_;
   Index nodes_ = 0;
@@ -121,8 +140,8 @@ class PolyhedralMorpher
   , public Wrapper
 {
 public:
-  PolyhedralMorpher(std::unique_ptr<Method> method, bool cutsAll)
-    : onPieces_(std::move(method), cutsAll)
+  PolyhedralMorpher(std::unique_ptr<Method> method, bool cutsAll, HangingNodes hanging)
+    : onPieces_(std::move(method), cutsAll, std::move(hanging))
   {
   }
   void setReference(Points reference) override
@@ -162,20 +181,25 @@ class PolyhedralLinearMorpher : public PolyhedralMorpher<LinearMorpher>
 };
 }
 
-std::unique_ptr<Morpher> morpherForPolyhedra(std::unique_ptr<Morpher> method, bool cutsAll)
+std::unique_ptr<Morpher> morpherForPolyhedra(
+  std::unique_ptr<Morpher> method, bool cutsAll, HangingNodes hanging)
 {
   if (auto* linear = dynamic_cast<LinearMorpher*>(method.get()))
   {
     method.release();
     return std::make_unique<PolyhedralLinearMorpher>(
-      std::unique_ptr<LinearMorpher>(linear), cutsAll);
+      std::unique_ptr<LinearMorpher>(linear), cutsAll, std::move(hanging));
   }
-  return std::make_unique<PolyhedralMorpher<Morpher>>(std::move(method), cutsAll);
+  return std::make_unique<PolyhedralMorpher<Morpher>>(
+    std::move(method), cutsAll, std::move(hanging));
 }
 
-std::unique_ptr<Morpher> morpherForCells(const Mesh& mesh, std::unique_ptr<Morpher> method)
+std::unique_ptr<Morpher> morpherForCells(
+  const Mesh& mesh, const HangingNodes& hanging, std::unique_ptr<Morpher> method)
 {
-  return hasPolyhedra(mesh) ? morpherForPolyhedra(std::move(method)) : std::move(method);
+  return hasPolyhedra(mesh) || !hanging.empty()
+           ? morpherForPolyhedra(std::move(method), false, hanging)
+           : std::move(method);
 }
 
 Morpher& methodOf(Morpher& morpher)

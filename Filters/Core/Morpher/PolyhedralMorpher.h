@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Mesh/HangingNodes.h"
 #include "Morpher/Morpher.h"
 
 #include <memory>
@@ -12,11 +13,14 @@ namespace morph
 /// move as the mean of their nodes; the other centers are unknowns, dropped from the result. Ids of
 /// cells in the method's messages are those of pieces: beyond the mesh's cells for all but the
 /// first piece of a polyhedron. `cutsAll`: see PolyhedronPieces. Cost: that of the method on the
-/// pieces.
-std::unique_ptr<Morpher> morpherForPolyhedra(std::unique_ptr<Morpher> method, bool cutsAll = false);
+/// pieces. `hanging`: of the mesh, whose cells at divided faces are cut into pieces, too. Nodes
+/// that hang and are free move by their ties, and not as the method has it.
+std::unique_ptr<Morpher> morpherForPolyhedra(
+  std::unique_ptr<Morpher> method, bool cutsAll = false, HangingNodes hanging = {});
 
-/// Returns this for a mesh with polyhedra, and `method` itself for others.
-std::unique_ptr<Morpher> morpherForCells(const Mesh& mesh, std::unique_ptr<Morpher> method);
+/// Returns this for a mesh with polyhedra or divided faces, and `method` itself for others.
+std::unique_ptr<Morpher> morpherForCells(
+  const Mesh& mesh, const HangingNodes& hanging, std::unique_ptr<Morpher> method);
 
 /// Returns the method that works on the pieces, or `morpher` itself if it is no such wrapper.
 Morpher& methodOf(Morpher& morpher);

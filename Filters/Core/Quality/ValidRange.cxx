@@ -28,6 +28,8 @@ constexpr Index Grain = 32;
 constexpr int MostSteps = 500; // of a cell, for slivers that shear without end
 constexpr double Precision = 1e-11;
 constexpr double Infinity = std::numeric_limits<double>::infinity();
+/// Of a determinant, relative to the product of its edges' lengths.
+constexpr double Rounding = 16 * std::numeric_limits<double>::epsilon();
 constexpr double FullTurn = 6.28318530717958647692;
 
 /// Two vectors: a position and its derivative, or the factors of a sine and a cosine.
@@ -53,18 +55,20 @@ Polynomial determinant(const Pair& a, const Pair& b, const Pair& c, double sign)
   return result;
 }
 
-/// By how much second derivatives can change a determinant: the products with one of them.
-Polynomial change(const Lengths& of)
+/// The products of three edges' lengths or derivatives: those with a second derivative, by which a
+/// determinant can change, or all others that the factor changes, to which rounding is relative.
+Polynomial products(const Lengths& of, bool areSecond)
 {
+  const int orders = areSecond ? 3 : 2;
   Polynomial result = {};
-  for (int i = 0; i < 3; ++i)
+  for (int i = 0; i < orders; ++i)
   {
-    for (int j = 0; j < 3; ++j)
+    for (int j = 0; j < orders; ++j)
     {
-      for (int k = 0; k < 3; ++k)
+      for (int k = 0; k < orders; ++k)
       {
-        const bool isBeyond = i == 2 || j == 2 || k == 2;
-        result[i + j + k] += isBeyond ? of[i][0] * of[j][1] * of[k][2] : 0;
+        const bool isPart = areSecond ? i == 2 || j == 2 || k == 2 : i + j + k > 0;
+        result[i + j + k] += isPart ? of[i][0] * of[j][1] * of[k][2] : 0;
       }
     }
   }
@@ -77,21 +81,30 @@ struct Step
   double sign; ///< of the direction
   int degree;  ///< of the bounds
   double most; ///< what is of interest
-  std::vector<Polynomial> bounds;
-
-  /// `rest`: what second derivatives can change; zeros for a cubic.
-  void add(Polynomial bound, const Polynomial& rest)
+  struct Bound
   {
-    for (int k = 0; k <= this->degree; ++k)
+    Polynomial value;
+    Lengths lengths; ///< of the edges whose determinant it bounds
+  };
+  std::vector<Bound> bounds;
+
+  void add(const Polynomial& determinant, const Lengths& lengths)
+  {
+    this->bounds.push_back({ determinant, lengths });
+    Polynomial& value = this->bounds.back().value;
+    for (int k = 1; k <= this->degree; k += 2)
     {
-      bound[k] = (k % 2 ? this->sign : 1) * bound[k] - rest[k];
+      value[k] *= this->sign;
     }
-    this->bounds.push_back(bound);
+    if (this->degree > 3)
+    {
+      subtract(products(lengths, true), 1, value);
+    }
   }
   /// Whether the bound needs no root: most do not.
-  bool isPositive(const Polynomial& bound, double last) const
+  bool isPositive(const Bound& bound, double last) const
   {
-    return isPositiveUntil(bound.data(), this->degree, last);
+    return isPositiveUntil(bound.value.data(), this->degree, last);
   }
   /// Forgets the bounds, and returns the step; infinity if it is beyond `most`. Else it does not
   /// depend on it.
@@ -99,29 +112,62 @@ struct Step
   {
     double length = Infinity;
     const bool isBeyond = std::all_of(this->bounds.begin(), this->bounds.end(),
-      [this](const Polynomial& bound) { return this->isPositive(bound, this->most); });
-    for (const Polynomial& bound : this->bounds)
+      [this](const Bound& bound) { return this->isPositive(bound, this->most); });
+    for (Bound& bound : this->bounds)
     {
       if (!isBeyond && !this->isPositive(bound, length))
       {
-        // Another step follows where the bound is no cubic.
+        subtract(products(bound.lengths, false), Rounding, bound.value);
+        // Other steps follow, and few where the bound is nearly the determinant.
         const double precision = this->degree == 3 ? 1e-12 : 1e-2;
-        length = std::min(length, firstPositiveRoot(bound.data(), this->degree, precision));
+        length = std::min(length, firstPositiveRoot(bound.value.data(), this->degree, precision));
       }
     }
     this->bounds.clear();
     return length > this->most ? Infinity : length;
   }
+
+private:
+  void subtract(const Polynomial& other, double factor, Polynomial& from) const
+  {
+    for (int k = 0; k <= this->degree; ++k)
+    {
+      from[k] -= factor * other[k];
+    }
+  }
 };
+
+/// Returns a power of two, of the factor at which the motion is about as large as the mesh. In this
+/// unit products of a slow motion's derivatives do not vanish, and no digit changes.
+double unitOf(const NodeMotion& motion)
+{
+  double speed = 0; // in sizes of the mesh
+  if (motion.straight && motion.straight->rows() > 0)
+  {
+    const double size =
+      (motion.base->colwise().maxCoeff() - motion.base->colwise().minCoeff()).maxCoeff();
+    speed = motion.straight->cwiseAbs().maxCoeff() / size;
+  }
+  for (const NodeMotion::Turn& turn : motion.turns)
+  {
+    speed = std::max(speed, std::abs(turn.angle));
+  }
+  return speed > 0 && std::isfinite(speed)
+           ? std::ldexp(1, std::clamp(-std::ilogb(speed), -1000, 1000))
+           : 1;
+}
 
 /// One cell's nodes, and what moves them.
 class MovingCell
 {
 public:
-  /// `last`: the largest factor of interest, either way.
-  MovingCell(const Mesh& mesh, const NodeMotion& motion, const InvertedBefore& before, double last)
+  /// `unit`: of the factor, for the straight motion. `last`: the largest factor of interest, either
+  /// way.
+  MovingCell(const Mesh& mesh, const NodeMotion& motion, double unit, const InvertedBefore& before,
+    double last)
     : mesh_(mesh)
     , motion_(motion)
+    , unit_(unit)
     , before_(before)
     , last_(last)
     , fields_(1 + motion.turns.size())
@@ -145,11 +191,11 @@ public:
     {
       return false;
     }
-    this->gather(this->fields_[0], cell, this->motion_.base, this->motion_.straight);
+    this->gather(this->fields_[0], cell, this->motion_.base, this->motion_.straight, this->unit_);
     for (std::size_t t = 0; t < this->motion_.turns.size(); ++t)
     {
       const NodeMotion::Turn& turn = this->motion_.turns[t];
-      this->gather(this->fields_[1 + t], cell, turn.first, turn.second);
+      this->gather(this->fields_[1 + t], cell, turn.first, turn.second, 1);
     }
     this->observer_.setZero();
     if (!this->motion_.turns.empty())
@@ -165,7 +211,7 @@ public:
     return true;
   }
 
-  /// Calls act(determinant, change, isPlace) for each that is followed, from `factor` on. Not a
+  /// Calls act(determinant, lengths, isPlace) for each that is followed, from `factor` on. Not a
   /// place is a coefficient of a quadratic cell.
   template <typename Act>
   void forEachBound(double factor, const Act& act)
@@ -175,17 +221,12 @@ public:
     this->forEachPlace(this->now_,
       [&](const Pair& a, const Pair& b, const Pair& c)
       {
-        Polynomial least = {};
-        if (!this->bends_.empty())
+        Lengths lengths = this->bends_.empty() ? Lengths{} : this->bends_[place++];
+        for (int j = 0; j < 2; ++j)
         {
-          Lengths& lengths = this->bends_[place++];
-          for (int j = 0; j < 2; ++j)
-          {
-            lengths[j] = { a.col(j).norm(), b.col(j).norm(), c.col(j).norm() };
-          }
-          least = change(lengths);
+          lengths[j] = { a.col(j).norm(), b.col(j).norm(), c.col(j).norm() };
         }
-        act(determinant(a, b, c, this->sign_), least, true);
+        act(determinant(a, b, c, this->sign_), lengths, true);
       });
     if (this->map_)
     {
@@ -196,14 +237,15 @@ public:
 private:
   using Field = std::vector<Pair>; ///< of the cell's nodes
 
-  void gather(Field& field, Index cell, const Points* first, const Points* second) const
+  void gather(
+    Field& field, Index cell, const Points* first, const Points* second, double factor) const
   {
     field.resize(this->mesh_.cellSize(cell));
     for (std::size_t i = 0; i < field.size(); ++i)
     {
       const Index node = this->mesh_.cell(cell)[i];
       field[i].col(0) = first->row(node).transpose();
-      field[i].col(1) = second ? Vector(second->row(node).transpose()) : Vector(0, 0, 0);
+      field[i].col(1) = second ? Vector(factor * second->row(node).transpose()) : Vector(0, 0, 0);
     }
   }
 
@@ -377,14 +419,9 @@ private:
       values[k].fill(0);
       this->map_->determinant(this->derivatives(this->now_, { 1, unit * At[k] }), 0, values[k]);
     }
-    Polynomial least = {};
-    if (!this->bends_.empty())
-    {
-      Lengths& lengths = this->bends_.back();
-      lengths[0] = largest(this->derivatives(this->now_, { 1, 0 }));
-      lengths[1] = largest(this->derivatives(this->now_, { 0, 1 }));
-      least = change(lengths);
-    }
+    Lengths lengths = this->bends_.empty() ? Lengths{} : this->bends_.back();
+    lengths[0] = largest(this->derivatives(this->now_, { 1, 0 }));
+    lengths[1] = largest(this->derivatives(this->now_, { 0, 1 }));
     for (int term = 0; term < this->map_->terms(); ++term)
     {
       // The cubic through the four values.
@@ -392,13 +429,14 @@ private:
                    after = this->sign_ * values[2][term], second = this->sign_ * values[3][term];
       const double even = (after + before) / 2 - v, odd = (after - before) / 2;
       const double cubed = (second - v - 4 * even - 2 * odd) / 6;
-      act({ v, (odd - cubed) / unit, even / (unit * unit), cubed / (unit * unit * unit) }, least,
+      act({ v, (odd - cubed) / unit, even / (unit * unit), cubed / (unit * unit * unit) }, lengths,
         false);
     }
   }
 
   const Mesh& mesh_;
   const NodeMotion& motion_;
+  double unit_;
   const InvertedBefore& before_;
   double last_;
   const std::vector<bool>* positive_ = nullptr; ///< see InvertedBefore::positivePlaces()
@@ -435,7 +473,7 @@ double follow(MovingCell& cell, Step& step)
 {
   const double most = step.most;
   double factor = 0, length = step.take();
-  for (int steps = 1; step.degree > 3 && length < Infinity; ++steps)
+  for (int steps = 1; length < Infinity; ++steps)
   {
     factor += length;
     if (length <= Precision * factor || steps == MostSteps)
@@ -444,19 +482,22 @@ double follow(MovingCell& cell, Step& step)
     }
     step.most = most - factor;
     cell.forEachBound(step.sign * factor,
-      [&step](const Polynomial& d, const Polynomial& rest, bool) { step.add(d, rest); });
+      [&step](const Polynomial& d, const Lengths& lengths, bool) { step.add(d, lengths); });
     length = step.take();
   }
   return length;
 }
 }
 
-ValidRange validRange(const Mesh& mesh, const NodeMotion& motion,
+ValidRange validRange(const Mesh& mesh, const NodeMotion& given,
   const std::vector<std::int8_t>& orientation, const InvertedBefore& before, Monitor& monitor)
 {
+  const double unit = unitOf(given);
+  NodeMotion motion = given;
   double last = Infinity;
-  for (const NodeMotion::Turn& turn : motion.turns)
+  for (NodeMotion::Turn& turn : motion.turns)
   {
+    turn.angle *= unit;
     last = std::min(last, FullTurn / std::abs(turn.angle));
   }
   const int degree = motion.turns.empty() ? 3 : 6;
@@ -470,7 +511,7 @@ ValidRange validRange(const Mesh& mesh, const NodeMotion& motion,
   parallelBatches(monitor, mesh.numberOfCells(), Batch, Grain,
     [&](Index first, Index end)
     {
-      MovingCell cell(mesh, motion, before, last);
+      MovingCell cell(mesh, motion, unit, before, last);
       Step down = { -1, degree, last, {} }, up = { 1, degree, last, {} };
       for (Index c = first; c < end; ++c)
       {
@@ -484,11 +525,11 @@ ValidRange validRange(const Mesh& mesh, const NodeMotion& motion,
         up.bounds.clear();
         bool isValid = true;
         cell.forEachBound(0,
-          [&](const Polynomial& d, const Polynomial& rest, bool isPlace)
+          [&](const Polynomial& d, const Lengths& lengths, bool isPlace)
           {
             isValid = isValid && (d[0] > 0 || !isPlace);
-            down.add(d, rest);
-            up.add(d, rest);
+            down.add(d, lengths);
+            up.add(d, lengths);
           });
         const double below = isValid ? follow(cell, down) : 0;
         const double above = isValid ? follow(cell, up) : 0;
@@ -507,6 +548,12 @@ ValidRange validRange(const Mesh& mesh, const NodeMotion& motion,
   {
     const double none = std::numeric_limits<double>::quiet_NaN();
     return { none, none, inverted, inverted, true };
+  }
+  // A factor beyond all numbers is no end.
+  for (End* end : { &low, &high })
+  {
+    end->distance *= unit;
+    end->cell = end->distance < Infinity ? end->cell : -1;
   }
   return { -low.distance, high.distance, low.cell, high.cell };
 }

@@ -45,13 +45,14 @@ struct ValidRange
 ///
 /// Each determinant is followed from 0 by steps in which it cannot reach 0. A step is the first
 /// root (PolynomialRoot.h) of a lower bound: the determinant of the edges' tangents, a cubic, less
-/// what the second derivatives can change. Without turns the cubic is the determinant, and one step
-/// is exact. Else each of the last steps gains two digits. The turn of the whole cell is taken off
-/// first where that lowers the second derivatives. So the ends are on the safe side, by at most
-/// 1e-11 of them, and rounding; by more only after 500 steps, of slivers that shear without
-/// end. A quadratic cell also needs positive Bernstein coefficients of its
-/// determinant (CellMap.h), which have such bounds, too. This is sufficient and not necessary: its
-/// ends are on the safe side by more, and 0 where a coefficient is not positive at s = 0.
+/// rounding and what the second derivatives can change. Without turns the cubic is the determinant,
+/// and a second step finds no more, but where edges vanish together. Else each of the last steps
+/// gains two digits. The turn of the whole cell is taken off first where that lowers the second
+/// derivatives. So the ends are on the safe side, by at most 1e-11 of them; by more only after 500
+/// steps, of slivers that shear without end. A quadratic cell also needs positive Bernstein
+/// coefficients of its determinant (CellMap.h), which have such bounds, too. This is sufficient and
+/// not necessary: its ends are on the safe side by more, and 0 where a coefficient is not positive
+/// at s = 0.
 ///
 /// `orientation`: #cells of +1 / -1 (Topology.h), or empty. Left out is what was not positive in
 /// the undeformed mesh: the places of cells in `before`, and these between their corners. The

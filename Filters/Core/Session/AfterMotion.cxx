@@ -57,7 +57,8 @@ void adaptToPieces(Morpher& method)
   }
 }
 
-bool repairPolyhedra(const Mesh& mesh, const Points& reference, const NodePartition& partition,
+bool repairPolyhedra(const Mesh& mesh, const HangingNodes& hanging, const Points& reference,
+  const NodePartition& partition,
   const std::function<std::vector<Index>(const Points& points)>& bad, Points& moved,
   Monitor& monitor)
 {
@@ -68,8 +69,8 @@ bool repairPolyhedra(const Mesh& mesh, const Points& reference, const NodePartit
     return true;
   }
   ProgressRange preparing(monitor, 0, 0.3);
-  const PolyhedronPieces pieces(mesh, preparing);
-  const NodePartition ofPieces = pieces.extend(partition);
+  const PolyhedronPieces pieces(hanging.empty() ? mesh : hanging.conforming(mesh), preparing);
+  const NodePartition ofPieces = pieces.extend(hanging.extend(partition));
   const std::vector<Index> stay = cellsThatStay(pieces, ofPieces, pieces.extend(moved), preparing);
   const auto canBeMended = [&]
   { return !std::includes(stay.begin(), stay.end(), left.begin(), left.end()); };
@@ -86,6 +87,7 @@ bool repairPolyhedra(const Mesh& mesh, const Points& reference, const NodePartit
     Points all = pieces.extend(moved);
     repair.repair(all, part);
     Points repaired = all.topRows(moved.rows());
+    hanging.place(mesh.points, repaired);
     std::vector<Index> now = bad(repaired);
     if (now.size() >= left.size())
     {
@@ -106,19 +108,21 @@ SmoothingOptions postSmoothing(int iterationLimit)
   return options;
 }
 
-Index smoothAfterwards(const Mesh& rest, const std::vector<std::int8_t>& orientation,
-  const NodePartition& partition, int iterationLimit, Points& moved, Monitor& monitor)
+Index smoothAfterwards(const Mesh& rest, const HangingNodes& hanging,
+  const std::vector<std::int8_t>& orientation, const NodePartition& partition, int iterationLimit,
+  Points& moved, Monitor& monitor)
 {
   const SmoothingOptions options = postSmoothing(iterationLimit);
   SmoothingReport report;
-  if (hasPolyhedra(rest))
+  if (hasPolyhedra(rest) || !hanging.empty())
   {
-    const PolyhedronPieces pieces(rest, monitor);
+    const PolyhedronPieces pieces(hanging.empty() ? rest : hanging.conforming(rest), monitor);
     const Mesh& mesh = pieces.mesh();
     Points all = pieces.extend(moved);
-    report = smoothMesh(mesh, cellSigns(mesh, connectedComponents(mesh)), pieces.extend(partition),
-      options, all, monitor);
-    const Points smoothed = all.topRows(moved.rows());
+    report = smoothMesh(mesh, cellSigns(mesh, connectedComponents(mesh)),
+      pieces.extend(hanging.extend(partition)), options, all, monitor);
+    Points smoothed = all.topRows(moved.rows());
+    hanging.place(rest.points, smoothed);
     const auto measure = [&](const Points& points)
     { return measureQuality(rest, points, orientation, {}, monitor); };
     // What is better for the pieces may be worse for the polyhedra.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Mesh/HangingNodes.h"
 #include "Mesh/Mesh.h"
 #include "Mesh/NodePartition.h"
 #include "Support/Monitor.h"
@@ -18,12 +19,13 @@ class Morpher;
 /// inversion-free one.
 void adaptToPieces(Morpher& method);
 
-/// Repairs a mesh with polyhedra, its nodes at `moved`, #nodes x 3, in rounds: each puts the
-/// centers back to the means of their nodes and repairs the pieces. Keeps the mesh with the fewest
-/// bad polyhedra and other cells. Returns whether none are left. It ends where the boundary itself
-/// inverts a piece of each that is left. `reference`: see Morpher::setReference(). `bad`: returns
-/// their ids.
-bool repairPolyhedra(const Mesh& mesh, const Points& reference, const NodePartition& partition,
+/// Repairs a mesh with polyhedra or divided faces, its nodes at `moved`, #nodes x 3, in rounds.
+/// Each puts the centers back to the means of their nodes, repairs the pieces, and ties what hangs.
+/// The mesh with the fewest bad polyhedra and other cells is kept. Returns whether none are left.
+/// Ends where the boundary itself inverts a piece of each that is left. `reference`: see
+/// Morpher::setReference(). `bad`: returns their ids.
+bool repairPolyhedra(const Mesh& mesh, const HangingNodes& hanging, const Points& reference,
+  const NodePartition& partition,
   const std::function<std::vector<Index>(const Points& points)>& bad, Points& moved,
   Monitor& monitor);
 
@@ -31,7 +33,9 @@ bool repairPolyhedra(const Mesh& mesh, const Points& reference, const NodePartit
 SmoothingOptions postSmoothing(int iterationLimit);
 
 /// Smooths `moved`, #nodes x 3, so, and returns the steps that led to it, 0 where nothing is
-/// better. Polyhedra are smoothed by their pieces. `orientation`: #cells.
-Index smoothAfterwards(const Mesh& rest, const std::vector<std::int8_t>& orientation,
-  const NodePartition& partition, int iterationLimit, Points& moved, Monitor& monitor);
+/// better. Polyhedra, and cells at divided faces, are smoothed by their pieces. `orientation`:
+/// #cells.
+Index smoothAfterwards(const Mesh& rest, const HangingNodes& hanging,
+  const std::vector<std::int8_t>& orientation, const NodePartition& partition, int iterationLimit,
+  Points& moved, Monitor& monitor);
 }

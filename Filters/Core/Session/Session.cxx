@@ -22,10 +22,15 @@ namespace morph
 {
 namespace
 {
-/// A method with these options, not prepared, for the cells of `mesh`.
-std::unique_ptr<Morpher> makeMethod(const Session::Options& options, const Mesh& mesh)
+bool hasPieces(const UndeformedMesh& mesh)
 {
-  return morpherForCells(mesh, options.settings(hasPolyhedra(mesh)));
+  return hasPolyhedra(mesh.mesh()) || !mesh.hanging().empty();
+}
+
+/// A method with these options, not prepared, for the cells of `mesh` at its points or others.
+std::unique_ptr<Morpher> makeMethod(const Session::Options& options, const UndeformedMesh& mesh)
+{
+  return morpherForCells(mesh.mesh(), mesh.hanging(), options.settings(hasPieces(mesh)));
 }
 
 void requireAscending(const std::vector<Index>& ids)
@@ -168,17 +173,27 @@ StepResult Session::morphStep(const Mesh& from, const BoundaryTargets& boundary,
   const AffineHandle* handle, const Options& options, Monitor& monitor)
 {
   const Mesh& rest = this->mesh_->mesh();
+  const HangingNodes& hanging = this->mesh_->hanging();
+  requireTargets(boundary);
+  const std::vector<Index> others = hanging.othersOf(boundary.ids);
+  if (others.size() < boundary.ids.size()) // these nodes move by their ties
+  {
+    BoundaryTargets own;
+    own.ids = HangingNodes::at(others, boundary.ids);
+    own.targets = boundary.targets(others, allColumns);
+    own.unmatched = boundary.unmatched;
+    return this->morphStep(from, own, nullptr, options, monitor);
+  }
   const std::vector<std::int8_t>& orientation = this->mesh_->orientation();
   const auto part = [&](double first, double last) { return ProgressRange(monitor, first, last); };
-  requireTargets(boundary);
   const NodePartition& partition = this->partitionOf(boundary.ids);
   static const InvertedBefore none{};
   const InvertedBefore& before =
     options.measureAll ? Validity::beforeFor(options.validity, this->mesh_->before(monitor)) : none;
   const Validity validity{ options.validity, options.maximumSubSteps, from, rest.points, before,
-    partition, orientation, boundary.targets, this->mesh_->outerFaces(),
+    partition, orientation, boundary.targets, this->mesh_->outerFaces(), hanging,
     dynamic_cast<InversionFree*>(options.createMorpher().get()) != nullptr,
-    [&options, &from] { return makeMethod(options, from); } };
+    [&] { return makeMethod(options, *this->mesh_); } };
   validity.requireFeasible();
 
   auto preparing = part(0.05, 0.45);
@@ -188,12 +203,12 @@ StepResult Session::morphStep(const Mesh& from, const BoundaryTargets& boundary,
   const Stopwatch watch;
   StepResult result;
   const EvaluateReport report = this->evaluate(boundary.targets, handle, result.moved, evaluating);
-  if (validity.isInversionFree && hasPolyhedra(from))
+  if (validity.isInversionFree && hasPieces(*this->mesh_))
   {
     auto repairing = part(0.7, 0.75);
     const auto bad = [&](const Points& points)
     { return invertedCells(from, points, orientation, repairing); };
-    repairPolyhedra(from, rest.points, partition, bad, result.moved, repairing);
+    repairPolyhedra(from, hanging, rest.points, partition, bad, result.moved, repairing);
   }
   if (validity.isInversionFree)
   {
@@ -212,7 +227,7 @@ StepResult Session::morphStep(const Mesh& from, const BoundaryTargets& boundary,
   {
     auto smoothing = part(0.75, 0.85);
     result.statistics.push_back(
-      { "PostSmoothSteps", smoothAfterwards(rest, orientation, partition,
+      { "PostSmoothSteps", smoothAfterwards(rest, hanging, orientation, partition,
                              options.postSmoothIterations, result.moved, smoothing) });
   }
   double seconds = watch.seconds();
@@ -287,7 +302,7 @@ void Session::prepare(const Mesh& from, const Options& options, Monitor& monitor
   this->effort.prepareSeconds = 0;
   // setMesh() drops the method with the mesh that it is prepared for.
   const bool isOfMesh = &from == &rest;
-  std::unique_ptr<Morpher> settings = options.settings(hasPolyhedra(from));
+  std::unique_ptr<Morpher> settings = options.settings(hasPieces(*this->mesh_));
   if (this->method_ && this->settings_->preparesLike(*settings) &&
       this->method_->partition().prescribed == this->partition_->prescribed &&
       ((isOfMesh && this->methodIsOfMesh_) || this->method_->restPoints() == from.points))
@@ -298,7 +313,7 @@ void Session::prepare(const Mesh& from, const Options& options, Monitor& monitor
   const Stopwatch watch;
   this->method_.reset();
   this->modes_.clear();
-  std::unique_ptr<Morpher> morpher = makeMethod(options, from);
+  std::unique_ptr<Morpher> morpher = makeMethod(options, *this->mesh_);
   if (!isOfMesh && from.points != rest.points)
   {
     morpher->setReference(rest.points);
@@ -324,7 +339,8 @@ Points Session::transpose(
   requireAscending(ids);
   requireRows("The gradient", gradient.rows(), this->mesh_->mesh().numberOfNodes());
   ProgressRange preparing(monitor, 0.05, 0.5), applying(monitor, 0.5, 1);
-  this->partitionOf(ids);
+  const std::vector<Index> others = this->mesh_->hanging().othersOf(ids);
+  this->partitionOf(HangingNodes::at(others, ids));
   this->prepare(this->mesh_->mesh(), options, preparing);
   const auto* linear = dynamic_cast<const LinearMorpher*>(this->method_.get());
   if (!linear)
@@ -333,9 +349,10 @@ Points Session::transpose(
                 " is not a linear method, so it has no adjoint that is the same for all "
                 "motions. Use one that is, FEMWARP for instance.");
   }
-  Points prescribed;
+  Points own, prescribed = Points::Zero(static_cast<Index>(ids.size()), 3);
   this->attached_.applyTranspose(gradient);
-  linear->applyTranspose(gradient, prescribed, applying);
+  linear->applyTranspose(gradient, own, applying);
+  prescribed(others, allColumns) = own;
   return prescribed;
 }
 }

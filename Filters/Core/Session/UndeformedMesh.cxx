@@ -17,10 +17,22 @@ UndeformedMesh::UndeformedMesh(Mesh mesh, const UndeformedMesh* sameCells, Monit
   const ConnectedComponents bodies = connectedComponents(this->mesh_, monitor);
   this->orientation_ = cellSigns(this->mesh_, bodies, monitor);
   this->mirrored_ = morph::mirroredBodies(bodies, this->orientation_);
-  this->outer_ = sameCells ? sameCells->outer_ : boundaryFaces(this->mesh_, monitor);
+  // Where nodes hang depends on the points.
+  const bool hasOuter = sameCells && sameCells->hanging_.empty();
+  this->outer_ = hasOuter ? sameCells->outer_ : boundaryFaces(this->mesh_, this->hanging_, monitor);
   this->repeated_ = sameCells ? sameCells->repeated_ : morph::repeatedCells(this->mesh_, monitor);
-  this->touching_ =
-    sameCells ? sameCells->touching_ : morph::touchingNodes(this->mesh_, this->outer_);
+  if (sameCells)
+  {
+    this->touching_ = sameCells->touching_;
+  }
+  else if (this->hanging_.empty())
+  {
+    this->touching_ = morph::touchingNodes(this->mesh_, this->outer_);
+  }
+  else
+  {
+    this->touching_ = morph::touchingNodes(this->hanging_.conforming(this->mesh_), this->outer_);
+  }
   this->size_ = meshSize(this->mesh_);
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Mesh/HangingNodes.h"
 #include "Mesh/Mesh.h"
 #include "Mesh/Topology.h"
 #include "Quality/InvertedBefore.h"
@@ -27,6 +28,7 @@ public:
 
   const Mesh& mesh() const { return this->mesh_; }
   const BoundaryFaces& outerFaces() const { return this->outer_; }
+  const HangingNodes& hanging() const { return this->hanging_; }
   /// See meshSize().
   double size() const { return this->size_; }
   /// #cells; see cellSigns().
@@ -43,6 +45,7 @@ public:
 private:
   Mesh mesh_;
   BoundaryFaces outer_;
+  HangingNodes hanging_;
   double size_ = 0;
   std::vector<std::int8_t> orientation_;
   Index mirrored_ = 0;

@@ -161,9 +161,10 @@ Validity::Outcome Validity::ofSubSteps(
 bool Validity::repair(Points& moved, Monitor& monitor) const
 {
   const auto bad = [&](const Points& points) { return this->inverted(points, monitor); };
-  if (hasPolyhedra(this->mesh))
+  if (hasPolyhedra(this->mesh) || !this->hanging.empty())
   {
-    return repairPolyhedra(this->mesh, this->reference, this->partition, bad, moved, monitor);
+    return repairPolyhedra(
+      this->mesh, this->hanging, this->reference, this->partition, bad, moved, monitor);
   }
   std::size_t least = bad(moved).size();
   // Near the inverted cells at first: the linear methods of the whole mesh take far longer. Cells
@@ -275,7 +276,7 @@ Validity::Outcome Validity::ensure(Points& moved, Monitor& monitor) const
         return { "Repaired" };
       }
       const auto make = [this]
-      { return morpherForCells(this->mesh, std::make_unique<InversionFree>()); };
+      { return morpherForCells(this->mesh, this->hanging, std::make_unique<InversionFree>()); };
       return this->subStep(make, moved, second);
     }
     case Mode::Refuse:

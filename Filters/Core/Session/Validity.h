@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Mesh/HangingNodes.h"
 #include "Mesh/Topology.h"
 #include "Morpher/IncrementalMorph.h"
 #include "Morpher/Morpher.h"
@@ -41,6 +42,7 @@ public:
   const std::vector<std::int8_t>& orientation; ///< #cells
   const Points& targets;                       ///< #prescribed x 3
   const BoundaryFaces& faces;                  ///< of `mesh`
+  const HangingNodes& hanging;                 ///< of the same
   /// the method is the inversion-free one, which messages do not recommend to itself
   bool isInversionFree = false;
   /// Makes a method with its options, not prepared yet.

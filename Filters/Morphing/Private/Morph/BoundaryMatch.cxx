@@ -26,6 +26,8 @@
 #include <cmath>
 #include <cstdint>
 #include <iomanip>
+#include <limits>
+#include <map>
 #include <sstream>
 #include <tuple>
 #include <utility>
@@ -207,6 +209,26 @@ void freeValueless(vtkDataArray* mask, morph::NamedPoints& named)
   }
 }
 
+/// `nearest`: gets for each of its nodes the squared distance of the nearest node of its cells that
+/// is not in the very same place, or keeps infinity.
+void findNeighbors(const morph::Mesh& mesh, std::map<Index, double>& nearest)
+{
+  for (Index c = 0; c < mesh.numberOfCells() && !nearest.empty(); ++c)
+  {
+    const Index* nodes = mesh.cell(c);
+    for (Index k = 0; k < mesh.cellSize(c); ++k)
+    {
+      const auto found = nearest.find(nodes[k]);
+      for (Index other = 0; found != nearest.end() && other < mesh.cellSize(c); ++other)
+      {
+        const double distance2 =
+          (mesh.points.row(nodes[other]) - mesh.points.row(nodes[k])).squaredNorm();
+        found->second = distance2 > 0 ? std::min(found->second, distance2) : found->second;
+      }
+    }
+  }
+}
+
 /// `named`: without its pairs; gets the number of unmatched points.
 Pairs findNodes(vtkPointSet* boundary, const morph::Mesh& rest, const std::vector<Index>& outer,
   double tolerance, const BoundaryMatch::Options& options, morph::NamedPoints& named,
@@ -368,7 +390,8 @@ Pairs FindByPosition(const Points& positions, const morph::Mesh& rest,
   }
 
   // Bodies that touch have a node each in the same place, but for rounding: an outer node that no
-  // point is closest to goes along with the nearest node that has one.
+  // point is closest to goes along with the nearest node that has one. It is in the same place if
+  // it is closer than to its neighbors.
   struct Companion
   {
     Index Node;
@@ -395,9 +418,15 @@ Pairs FindByPosition(const Points& positions, const morph::Mesh& rest,
     }
   }
   std::sort(companions.begin(), companions.end());
+  std::map<Index, double> nearest;
   for (const Companion& companion : companions)
   {
-    if (!taken[companion.Node])
+    nearest.emplace(companion.Node, std::numeric_limits<double>::infinity());
+  }
+  findNeighbors(rest, nearest);
+  for (const Companion& companion : companions)
+  {
+    if (!taken[companion.Node] && companion.Distance2 < nearest[companion.Node])
     {
       taken[companion.Node] = 1;
       pairs.emplace_back(companion.Point, companion.Node);

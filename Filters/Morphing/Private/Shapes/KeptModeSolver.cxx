@@ -44,10 +44,12 @@ void KeptModeSolver::Prepare(std::unique_ptr<morph::LinearMorpher> method,
 {
   this->Method.reset();
   std::unique_ptr<morph::Morpher> onPieces =
-    morph::morpherForCells(this->Mesh(), std::move(method));
+    morph::morpherForCells(this->Mesh(), this->Kept.Rest()->hanging(), std::move(method));
   // Of a linear method it is a linear one.
   method.reset(dynamic_cast<morph::LinearMorpher*>(onPieces.release()));
-  const morph::NodePartition partition = morph::partitionNodes(this->Mesh(), prescribed);
+  this->Others = this->Kept.Rest()->hanging().othersOf(prescribed);
+  const morph::NodePartition partition =
+    morph::partitionNodes(this->Mesh(), morph::HangingNodes::at(this->Others, prescribed));
   method->prepare(this->Mesh(), partition, monitor);
   this->Hanging = morph::AttachedNodes(this->Mesh(), partition);
   this->Method = std::move(method);
@@ -56,7 +58,12 @@ void KeptModeSolver::Prepare(std::unique_ptr<morph::LinearMorpher> method,
 std::vector<morph::Points> KeptModeSolver::Basis(const std::vector<morph::Points>& displacements,
   std::vector<morph::EvaluateReport>& reports, morph::Monitor& monitor) const
 {
-  return this->Method->basis(displacements, monitor, &reports);
+  std::vector<morph::Points> others;
+  for (const morph::Points& displacement : displacements)
+  {
+    others.emplace_back(displacement(this->Others, morph::allColumns));
+  }
+  return this->Method->basis(others, monitor, &reports);
 }
 
 ModeSolver::Measured KeptModeSolver::Write(vtkUnstructuredGrid* grid, const morph::Points& moved,

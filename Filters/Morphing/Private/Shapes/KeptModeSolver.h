@@ -45,6 +45,7 @@ public:
 private:
   KeptMesh Kept;
   std::unique_ptr<morph::LinearMorpher> Method; ///< prepared, or null
-  morph::AttachedNodes Hanging;                 ///< of Method
+  std::vector<morph::Index> Others; ///< places of the prescribed nodes that are not tied to faces
+  morph::AttachedNodes Hanging;     ///< of Method
 };
 }
