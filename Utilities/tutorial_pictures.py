@@ -34,7 +34,7 @@ class Tutorial(Events):
     def tick(self, row):
         """In the table of surfaces."""
         for command, buttons in (("mousePress", "1,1"), ("mouseRelease", "1,0")):
-            self.set("Surfaces/Rows", command, f"{buttons},0,12,8,/{row}:0")
+            self.set("SurfaceTable/Rows", command, f"{buttons},0,12,8,/{row}:0")
 
     def show_the_surfaces(self):
         self.filter("MorphMesh")

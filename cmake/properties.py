@@ -393,12 +393,6 @@ def domain(row):
     return f'<{kind}RangeDomain name="range"{least}{most}/>'
 
 
-#: The lists of surfaces are one table, which is the widget of the first.
-SURFACE_TABLE = (
-    '<SurfaceTable stays="FixedSurfaces" slides="SlidingSurfaces" free="FreeSurfaces" '
-    'moving="Moving" sizes="SurfaceSizes" pick="Pick" port="PickPort" picked="PickedSurfaces"/>')
-
-
 def property_xml(row, find, more=""):
     kind = {"number": "Double", "numbers": "Double", "integer": "Int", "integers": "Int",
             "flag": "Int", "choice": "Int"}.get(row.kind, "String")
@@ -406,25 +400,22 @@ def property_xml(row, find, more=""):
         what = (f'command="Set{row.name[:-1]}Status" clean_command="RemoveAll{row.name}" '
                 'information_property="SurfaceList" repeat_command="1" '
                 'number_of_elements_per_command="2" element_types="2 0"')
-        what += {"zones": ' panel_widget="ZoneList"'}.get(
-            row.kind, ' panel_widget="SurfaceTable"' if row.name == "Surfaces" else "")
+        what += ' panel_widget="ZoneList"' if row.kind == "zones" else ""
     else:
         default = row.default_number or ("None" if row.kind == "array" else "")
         what = (f'command="Set{row.name}" number_of_elements="{row.count}" '
                 f'default_values="{default}"')
     if row.name.isupper():  # else ParaView puts spaces between the letters
         what += f' label="{row.name}"'
-    panel = {"table": "never"}.get(row["panel"], row["panel"] or "default")
-    visible = f' panel_visibility="{panel}"' if panel != "default" else ""
+    panel = row["panel"] if row.has_widget or row["panel"] == "never" else "default"
+    visible = f' panel_visibility="{panel}"' if panel not in ("", "default") else ""
     animated = ' animateable="1"' if row["animated"] == "yes" else ""
     hints = []
     if row.kind in LISTS:
         hints.append("<OmitFromLoadAllVariables/>")
     if row.kind == "zones":
         hints.append('<ZoneList sizes="ZoneSizes" columns="Cells Nodes"/>')
-    if row.name == "Surfaces":  # always shown: the table chooses what moves, too
-        hints.append(SURFACE_TABLE)
-    elif row["shown"]:
+    if row["shown"] and row.has_widget:
         hints.append(condition(row["shown"], find))
     if row["unit"] or row.kind == "zones":  # these lists have no label of their own
         label = row.words + (f' ({row["unit"]})' if row["unit"] else "")
@@ -454,9 +445,12 @@ def make_xml(folder):
                        for row in own)
         groups = {}
         for row in own:
-            if row["group"] not in opened and row.has_widget:
-                groups.setdefault(row["group"], "")
-                groups[row["group"]] += f'        <Property name="{row.name}"/>\n'
+            name = f'        <Property name="{row.name}"/>\n'
+            if row["panel"] == "table":
+                label = 'Surfaces" panel_widget="SurfaceTable'
+                groups[label] = groups.get(label, "") + name
+            elif row["group"] not in opened and row.has_widget:
+                groups[row["group"]] = groups.get(row["group"], "") + name
         grouped = "".join(f'      <PropertyGroup label="{label}">\n{names}      </PropertyGroup>\n'
                           for label, names in groups.items())
         text = text.replace("@Properties@", made.rstrip("\n"))

@@ -16,8 +16,9 @@ class vtkSMProxy;
 /// does so about the origin, and places its box around the whole input.
 ///
 /// The box is placed around the surfaces that are ticked, so that it turns about their center when
-/// it is dragged. With nothing ticked there is no box: it would take the mouse from the view. Where a region moves, whose own box may be around the whole input as well, it is
-/// a bit larger than the input. When a rotation or a scale is typed, the translation is changed
+/// it is dragged. With nothing ticked there is no box: it would take the mouse from the view. Where
+/// a region moves, whose own box may be around the whole input as well, it is a bit larger than the
+/// input. When a rotation or a scale is typed, the translation is changed
 /// with it, so that the center stays where it is. The filter's property Center is the center where
 /// AutoCenter is off.
 ///

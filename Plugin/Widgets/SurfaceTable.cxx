@@ -17,7 +17,6 @@
 #include <pqSignalAdaptors.h>
 #include <pqView.h>
 #include <vtkCommand.h>
-#include <vtkPVXMLElement.h>
 #include <vtkSMArraySelectionDomain.h>
 #include <vtkSMProperty.h>
 #include <vtkSMPropertyHelper.h>
@@ -111,8 +110,8 @@ QString fourDigits(const QString& text)
 }
 }
 
-SurfaceTable::SurfaceTable(vtkSMProxy* filter, vtkSMProperty* moves, QWidget* parent)
-  : Superclass(filter, parent)
+SurfaceTable::SurfaceTable(vtkSMProxy* filter, vtkSMPropertyGroup* group, QWidget* parent)
+  : Superclass(filter, group, parent)
   , What(new QComboBox(this))
   , Search(new QLineEdit(this))
   , Rows(new QTreeWidget(this))
@@ -121,9 +120,8 @@ SurfaceTable::SurfaceTable(vtkSMProxy* filter, vtkSMProperty* moves, QWidget* pa
   , Highlight(new SurfaceHighlight(filter))
 {
   this->setShowLabel(false);
-  this->setProperty(moves);
 
-  vtkSMProperty* const what = this->named("moving");
+  vtkSMProperty* const what = this->named("Moving");
   this->What->setObjectName("Moving");
   this->What->setToolTip(Superclass::getTooltip(what));
   new pqComboBoxDomain(this->What, what);
@@ -138,7 +136,7 @@ SurfaceTable::SurfaceTable(vtkSMProxy* filter, vtkSMProperty* moves, QWidget* pa
 
   this->Rows->setObjectName("Rows");
   this->Rows->setHeaderLabels({ tr("Moves"), tr("Faces"), tr("Area"), tr("Role") });
-  this->Rows->setToolTip(Superclass::getTooltip(moves));
+  this->Rows->setToolTip(Superclass::getTooltip(this->listOf(Moves)));
   this->Rows->setRootIsDecorated(false);
   this->Rows->setUniformRowHeights(true);
   this->Rows->setSelectionMode(QAbstractItemView::ExtendedSelection);
@@ -178,7 +176,7 @@ SurfaceTable::SurfaceTable(vtkSMProxy* filter, vtkSMProperty* moves, QWidget* pa
 
   auto* const button = new QPushButton(tr("Add selected surfaces"), this);
   button->setObjectName("AddSelected");
-  button->setToolTip(Superclass::getTooltip(this->named("pick")));
+  button->setToolTip(Superclass::getTooltip(this->named("Pick")));
   QObject::connect(button, SIGNAL(clicked()), this, SLOT(addSelected()));
   this->Message->setObjectName("Message");
   this->Message->setWordWrap(true);
@@ -214,20 +212,16 @@ SurfaceTable::SurfaceTable(vtkSMProxy* filter, vtkSMProperty* moves, QWidget* pa
 
 SurfaceTable::~SurfaceTable() = default;
 
-vtkSMProperty* SurfaceTable::named(const char* role) const
+vtkSMProperty* SurfaceTable::named(const char* property) const
 {
-  vtkPVXMLElement* const hint =
-    this->property()->GetHints()->FindNestedElementByName("SurfaceTable");
-  return this->proxy()->GetProperty(hint->GetAttribute(role));
+  return this->proxy()->GetProperty(property);
 }
 
 vtkSMProperty* SurfaceTable::listOf(Role role) const
 {
-  return role == Moves    ? this->property()
-         : role == Stays  ? this->named("stays")
-         : role == Slides ? this->named("slides")
-         : role == Free   ? this->named("free")
-                          : nullptr;
+  constexpr const char* lists[] = { "Surfaces", nullptr, "FixedSurfaces", "SlidingSurfaces",
+    "FreeSurfaces" };
+  return this->named(lists[role]);
 }
 
 QStringList SurfaceTable::namesOf(Role role) const
@@ -262,7 +256,7 @@ QVector<SurfaceTable::Surface> SurfaceTable::surfaces() const
   const QRegularExpression numbered("^(Surface|Curve) (\\d+)$");
   const QStringList moving = this->namesOf(Moves);
   QVector<Surface> found;
-  vtkSMProperty* const property = this->named("sizes");
+  vtkSMProperty* const property = this->named("SurfaceSizes");
   this->proxy()->UpdatePropertyInformation(property);
   const vtkSMPropertyHelper sizes(property);
   std::size_t place = 0; // among the surfaces of the view
@@ -533,8 +527,8 @@ void SurfaceTable::highlight()
 {
   QStringList names = this->selectedNames();
   // What is applied already, the view shows in another way.
-  if (pqSMAdaptor::getSelectionProperty(this->property(), pqSMAdaptor::UNCHECKED) !=
-      pqSMAdaptor::getSelectionProperty(this->property(), pqSMAdaptor::CHECKED))
+  if (pqSMAdaptor::getSelectionProperty(this->listOf(Moves), pqSMAdaptor::UNCHECKED) !=
+      pqSMAdaptor::getSelectionProperty(this->listOf(Moves), pqSMAdaptor::CHECKED))
   {
     names += this->namesOf(Moves);
   }
@@ -552,9 +546,9 @@ void SurfaceTable::highlight()
 QStringList SurfaceTable::pickedNames(vtkSMProxy* selection, int port)
 {
   vtkSMProxy* const filter = this->proxy();
-  vtkSMProperty* const pickProperty = this->named("pick");
-  vtkSMProperty* const portProperty = this->named("port");
-  vtkSMProperty* const picked = this->named("picked");
+  vtkSMProperty* const pickProperty = this->named("Pick");
+  vtkSMProperty* const portProperty = this->named("PickPort");
+  vtkSMProperty* const picked = this->named("PickedSurfaces");
   vtkSMPropertyHelper pick(pickProperty), pickPort(portProperty);
   pick.Set(selection);
   pickPort.Set(port);

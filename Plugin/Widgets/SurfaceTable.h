@@ -2,7 +2,7 @@
 #ifndef SurfaceTable_h
 #define SurfaceTable_h
 
-#include <pqPropertyWidget.h>
+#include <pqPropertyGroupWidget.h>
 
 #include <QColor>
 #include <QHash>
@@ -20,31 +20,27 @@ class QTreeWidget;
 class QTreeWidgetItem;
 class SurfaceHighlight;
 class pqOutputPort;
+class vtkSMPropertyGroup;
 
 /// The surfaces of a filter, one row each, with their color in the view, faces and area, and a role
 /// to choose: a ticked surface moves; the others follow, stay, slide or are free. A choice holds
 /// for all selected rows. Surfaces that move come first, then those that the file names, then the
 /// others by number; curves are below a row that shows them.
 ///
-/// It is the widget of the list of moving surfaces (panel_widget="SurfaceTable"), whose hint names
-/// the other properties of the filter:
-///
-///     <SurfaceTable stays="FixedSurfaces" slides="SlidingSurfaces" free="FreeSurfaces"
-///                   moving="Moving" sizes="SurfaceSizes"
-///                   pick="Pick" port="PickPort" picked="PickedSurfaces"/>
-///
-/// stays, slides, free: lists of names, which scripts set, too. moving: what moves; a tick sets it
-/// to its first value, the list. sizes: name, number of faces and area. What is selected in the
-/// view, on the filter's input or on an output, selects the rows of the surfaces that it lies on:
-/// pick takes the selection, port the number of the output or -1, and picked has the names.
-/// Selected rows, and changes that are not applied, are highlighted in the view.
-class SurfaceTable : public pqPropertyWidget
+/// It is the widget of the group of the lists of names Surfaces, FixedSurfaces, SlidingSurfaces and
+/// FreeSurfaces, which scripts set, too, and of Moving, which a tick sets to its first value, the
+/// list (panel_widget="SurfaceTable"). The filter's SurfaceSizes has name, number of faces and area
+/// of each. What is selected in the view, on the filter's input or on an output, selects the rows
+/// of the surfaces that it lies on: Pick takes the selection, PickPort the number of the output or
+/// -1, and PickedSurfaces has the names. Selected rows, and changes that are not applied, are
+/// highlighted in the view.
+class SurfaceTable : public pqPropertyGroupWidget
 {
   Q_OBJECT
-  using Superclass = pqPropertyWidget;
+  using Superclass = pqPropertyGroupWidget;
 
 public:
-  SurfaceTable(vtkSMProxy* filter, vtkSMProperty* moves, QWidget* parent = nullptr);
+  SurfaceTable(vtkSMProxy* filter, vtkSMPropertyGroup* group, QWidget* parent = nullptr);
   ~SurfaceTable() override;
 
   void apply() override;
@@ -84,7 +80,7 @@ private:
     int Number; ///< of an unnamed one
   };
 
-  vtkSMProperty* named(const char* role) const;
+  vtkSMProperty* named(const char* property) const;
   vtkSMProperty* listOf(Role role) const;
   QStringList namesOf(Role role) const;
   /// Of those that do not follow.

@@ -37,11 +37,12 @@ QString textOf(const QWidget* widget)
 }
 }
 
-/// A JSON text, to be freed, of the panel in a dock of this width in pixels: "width", that of what
-/// is seen of the panel; "rows", the names of its rows, titles that fold included; "texts", all
-/// that labels and fields say; "styles", of labels with a style of their own, by their texts; "table", the rows of the table of surfaces that are not hidden, each
-/// with its texts, whether it is ticked and whether it is selected; "cut", the names of what the edge of the dock cuts off; "titles",
-/// with what each of them says; "height".
+/// A JSON text, to be freed, of the panel in a dock of this width in pixels: "dock" and "width",
+/// those of the dock and of what is seen of the panel; "height"; "rows", the names of its rows,
+/// titles that fold included; "titles", with what each of them says; "texts", all that labels and
+/// fields say; "styles", of labels with a style of their own, by their texts; "cut", what the edge
+/// of the dock cuts off; "table", the rows of the table of surfaces that are not hidden, each with
+/// its texts, whether it is ticked and whether it is selected.
 extern "C" Q_DECL_EXPORT char* panel_rows(int width)
 {
   auto* const dock = named<QDockWidget>("propertiesDock");

@@ -88,7 +88,7 @@ class MorphMeshInTheWindow(unittest.TestCase):
             events.open(str(MESH))
             events.clicks = 0
             events.filter("MorphMesh")
-            events.tick("Surfaces/Rows", rows(names).index(SURFACE))
+            events.tick("SurfaceTable/Rows", rows(names).index(SURFACE))
             events.type(BOX + "translateZ", UP)
             events.apply()
             self.assertEqual((events.clicks, events.typed), (6, 1))

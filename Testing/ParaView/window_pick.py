@@ -138,11 +138,11 @@ class Pick(unittest.TestCase):
             events.open(str(MESH))
             events.task("tick what is selected in the view, and move it")
             events.filter("MorphMesh")
-            events.press("Surfaces/AddSelected")  # nothing is selected: a hint
+            events.press("SurfaceTable/AddSelected")  # nothing is selected: a hint
             # The ring at the end of the bore; the bore itself is not in this rectangle.
             events.select_cells((0.47, 0.23), (0.53, 0.28))
-            events.press("Surfaces/AddSelected")
-            events.expect(PANEL + "Surfaces/Message", f"Moves: {self.top}")
+            events.press("SurfaceTable/AddSelected")
+            events.expect(PANEL + "SurfaceTable/Message", f"Moves: {self.top}")
             events.type(BOX + "translateZ", UP)
             events.apply()
             events.done()

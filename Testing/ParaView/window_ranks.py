@@ -54,7 +54,7 @@ class WindowOnRanks(unittest.TestCase):
             events.filter("MorphMesh")
             events.apply()  # lists the surfaces
             for command, buttons in (("mousePress", "1,1"), ("mouseRelease", "1,0")):
-                events.set("Surfaces/Rows", command,
+                events.set("SurfaceTable/Rows", command,
                            f"{buttons},0,12,8,/{names.index(SURFACE)}:0")
             events.set(BOX + "translateZ", "set_string", UP)
             events.apply()

@@ -98,7 +98,7 @@ class Status(Panels):
         morph = MorphMesh(Input=simple.OpenDataFile(str(SMALL / self.mesh)), **up)
         self.events.filter("MorphMesh")
         for command, buttons in (("mousePress", "1,1"), ("mouseRelease", "1,0")):
-            self.events.set("Surfaces/Rows", command, f"{buttons},0,12,8,/1:0")
+            self.events.set("SurfaceTable/Rows", command, f"{buttons},0,12,8,/1:0")
         self.events.set("Displacement/ComboBox", "set_string", "Vector")
         self.events.set("Surroundings/ComboBox", "set_string", "Stay")
         said = []

@@ -10,12 +10,12 @@ import unittest
 
 from paraview import simple
 
-from window_events import PANEL
+from window_events import MAIN, PANEL
 from window_rows import Panels
 
 simple.LoadPlugin(os.environ["MESHMORPHING_PLUGIN"], remote=False, ns=globals())
 
-ROWS, ROLES = "Surfaces/Rows", PANEL + "Surfaces/Roles"
+ROWS, ROLES = "SurfaceTable/Rows", PANEL + "SurfaceTable/Roles"
 CONTROL = 0x04000000  # Qt::ControlModifier
 ROLE = 3  # its column
 
@@ -51,6 +51,10 @@ class Table(Panels):
         self.look("chosen")
         self.events.apply()
         self.look("applied")
+        script = self.folder / "roles.py"
+        self.events.menu("menu_File", "actionFileSaveServerState")
+        self.events.do(MAIN + "FileSaveServerStateDialog", "filesSelected", str(script))
+        self.events.do("StateOptionsDialog/widget/OKButton", "activate")
         new, chosen, applied = self.play()
         self.assertEqual([row[0] for row in new["table"]],
                          [*(f"Surface {i}" for i in range(4)), "+ 4 curves"])
@@ -64,12 +68,15 @@ class Table(Panels):
         self.assertEqual(list(morph.SlidingSurfaces), ["Surface 1"])
         self.assertEqual(list(morph.FixedSurfaces), ["Surface 0", "Surface 2"])
         self.assertEqual(len(morph.FreeSurfaces), 0)
+        text = script.read_text(encoding="utf-8")
+        self.assertIn(".FixedSurfaces = ['Surface 0', 'Surface 2']", text)
+        self.assertIn(".SlidingSurfaces = ['Surface 1']", text)
 
     def test_rows_are_found(self):
         self.events.filter("MorphMesh")
-        self.events.set("Surfaces/Search", "set_string", "e 3")
+        self.events.set("SurfaceTable/Search", "set_string", "e 3")
         self.look("found")
-        self.events.set("Surfaces/Search", "set_string", "")
+        self.events.set("SurfaceTable/Search", "set_string", "")
         self.press(4)  # that of the curves
         self.look("curves")
         found, curves = self.play()
@@ -81,7 +88,7 @@ class Table(Panels):
         self.events.apply()
         self.events.select_cells((0.6, 0.5), (0.62, 0.52))  # of the end that is seen
         self.look("selected")
-        self.events.set("Surfaces/AddSelected", "activate", "")
+        self.events.set("SurfaceTable/AddSelected", "activate", "")
         self.look("added")
         self.events.select_cells((0.45, 0.35), (0.47, 0.37))  # now there is a box
         self.look("again")
