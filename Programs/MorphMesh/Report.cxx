@@ -56,8 +56,8 @@ std::string quoted(const std::string& text)
   return result.str();
 }
 
-/// Adds the worst value, the cells beyond the limit and the worst cell of each criterion. `measured`
-/// may be null.
+/// Adds the worst value, the cells beyond the limit and the worst cell of each criterion.
+/// `measured` may be null.
 void writeCriteria(vtkScaledJacobian* measured, std::ostream& file)
 {
   vtkFieldData* data = measured ? measured->GetOutput()->GetFieldData() : nullptr;
