@@ -122,7 +122,7 @@ class WrongInputs(unittest.TestCase):
 
     def test_missing_arrays(self):
         for name in ("DisplacementArray", "BoundaryIdArray"):
-            self.assertRefused([f"{name} names 'Wind'", "MorphPointId"], Input=self.grid,
+            self.assertRefused([f"`{name}` names 'Wind'", "MorphPointId"], Input=self.grid,
                                Boundary=self.boundary, **{name: "Wind"})
         self.assertRefused(["'RTData' has 1 components"], Input=self.grid, Boundary=self.boundary,
                            DisplacementArray="RTData")
