@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Faces that are divided on one side alone: no gap opens there, and all else is as elsewhere.
+#include "Boundary/Classification.h"
+#include "Boundary/FaceAreas.h"
 #include "LinearMethods.h"
 #include "LinearMethods/FemWarp.h"
 #include "Mesh/HangingNodes.h"
@@ -214,6 +216,24 @@ TEST(HangingNodes, AreThoseOfTheRefinement)
 }
 
 // A face of a tetrahedron in four, and a quadrilateral under two triangles.
+TEST(HangingNodes, DoNotDivideTheSidesOfTheBox)
+{
+  for (unsigned trial = 0; trial < 20; ++trial)
+  {
+    SCOPED_TRACE(meshes::seed() + trial);
+    Octree octree(meshes::seed() + trial);
+    const morph::BoundaryFaces faces = morph::boundaryFaces(octree.mesh, octree.monitor);
+
+    const morph::Classification geometry =
+      morph::classify(octree.mesh, faces, morph::ClassificationOptions(), octree.monitor);
+
+    EXPECT_EQ(geometry.surfaces.size(), 6u);
+    EXPECT_EQ(geometry.curves.size(), 12u);
+    EXPECT_NEAR(morph::faceAreas(octree.mesh.points, faces).rowwise().norm().sum(),
+      2 * Width * Width + 4 * Width * Height, 1e-12 * Width);
+  }
+}
+
 TEST(HangingNodes, OfTrianglesAndOfFacesThatAreCut)
 {
   morph::Monitor monitor;

@@ -471,6 +471,21 @@ void HangingNodes::divideEdges(Polygon& polygon) const
   polygon = std::move(all);
 }
 
+void HangingNodes::divideEdges(BoundaryFaces& faces) const
+{
+  std::vector<Index> offsets = { 0 }, connectivity;
+  for (std::size_t f = 0; f + 1 < faces.offsets.size(); ++f)
+  {
+    Polygon polygon(faces.connectivity.begin() + faces.offsets[f],
+      faces.connectivity.begin() + faces.offsets[f + 1]);
+    this->divideEdges(polygon);
+    connectivity.insert(connectivity.end(), polygon.begin(), polygon.end());
+    offsets.push_back(static_cast<Index>(connectivity.size()));
+  }
+  faces.offsets = std::move(offsets);
+  faces.connectivity = std::move(connectivity);
+}
+
 Mesh HangingNodes::conforming(const Mesh& mesh) const
 {
   std::vector<std::uint8_t> isEnd(mesh.numberOfNodes(), 0);

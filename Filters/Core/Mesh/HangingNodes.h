@@ -39,6 +39,9 @@ public:
   /// Returns the partition for a method on conforming(): nodes that hang on prescribed nodes alone
   /// are prescribed, too. `partition`: of the mesh, where the nodes that hang are free.
   NodePartition extend(NodePartition partition) const;
+  /// Gives large faces the nodes that hang on their edges as corners, as the small ones beside them
+  /// have these, so that neighbors share edges.
+  void divideEdges(BoundaryFaces& faces) const;
   /// Returns the places in `ids` of nodes that do not hang.
   std::vector<Index> othersOf(const std::vector<Index>& ids) const;
   /// Returns the ids at these places.

@@ -323,7 +323,9 @@ BoundaryFaces boundaryFaces(const Mesh& mesh, HangingNodes& hanging, Monitor& mo
       outside.push_back(places[f]);
     }
   }
-  return describeFaces(mesh, outside);
+  faces = describeFaces(mesh, outside);
+  hanging.divideEdges(faces);
+  return faces;
 }
 
 BoundaryFaces facesOfCells(
