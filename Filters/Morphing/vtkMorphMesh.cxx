@@ -344,8 +344,8 @@ std::string vtkMorphMesh::vtkMorphing::Advice(const Inputs& inputs) const
   const std::string none = "Nothing moves yet. ";
   if (this->NeedsHandles)
   {
-    return none + "Give a handle: add a row to `Handles`, choose Control Points, or copy selected "
-                  "points and tick Selected `Handles`.";
+    return none + "Give a handle: add a row to Handles, choose Control Points, or copy selected "
+                  "points and tick Selected Handles.";
   }
   if (options.Moving == MOVING_SELECTION)
   {

@@ -488,6 +488,10 @@ void HangingNodes::divideEdges(BoundaryFaces& faces) const
 
 Mesh HangingNodes::conforming(const Mesh& mesh) const
 {
+  if (this->empty())
+  {
+    return mesh;
+  }
   std::vector<std::uint8_t> isEnd(mesh.numberOfNodes(), 0);
   for (const auto& [edge, nodes] : this->onEdge_)
   {

@@ -28,8 +28,8 @@ public:
 
   void prepare(const Mesh& rest, const NodePartition& partition, Monitor& monitor)
   {
-    this->pieces_ = std::make_unique<PolyhedronPieces>(
-      this->hanging_.empty() ? rest : this->hanging_.conforming(rest), monitor, this->cutsAll_);
+    this->pieces_ =
+      std::make_unique<PolyhedronPieces>(this->hanging_.conforming(rest), monitor, this->cutsAll_);
     this->nodes_ = rest.numberOfNodes();
     if (this->reference_.rows() > 0)
     {

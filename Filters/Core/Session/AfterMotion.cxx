@@ -69,7 +69,7 @@ bool repairPolyhedra(const Mesh& mesh, const HangingNodes& hanging, const Points
     return true;
   }
   ProgressRange preparing(monitor, 0, 0.3);
-  const PolyhedronPieces pieces(hanging.empty() ? mesh : hanging.conforming(mesh), preparing);
+  const PolyhedronPieces pieces(hanging.conforming(mesh), preparing);
   const NodePartition ofPieces = pieces.extend(hanging.extend(partition));
   const std::vector<Index> stay = cellsThatStay(pieces, ofPieces, pieces.extend(moved), preparing);
   const auto canBeMended = [&]
@@ -116,7 +116,7 @@ Index smoothAfterwards(const Mesh& rest, const HangingNodes& hanging,
   SmoothingReport report;
   if (hasPolyhedra(rest) || !hanging.empty())
   {
-    const PolyhedronPieces pieces(hanging.empty() ? rest : hanging.conforming(rest), monitor);
+    const PolyhedronPieces pieces(hanging.conforming(rest), monitor);
     const Mesh& mesh = pieces.mesh();
     Points all = pieces.extend(moved);
     report = smoothMesh(mesh, cellSigns(mesh, connectedComponents(mesh)),

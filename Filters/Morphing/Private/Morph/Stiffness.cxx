@@ -49,7 +49,6 @@ std::vector<morph::Index> movingNodes(vtkDataObject* boundary)
   }
   return moving;
 }
-
 }
 
 morph::CellStiffness Take(const Options& options, vtkUnstructuredGrid* rest,
