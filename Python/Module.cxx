@@ -3,7 +3,6 @@
 // checked in Python (Python/_arrays.py), ids here and in the core.
 #include "Boundary/Classification.h"
 #include "Boundary/FaceAreas.h"
-#include "LinearMethods/AttachedNodes.h"
 #include "LinearMethods/FemWarp.h"
 #include "LinearMethods/LogBarrierWarp.h"
 #include "LinearMethods/RadialBasis.h"
@@ -13,10 +12,12 @@
 #include "Mesh/CellShape.h"
 #include "Mesh/CollapsedCells.h"
 #include "Mesh/NodePartition.h"
-#include "Mesh/Topology.h"
+#include "Mesh/Polyhedra.h"
 #include "Quality/BoundaryDetermined.h"
-#include "Quality/InvertedBefore.h"
 #include "Quality/ScaledJacobian.h"
+#include "Session/Session.h"
+#include "Session/UndeformedMesh.h"
+#include "Session/Validity.h"
 #include "Support/Error.h"
 #include "Untangling/InversionFree.h"
 #include "Untangling/Smoothing.h"
@@ -30,6 +31,7 @@
 #include <atomic>
 #include <chrono>
 #include <exception>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -156,51 +158,45 @@ py::array_t<Value> arrayOf(const std::vector<Value>& values)
   return py::array_t<Value>(static_cast<py::ssize_t>(values.size()), values.data());
 }
 
-/// An undeformed mesh, and what follows from it.
-struct Mesh
-{
-  std::shared_ptr<const morph::Mesh> cells;
-  morph::BoundaryFaces boundary;
-  std::vector<std::int8_t> signs;
-
-  const Points& points() const { return this->cells->points; }
-};
+using Mesh = morph::UndeformedMesh;
 
 void requireNodes(const Mesh& mesh, const Ids& nodes)
 {
   Ids wrong;
   std::copy_if(nodes.begin(), nodes.end(), std::back_inserter(wrong),
-    [&](Index node) { return node < 0 || node >= mesh.points().rows(); });
+    [&](Index node) { return node < 0 || node >= mesh.mesh().numberOfNodes(); });
   if (!wrong.empty())
   {
     throw morph::Error("The mesh has no nodes " + morph::listIds(wrong) + ": ids go from 0 to " +
-                       std::to_string(mesh.points().rows() - 1) + ".");
+                       std::to_string(mesh.mesh().numberOfNodes() - 1) + ".");
   }
 }
 
-Mesh makeMesh(const ConstPoints& points, const py::array_t<std::uint8_t>& types,
-  const IdArray& offsets, const IdArray& connectivity)
+/// `faceOffsets`, `faces`: as of morph::Mesh, empty without polyhedra.
+std::shared_ptr<Mesh> makeMesh(const ConstPoints& points, const py::array_t<std::uint8_t>& types,
+  const IdArray& offsets, const IdArray& connectivity, const IdArray& faceOffsets,
+  const IdArray& faces)
 {
   morph::Mesh mesh;
   mesh.types.assign(types.data(), types.data() + types.size());
   mesh.offsets = idsOf(offsets);
   mesh.connectivity = idsOf(connectivity);
+  mesh.faceOffsets = idsOf(faceOffsets);
+  mesh.faces = idsOf(faces);
   return unlocked(
     [&](Monitor& monitor)
     {
       mesh.points = points;
       morph::validate(mesh);
       morph::replaceCollapsedCells(mesh);
-      const morph::ConnectedComponents bodies = morph::connectedComponents(mesh, monitor);
-      if (bodies.count == 0)
-      {
-        throw morph::Error("The mesh has no volume cells. Give tetrahedra, hexahedra, wedges or "
-                           "pyramids, linear or quadratic.");
-      }
-      Mesh made;
-      made.signs = morph::cellSigns(mesh, bodies, monitor);
-      made.boundary = morph::boundaryFaces(mesh, monitor);
-      made.cells = std::make_shared<const morph::Mesh>(std::move(mesh));
+      morph::orientPolyhedra(mesh);
+      auto made = std::make_shared<Mesh>(std::move(mesh), nullptr, monitor);
+      made->before(monitor); // found once, while no other thread has the mesh
+      morph::Session session;
+      session.setMesh(made);
+      morph::Session::Options options;
+      options.measureAll = false; // quality() is for that
+      session.reportMesh(options, monitor);
       return made;
     });
 }
@@ -216,8 +212,8 @@ py::list surfacesOf(const Mesh& mesh, double featureAngle, double cornerAngle)
       morph::ClassificationOptions options;
       options.featureAngle = featureAngle;
       options.cornerAngle = cornerAngle;
-      geometry = morph::classify(*mesh.cells, mesh.boundary, options, monitor);
-      areas = morph::faceAreas(mesh.points(), mesh.boundary).rowwise().norm();
+      geometry = morph::classify(mesh.mesh(), mesh.outerFaces(), options, monitor);
+      areas = morph::faceAreas(mesh.mesh().points, mesh.outerFaces()).rowwise().norm();
     });
   py::list result;
   for (const morph::GeometrySurface& surface : geometry.surfaces)
@@ -235,84 +231,109 @@ py::list surfacesOf(const Mesh& mesh, double featureAngle, double cornerAngle)
 morph::Quality measure(const Mesh& mesh, const ConstPoints& points)
 {
   return unlocked([&](Monitor& monitor)
-    { return morph::measureQuality(*mesh.cells, points, mesh.signs, {}, monitor); });
+    { return morph::measureQuality(mesh.mesh(), points, mesh.orientation(), {}, monitor); });
 }
 
 // ----------------------------------------------------------------------------------- methods
 
-/// The method of this name, with options by the names of the properties; choices are numbers. As
-/// the filters make it.
-std::unique_ptr<morph::Morpher> makeMethod(
-  const std::string& name, const py::dict& options, const Mesh& mesh)
+using MakeMethod = std::function<std::unique_ptr<morph::Morpher>()>;
+
+template <typename Method, typename SetUp>
+MakeMethod maker(const SetUp& setUp)
+{
+  return [=]
+  {
+    auto method = std::make_unique<Method>();
+    setUp(*method);
+    return method;
+  };
+}
+
+/// FEMWARP's stiffness, by the options' names.
+morph::CellStiffness stiffnessOf(const py::dict& options, Index nodes)
+{
+  morph::CellStiffness stiffness;
+  stiffness.kind = static_cast<morph::CellStiffness::Kind>(options["stiffness"].cast<int>());
+  stiffness.exponent = options["stiffness_exponent"].cast<double>();
+  if (!options["stiffness_array"].is_none())
+  {
+    stiffness.values = options["stiffness_array"].cast<std::vector<double>>();
+  }
+  if (!options["wall_array"].is_none())
+  {
+    const auto marks = options["wall_array"].cast<py::array_t<bool>>();
+    if (marks.size() != nodes)
+    {
+      throw morph::Error("wall_array has " + std::to_string(marks.size()) +
+                         " values; one for each of " + std::to_string(nodes) + " nodes is needed.");
+    }
+    for (Index node = 0; node < nodes; ++node)
+    {
+      if (marks.at(node))
+      {
+        stiffness.walls.push_back(node);
+      }
+    }
+    stiffness.areWallsGlobal = false;
+    stiffness.noWalls = "wall_array is zero at all nodes.";
+  }
+  return stiffness;
+}
+
+/// Makes the method of this name, with options by the names of the properties; choices are numbers.
+/// As the filters make it.
+MakeMethod makerOf(const std::string& name, const py::dict& options, Index nodes)
 {
   const auto number = [&](const char* option) { return options[option].cast<double>(); };
   const auto integer = [&](const char* option) { return options[option].cast<int>(); };
   if (name == "FEMWARP")
   {
-    morph::CellStiffness stiffness;
-    stiffness.kind = static_cast<morph::CellStiffness::Kind>(integer("stiffness"));
-    stiffness.exponent = number("stiffness_exponent");
-    if (!options["stiffness_array"].is_none())
-    {
-      stiffness.values = options["stiffness_array"].cast<std::vector<double>>();
-    }
-    if (!options["wall_array"].is_none())
-    {
-      const auto marks = options["wall_array"].cast<py::array_t<bool>>();
-      for (Index node = 0; node < marks.size(); ++node)
+    return maker<morph::FemWarp>(
+      [stiffness = stiffnessOf(options, nodes), tolerance = number("tolerance")](auto& method)
       {
-        if (marks.at(node))
-        {
-          stiffness.walls.push_back(node);
-        }
-      }
-      stiffness.areWallsGlobal = false;
-      stiffness.noWalls = "wall_array is zero at all nodes.";
-      if (marks.size() != mesh.points().rows())
-      {
-        throw morph::Error("wall_array has " + std::to_string(marks.size()) +
-                           " values; one for each of " + std::to_string(mesh.points().rows()) +
-                           " nodes is needed.");
-      }
-    }
-    auto method = std::make_unique<morph::FemWarp>();
-    method->setStiffness(std::move(stiffness));
-    method->setTolerance(number("tolerance"));
-    return method;
+        method.setStiffness(stiffness);
+        method.setTolerance(tolerance);
+      });
   }
   if (name == "LBWARP")
   {
-    auto method = std::make_unique<morph::LogBarrierWarp>();
-    method->setOutsideHull(
-      static_cast<morph::LogBarrierWarp::OutsideHull>(integer("outside_hull")));
-    method->setTolerance(number("tolerance"));
-    return method;
+    using Outside = morph::LogBarrierWarp::OutsideHull;
+    return maker<morph::LogBarrierWarp>(
+      [outside = static_cast<Outside>(integer("outside_hull")), tolerance = number("tolerance")](
+        auto& method)
+      {
+        method.setOutsideHull(outside);
+        method.setTolerance(tolerance);
+      });
   }
   if (name == "WeightedResidual")
   {
-    auto method = std::make_unique<morph::WeightedResidual>();
-    method->setNumberOfNeighbors(integer("number_of_neighbors"));
-    return method;
+    return maker<morph::WeightedResidual>([count = integer("number_of_neighbors")](auto& method)
+      { method.setNumberOfNeighbors(count); });
   }
   if (name == "SimplexLinear")
   {
-    return std::make_unique<morph::SimplexLinear>();
+    return maker<morph::SimplexLinear>([](auto&) {});
   }
   if (name == "SimplexNaturalNeighbor")
   {
-    auto method = std::make_unique<morph::SimplexNaturalNeighbor>();
-    method->setMemoryLimit(static_cast<std::size_t>(1e6 * number("memory_limit")));
-    return method;
+    return maker<morph::SimplexNaturalNeighbor>(
+      [bytes = static_cast<std::size_t>(1e6 * number("memory_limit"))](auto& method)
+      { method.setMemoryLimit(bytes); });
   }
   if (name == "RadialBasis")
   {
-    auto method = std::make_unique<morph::RadialBasis>();
-    method->setKernel(static_cast<morph::RadialKernel::Kind>(integer("kernel")));
-    method->setSupportRadius(number("support_radius"));
     const Index centers = integer("number_of_centers");
-    method->setNumberOfCenters(
-      centers > 0 ? std::max<Index>(centers, morph::RadialBasis::FewestCenters) : 0);
-    return method;
+    return maker<morph::RadialBasis>(
+      [kernel = static_cast<morph::RadialKernel::Kind>(integer("kernel")),
+        radius = number("support_radius"),
+        most = centers > 0 ? std::max<Index>(centers, morph::RadialBasis::FewestCenters) : 0](
+        auto& method)
+      {
+        method.setKernel(kernel);
+        method.setSupportRadius(radius);
+        method.setNumberOfCenters(most);
+      });
   }
   if (name == "Smoothing")
   {
@@ -321,17 +342,14 @@ std::unique_ptr<morph::Morpher> makeMethod(
     smoothing.objective = static_cast<morph::SmoothingObjective>(integer("objective"));
     smoothing.iterationLimit = integer("iteration_limit");
     smoothing.stopMove = number("stop_move");
-    auto method = std::make_unique<morph::Smoothing>();
-    method->setOptions(smoothing);
-    return method;
+    return maker<morph::Smoothing>([=](auto& method) { method.setOptions(smoothing); });
   }
   if (name == "InversionFree")
   {
     using Steps = morph::RaisingSteps;
-    constexpr int steps[] = { Steps::Quick, Steps::Default, Steps::Thorough };
-    auto method = std::make_unique<morph::InversionFree>();
-    method->setSteps(steps[integer("effort")]);
-    return method;
+    constexpr int Efforts[] = { Steps::Quick, Steps::Default, Steps::Thorough };
+    return maker<morph::InversionFree>(
+      [steps = Efforts[integer("effort")]](auto& method) { method.setSteps(steps); });
   }
   throw morph::Error("There is no method " + name + ".");
 }
@@ -353,108 +371,97 @@ Ids heldNodes(const morph::BoundaryFaces& faces, const std::vector<bool>& isName
   return held;
 }
 
-/// A partition whose first rows, of the nodes that were named, are the caller's.
-class Prescribed
+/// The nodes that the caller names and, with `fixesOthers`, the rest of the boundary.
+struct Prescribed
 {
-public:
-  Prescribed(const Mesh& mesh, Ids named, bool fixesOthers)
-    : named_(std::move(named))
+  Ids named;
+  Ids all;  ///< ascending
+  Ids rows; ///< #named, its row in `all`
+
+  Prescribed(const Mesh& mesh, Ids ids, bool fixesOthers)
+    : named(std::move(ids))
+    , all(named)
   {
-    requireNodes(mesh, this->named_);
-    std::vector<bool> isNamed(mesh.points().rows());
-    for (const Index node : this->named_)
+    requireNodes(mesh, this->named);
+    std::vector<bool> isNamed(mesh.mesh().numberOfNodes());
+    for (const Index node : this->named)
     {
       isNamed[node] = true;
     }
-    Ids all = this->named_;
     if (fixesOthers)
     {
-      const Ids held = heldNodes(mesh.boundary, isNamed);
-      all.insert(all.end(), held.begin(), held.end());
+      const Ids held = heldNodes(mesh.outerFaces(), isNamed);
+      this->all.insert(this->all.end(), held.begin(), held.end());
     }
-    this->partition_ =
-      std::make_shared<const morph::NodePartition>(morph::partitionNodes(*mesh.cells, all));
-    const Ids& sorted = this->partition_->prescribed;
-    for (const Index node : this->named_)
+    std::sort(this->all.begin(), this->all.end());
+    for (const Index node : this->named)
     {
-      this->rows_.push_back(std::lower_bound(sorted.begin(), sorted.end(), node) - sorted.begin());
+      const auto row = std::lower_bound(this->all.begin(), this->all.end(), node);
+      this->rows.push_back(row - this->all.begin());
     }
   }
-
-  const std::shared_ptr<const morph::NodePartition>& partition() const { return this->partition_; }
-  const Ids& rows() const { return this->rows_; }
-  const Ids& named() const { return this->named_; }
-
-private:
-  std::shared_ptr<const morph::NodePartition> partition_;
-  Ids named_;
-  Ids rows_; ///< #named, its row among all prescribed nodes
 };
 
-/// A method prepared for a mesh and the nodes that move it.
+/// A method prepared for a mesh and the nodes that move it. Threads that call it at once take
+/// turns; each computation has all threads.
 class Prepared
 {
 public:
-  Prepared(const Mesh& mesh, std::unique_ptr<morph::Morpher> method, const Ids& nodes,
-    bool fixesOthers, Monitor& monitor)
-    : mesh_(mesh.cells)
-    , prescribed_(mesh, nodes, fixesOthers)
-    , method_(std::move(method))
-    , attached_(*this->mesh_, *this->prescribed_.partition())
+  Prepared(const std::shared_ptr<const Mesh>& mesh, const std::string& name, MakeMethod make,
+    const Ids& nodes, bool fixesOthers, Monitor& monitor)
+    : prescribed_(*mesh, nodes, fixesOthers)
   {
-    this->method_->prepare(this->mesh_, this->prescribed_.partition(), monitor);
+    this->options_.createMorpher = std::move(make);
+    this->options_.method = name;
+    this->options_.validity = morph::Validity::Mode::None;
+    this->options_.measureAll = false;
+    this->session_.setMesh(mesh);
+    this->session_.prepare(this->prescribed_.all, this->options_, monitor);
   }
 
   /// `positions`: of the nodes, #named x 3; displacements if `isRelative`.
-  Points evaluate(const ConstPoints& positions, bool isRelative, Monitor& monitor) const
+  Points evaluate(const ConstPoints& positions, bool isRelative, Monitor& monitor)
   {
-    const Points& rest = this->mesh_->points;
-    Points targets = rest(this->prescribed_.partition()->prescribed, morph::allColumns);
-    const Ids& rows = this->prescribed_.rows();
+    morph::BoundaryTargets boundary;
+    boundary.ids = this->prescribed_.all;
+    boundary.targets = this->session_.mesh().mesh().points(boundary.ids, morph::allColumns);
+    const Ids& rows = this->prescribed_.rows;
     for (std::size_t i = 0; i < rows.size(); ++i)
     {
-      auto target = targets.row(rows[i]);
+      auto target = boundary.targets.row(rows[i]);
       const auto given = positions.row(static_cast<Index>(i));
       target = isRelative ? Eigen::RowVector3d(target + given) : Eigen::RowVector3d(given);
     }
-    Points moved;
-    this->method_->evaluate(targets, moved, monitor);
-    this->attached_.apply(moved);
-    return moved;
+    const std::lock_guard<std::mutex> turn(this->mutex_);
+    const auto step = this->session_.morph(boundary, this->options_, monitor);
+    morph::warnOfLoose(step->loose, monitor);
+    return std::move(step->moved);
   }
 
-  Points adjoint(const ConstPoints& gradient, Monitor& monitor) const
+  Points adjoint(const ConstPoints& gradient, Monitor& monitor)
   {
-    const auto* linear = dynamic_cast<const morph::LinearMorpher*>(this->method_.get());
-    if (!linear)
-    {
-      throw morph::Error("The method is not linear, so it has no adjoint that is the same for all "
-                         "motions. Use one that is, FEMWARP for instance.");
-    }
-    Points all;
-    if (this->attached_.nodes().empty())
-    {
-      linear->applyTranspose(gradient, all, monitor);
-    }
-    else
-    {
-      Points nodes = gradient;
-      this->attached_.applyTranspose(nodes);
-      linear->applyTranspose(nodes, all, monitor);
-    }
-    return all(this->prescribed_.rows(), morph::allColumns);
+    const std::lock_guard<std::mutex> turn(this->mutex_);
+    return this->session_.transpose(this->prescribed_.all, gradient, this->options_, monitor)(
+      this->prescribed_.rows, morph::allColumns);
   }
 
-  py::array_t<Index> nodes() const { return arrayOf(this->prescribed_.named()); }
+  py::array_t<Index> nodes() const { return arrayOf(this->prescribed_.named); }
 
 private:
-  std::shared_ptr<const morph::Mesh> mesh_;
   Prescribed prescribed_;
-  std::unique_ptr<morph::Morpher> method_;
-  morph::AttachedNodes attached_;
+  morph::Session::Options options_;
+  morph::Session session_;
+  std::mutex mutex_;
 };
 
 // ------------------------------------------------------------------------------------ repair
+
+/// The cells that a motion inverts, ascending.
+Ids invertedBy(const Mesh& mesh, const ConstPoints& points, Monitor& monitor)
+{
+  return mesh.before(monitor).added(
+    points, morph::invertedCells(mesh.mesh(), points, mesh.orientation(), monitor));
+}
 
 struct Repaired
 {
@@ -463,66 +470,22 @@ struct Repaired
   Ids determined; ///< those of them that the prescribed nodes alone invert
 };
 
-/// The cells that a motion inverts, ascending. Those that were inverted before, and are no worse,
-/// do not count.
-class Inverted
-{
-public:
-  Inverted(const Mesh& mesh, Monitor& monitor)
-    : mesh_(mesh)
-    , monitor_(monitor)
-    , before_(*mesh.cells, mesh.signs, this->measure(mesh.points()))
-  {
-  }
-
-  Ids at(const ConstPoints& points) const
-  {
-    return this->before_.added(points, morph::invertedCells(this->measure(points)));
-  }
-  const morph::InvertedBefore& before() const { return this->before_; }
-
-private:
-  morph::Quality measure(const ConstPoints& points) const
-  {
-    return morph::measureQuality(*this->mesh_.cells, points, this->mesh_.signs, {}, this->monitor_);
-  }
-
-  const Mesh& mesh_;
-  Monitor& monitor_;
-  morph::InvertedBefore before_;
-};
-
-/// Near the inverted cells at first, then in the whole mesh.
 Repaired repair(
   const Mesh& mesh, const ConstPoints& points, const Ids& nodes, bool fixesOthers, Monitor& monitor)
 {
-  const Prescribed prescribed(mesh, nodes, fixesOthers);
-  const Inverted bad(mesh, monitor);
+  const Ids ids = mesh.hanging().without(Prescribed(mesh, nodes, fixesOthers).all);
+  const morph::NodePartition partition = morph::partitionNodes(mesh.mesh(), ids);
+  const Points targets = points(ids, morph::allColumns);
+  const morph::Validity validity{ morph::Validity::Mode::Repair, 0, mesh.mesh(), mesh.mesh().points,
+    mesh.before(monitor), partition, mesh.orientation(), targets, mesh.outerFaces(), mesh.hanging(),
+    false, {} };
   Repaired result;
   result.points = points;
-  result.inverted = bad.at(result.points);
-  for (const bool nearOnly : { true, false })
+  if (!validity.repair(result.points, monitor))
   {
-    if (result.inverted.empty())
-    {
-      break;
-    }
-    morph::InversionFree method;
-    method.setNearOnly(nearOnly);
-    method.prepare(mesh.cells, prescribed.partition(), monitor);
-    Points trial = result.points;
-    method.repair(trial, monitor);
-    Ids left = bad.at(trial);
-    if (left.size() < result.inverted.size())
-    {
-      result.points.swap(trial);
-      result.inverted.swap(left);
-    }
-  }
-  if (!result.inverted.empty())
-  {
-    result.determined = bad.before().without(morph::boundaryDeterminedInversions(
-      *mesh.cells, *prescribed.partition(), mesh.signs, result.points));
+    result.inverted = invertedBy(mesh, result.points, monitor);
+    result.determined = validity.before.without(morph::boundaryDeterminedInversions(
+      mesh.mesh(), partition, mesh.orientation(), result.points));
   }
   return result;
 }
@@ -557,14 +520,16 @@ PYBIND11_MODULE(_core, module)
       return shape ? shape->numberOfNodes : 0;
     });
 
-  py::class_<Mesh>(module, "Mesh")
+  py::class_<Mesh, std::shared_ptr<Mesh>>(module, "Mesh")
     .def(py::init(&makeMesh))
-    .def_property_readonly("points", &Mesh::points, py::return_value_policy::reference_internal)
-    .def_property_readonly("types", [](const Mesh& mesh) { return arrayOf(mesh.cells->types); })
+    .def_property_readonly(
+      "points", [](const Mesh& mesh) -> const Points& { return mesh.mesh().points; },
+      py::return_value_policy::reference_internal)
+    .def_property_readonly("types", [](const Mesh& mesh) { return arrayOf(mesh.mesh().types); })
     .def("_boundary",
       [](const Mesh& mesh)
       {
-        const morph::BoundaryFaces& faces = mesh.boundary;
+        const morph::BoundaryFaces& faces = mesh.outerFaces();
         return py::make_tuple(arrayOf(faces.offsets), arrayOf(faces.connectivity),
           arrayOf(faces.cells), arrayOf(faces.nodes));
       })
@@ -579,7 +544,7 @@ PYBIND11_MODULE(_core, module)
     .def("_inverted",
       [](const Mesh& mesh, const ConstPoints& points) {
         return arrayOf(
-          unlocked([&](Monitor& monitor) { return Inverted(mesh, monitor).at(points); }));
+          unlocked([&](Monitor& monitor) { return invertedBy(mesh, points, monitor); }));
       })
     .def("_repair",
       [](const Mesh& mesh, const ConstPoints& points, const IdArray& nodes, bool fixesOthers)
@@ -593,23 +558,24 @@ PYBIND11_MODULE(_core, module)
 
   py::class_<Prepared>(module, "Prepared")
     .def(py::init(
-      [](const Mesh& mesh, const std::string& name, const py::dict& options, const IdArray& nodes,
-        bool fixesOthers)
+      [](const std::shared_ptr<Mesh>& mesh, const std::string& name, const py::dict& options,
+        const IdArray& nodes, bool fixesOthers)
       {
-        std::unique_ptr<morph::Morpher> method = makeMethod(name, options, mesh);
+        MakeMethod make = makerOf(name, options, mesh->mesh().numberOfNodes());
         const Ids ids = idsOf(nodes);
         return unlocked(
           [&](Monitor& monitor) {
-            return std::make_unique<Prepared>(mesh, std::move(method), ids, fixesOthers, monitor);
+            return std::make_unique<Prepared>(
+              mesh, name, std::move(make), ids, fixesOthers, monitor);
           });
       }))
     .def_property_readonly("nodes", &Prepared::nodes)
     .def("_evaluate",
-      [](const Prepared& prepared, const ConstPoints& positions, bool isRelative)
+      [](Prepared& prepared, const ConstPoints& positions, bool isRelative)
       {
         return unlocked(
           [&](Monitor& monitor) { return prepared.evaluate(positions, isRelative, monitor); });
       })
-    .def("_adjoint", [](const Prepared& prepared, const ConstPoints& gradient)
+    .def("_adjoint", [](Prepared& prepared, const ConstPoints& gradient)
       { return unlocked([&](Monitor& monitor) { return prepared.adjoint(gradient, monitor); }); });
 }

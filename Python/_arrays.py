@@ -18,6 +18,7 @@ _TYPES = {
     "pyramid": 14, "line3": 21, "triangle6": 22, "quad8": 23, "tetra10": 24, "hexahedron20": 25,
     "wedge15": 26, "pyramid13": 27, "quad9": 28, "hexahedron27": 29, "quad6": 30, "wedge12": 31,
     "wedge18": 32, "hexahedron24": 33, "triangle7": 34}
+_POLYHEDRON = 42
 
 
 class MorphError(RuntimeError):
@@ -109,53 +110,123 @@ def _is_block(part: Any) -> bool:
     return hasattr(part, "type") or (len(part) == 2 and isinstance(part[0], str))
 
 
-def _from_blocks(blocks: Sequence[Any]) -> tuple[Ids, Ids, NDArray[numpy.uint8]]:
-    sizes, ids, types = [], [], []
+class _Cells(NamedTuple):
+    """Cells as VTK has them; of polyhedra, faces has that of each: its size, then its nodes."""
+
+    offsets: Ids
+    connectivity: Ids
+    types: Ids
+    face_offsets: Ids = numpy.empty(0, int)
+    faces: Ids = numpy.empty(0, int)
+
+
+def _joined(sizes: Sequence[Any], ids: Sequence[Any], types: Sequence[Any],
+            faces: Sequence[Any]) -> _Cells:
+    """Of arrays, one after the other. `faces`: a row for each cell, or none at all."""
+    def row(parts: Sequence[Any]) -> Ids:
+        return numpy.concatenate([numpy.empty(0, int), *parts]).astype(numpy.int64)
+
+    def offsets(lengths: Ids) -> Ids:
+        return numpy.concatenate([[0], lengths]).cumsum().astype(numpy.int64)
+
+    of_faces = (offsets(numpy.array([len(f) for f in faces])), row(faces)) if faces else ()
+    return _Cells(offsets(row(sizes)), row(ids), row(types), *of_faces)
+
+
+def _polyhedron(cell: int, faces: Sequence[Any]) -> tuple[Ids, Ids]:
+    """The nodes of a polyhedron, and its faces in one row."""
+    if not all(numpy.ndim(face) == 1 and len(face) for face in faces) or not len(faces):
+        raise ValueError(f"The polyhedron {cell} is no list of faces, of which each is a list of "
+                         "nodes.")
+    rows = [_ids(face, f"A face of the polyhedron {cell}") for face in faces]
+    stream = numpy.concatenate([numpy.insert(face, 0, len(face)) for face in rows])
+    return numpy.unique(numpy.concatenate(rows)), stream
+
+
+def _from_blocks(blocks: Sequence[Any]) -> _Cells:
+    sizes, ids, types, faces = [], [], [], []
+    has_polyhedra = False
     for block in blocks:
         if not _is_block(block):
             raise ValueError("cells has a block that is no pair of type and array, such as "
                              '("hexahedron", array (cells, 8)).')
         name, data = (block.type, block.data) if hasattr(block, "type") else block
+        if name.startswith("polyhedron"):
+            has_polyhedra = True
+            for cell in data:
+                nodes, stream = _polyhedron(len(faces), cell)
+                ids.append(nodes)
+                sizes.append([len(nodes)])
+                faces.append(stream)
+            types.append(numpy.full(len(data), _POLYHEDRON))
+            continue
         data = numpy.asarray(data)
         if data.ndim != 2:
             raise ValueError(f"The cells of type {name} have the shape {data.shape}; (cells, nodes "
-                             "of a cell) is needed. Polyhedra and polygons are not taken.")
+                             "of a cell) is needed. Polygons are not taken.")
         ids.append(_ids(data.ravel(), f"The block {name}"))
         sizes.append(numpy.full(len(data), data.shape[1]))
-        types.append(numpy.full(len(data), _type_number(name, data.shape[1]), dtype=numpy.uint8))
-    offsets = numpy.concatenate([[0], *sizes]).cumsum().astype(numpy.int64)
-    return offsets, numpy.concatenate([numpy.empty(0, int), *ids]), numpy.concatenate(
-        [numpy.empty(0, numpy.uint8), *types])
+        types.append(numpy.full(len(data), _type_number(name, data.shape[1])))
+        faces.extend([()] * len(data))
+    return _joined(sizes, ids, types, faces if has_polyhedra else ())
 
 
-def _from_flat(cells: Ids, count: int) -> tuple[Ids, Ids]:
-    """Offsets and ids of VTK's cells in one row: n, n ids, n, n ids, ..."""
-    row, starts, place = cells.tolist(), [0], 0
-    for cell in range(count):
+def _from_flat(cells: Ids, types: Ids) -> _Cells:
+    """VTK's cells in one row: n, n ids, n, n ids, ..., where those of a polyhedron are its faces."""
+    row, place, starts = cells.tolist(), 0, []
+    for cell in range(len(types)):
         if place >= len(row) or row[place] < 0:
-            raise ValueError(f"cells ends, or has a negative length, at cell {cell} of {count}.")
+            raise ValueError(
+                f"cells ends, or has a negative length, at cell {cell} of {len(types)}.")
+        starts.append(place + 1)
         place += row[place] + 1
-        starts.append(place)
     if place != len(row):
-        raise ValueError(f"cells has {len(row)} numbers; {count} cells have {place}.")
-    return numpy.array(starts) - numpy.arange(count + 1), numpy.delete(cells, starts[:-1])
+        raise ValueError(f"cells has {len(row)} numbers; {len(types)} cells have {place}.")
+    ends = [*(start - 1 for start in starts[1:]), place]
+    if not (types == _POLYHEDRON).any():
+        offsets = numpy.array([0, *ends]) - numpy.arange(len(types) + 1)
+        return _Cells(offsets, numpy.delete(cells, numpy.array(starts, int) - 1), types)
+    ids, faces = [], []
+    for cell, (start, end) in enumerate(zip(starts, ends)):
+        nodes, stream = cells[start:end], ()
+        if types[cell] == _POLYHEDRON:
+            nodes, stream = _polyhedron(cell, _split(cell, nodes.tolist()))
+        ids.append(nodes)
+        faces.append(stream)
+    return _joined([[len(nodes)] for nodes in ids], ids, [types], faces)
+
+
+def _split(cell: int, stream: Sequence[int]) -> list[Sequence[int]]:
+    """The faces of the stream: their number, then the size and nodes of each."""
+    faces, place = [], 1
+    for _ in range(stream[0] if stream else 0):
+        size = stream[place] if place < len(stream) else 0
+        faces.append(stream[place + 1:place + 1 + size])
+        place += size + 1
+    if place != len(stream):
+        raise ValueError(f"The polyhedron {cell} is no stream of faces: their number, then the "
+                         "size and the nodes of each.")
+    return faces
 
 
 class Mesh(_core.Mesh):
     """An undeformed volume mesh, which is copied once: 24 bytes a node, and 8 a node of each cell.
 
     points: (n, 3), coordinates in any unit of length.
-    cells: tetrahedra, hexahedra, wedges and pyramids, linear or quadratic, among others that move
-        with them; one of
-        - meshio's blocks: [("hexahedron", array (cells, 8)), ...], or meshio.Mesh.cells;
+    cells: tetrahedra, hexahedra, wedges and pyramids, linear or quadratic, and polyhedra, among
+        others that move with them; one of
+        - meshio's blocks: [("hexahedron", array (cells, 8)), ...], or meshio.Mesh.cells; of
+          polyhedra a list of faces for each, of which each is a list of nodes;
         - (offsets, connectivity, celltypes): cell i has the type celltypes[i], VTK's number, and
           the nodes connectivity[offsets[i]:offsets[i + 1]];
-        - with celltypes, VTK's and PyVista's cells in one row: n, n ids, n, n ids, ...
+        - with celltypes, VTK's and PyVista's cells in one row: n, n ids, n, n ids, ..., where a
+          polyhedron has the stream of its faces: their number, then the size and nodes of each.
     celltypes: VTK's numbers of the types, (cells,), for that last form.
 
     points, of the mesh, is a view of its coordinates, which cannot be written. Raises ValueError
     for coordinates that are not finite, ids that do not exist, unknown types, and a mesh without
-    volume cells; it names the ids.
+    volume cells; it names the ids. Warns of what is odd about it. Cost: that of quality(), and a
+    sort of all faces.
     """
 
     def __init__(self, points: ArrayLike,
@@ -164,23 +235,23 @@ class Mesh(_core.Mesh):
         coordinates = _points(points, "points")
         if celltypes is not None:
             types = _ids(celltypes, "celltypes")
-            offsets, connectivity = _from_flat(_ids(cells, "cells"), len(types))
+            found = _from_flat(_ids(cells, "cells"), types)
         elif not isinstance(cells, (list, tuple)):
             raise ValueError("cells in one row need celltypes, VTK's numbers of their types; else "
                              "blocks, or offsets, connectivity and celltypes, are needed.")
         elif len(cells) == 3 and not any(map(_is_block, cells)):
-            offsets, connectivity, types = (
-                _ids(part, name) for part, name in
-                zip(cells, ("offsets", "connectivity", "celltypes")))
+            found = _Cells(*(_ids(part, name) for part, name in
+                             zip(cells, ("offsets", "connectivity", "celltypes"))))
         else:
-            offsets, connectivity, types = _from_blocks(cells)
+            found = _from_blocks(cells)
+        types = found.types
         if types.size and not (0 <= types.min() and types.max() < 256):
             raise ValueError("celltypes has numbers beyond 0 to 255.")
-        polyhedra = numpy.flatnonzero(types == 42)
-        if polyhedra.size:
-            raise ValueError(f"Polyhedra are not taken: cells {_listed(polyhedra)}. The filters "
-                             "morph them.")
-        super().__init__(coordinates, types.astype(numpy.uint8), offsets, connectivity)
+        polyhedra = numpy.flatnonzero(types == _POLYHEDRON)
+        if polyhedra.size and not found.face_offsets.size:
+            raise ValueError(f"The faces of polyhedra are missing: cells {_listed(polyhedra)}. "
+                             "Give blocks, or cells in one row.")
+        super().__init__(coordinates, types.astype(numpy.uint8), *found[:2], *found[3:])
 
     @property
     def boundary(self) -> Boundary:

@@ -7,10 +7,6 @@
 #include "Distributed/SystemMethod.h"
 #include "LinearMethods/FemWarp.h"
 #include "LinearMethods/LogBarrierWarp.h"
-#include "LinearMethods/RadialBasis.h"
-#include "LinearMethods/SimplexLinear.h"
-#include "LinearMethods/SimplexNaturalNeighbor.h"
-#include "LinearMethods/WeightedResidual.h"
 
 #include <utility>
 
@@ -32,10 +28,7 @@ std::unique_ptr<Method> makeMethod(std::unique_ptr<Morpher> serial)
     method->takeEvaluateOptions(*serial);
     return method;
   }
-  if (dynamic_cast<const RadialBasis*>(serial.get()) ||
-      dynamic_cast<const WeightedResidual*>(serial.get()) ||
-      dynamic_cast<const SimplexLinear*>(serial.get()) ||
-      dynamic_cast<const SimplexNaturalNeighbor*>(serial.get()))
+  if (serial->copyWithoutCells())
   {
     return std::make_unique<SiteMethod>(std::move(serial));
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Distributed/SiteMethod.h"
 
+#include "Morpher/BodyByBody.h"
 #include "Support/ProgressRange.h"
 
 #include <algorithm>
@@ -24,9 +25,31 @@ public:
 };
 }
 
-SiteMethod::SiteMethod(std::unique_ptr<Morpher> serial)
-  : serial_(std::move(serial))
+SiteMethod::SiteMethod(std::unique_ptr<Morpher> method)
+  : method_(std::move(method))
 {
+}
+
+std::vector<Index> SiteMethod::gatherBodies() const
+{
+  const std::vector<Index> ofNode = bodyOfNodes(this->mesh().mesh(), this->mesh().bodies());
+  const std::vector<Index>& prescribed = this->partition().prescribed;
+  std::vector<Index> mine;
+  for (const Index i : this->owned_)
+  {
+    mine.push_back(ofNode[prescribed[i]]);
+  }
+  const std::vector<Index> all = this->mesh().ranks().gather(mine);
+  std::vector<Index> result(all.size());
+  for (std::size_t k = 0; k < all.size(); ++k)
+  {
+    result[this->place_[k]] = all[k];
+  }
+  for (const Index node : this->ownFree())
+  {
+    result.push_back(ofNode[node]);
+  }
+  return result;
 }
 
 Points SiteMethod::gather(const Points& rows) const
@@ -86,6 +109,12 @@ void SiteMethod::doPrepare(Monitor& monitor)
   std::iota(partition.prescribed.begin(), partition.prescribed.end(), Index(0));
   partition.free.resize(own);
   std::iota(partition.free.begin(), partition.free.end(), sites.rows());
+  this->serial_ = this->method_->copyWithoutCells();
+  if (mesh.bodies().count > 1)
+  {
+    requirePrescribedBodies(mesh, this->partition());
+    this->serial_ = std::make_unique<BodyByBody>(std::move(this->serial_), this->gatherBodies());
+  }
   Silent silent(monitor);
   ranks.together([&] { this->serial_->prepare(points, partition, silent); });
 }

@@ -11,14 +11,14 @@
 namespace morph::distributed
 {
 /// A method that interpolates between the prescribed nodes and reads no cells. Each rank gathers
-/// all prescribed nodes, and evaluates its own free nodes by the serial method. So memory and
+/// all prescribed nodes, and evaluates its own free nodes by the serial method, each body alone. So memory and
 /// messages of each rank grow with the whole boundary: 32 bytes a prescribed node to prepare, 24 a
 /// motion.
 class SiteMethod : public Method
 {
 public:
-  /// `serial`: with the options that prepare() reads, not prepared.
-  explicit SiteMethod(std::unique_ptr<Morpher> serial);
+  /// `method`: one that has copyWithoutCells().
+  explicit SiteMethod(std::unique_ptr<Morpher> method);
 
   void takeEvaluateOptions(const Morpher&) override {}
 
@@ -34,8 +34,11 @@ protected:
 private:
   /// Gathers a row of each prescribed node that its owner has, in the order of the global ids.
   Points gather(const Points& rows) const;
+  /// The body of each gathered node, and then of this rank's free nodes.
+  std::vector<Index> gatherBodies() const;
 
-  std::unique_ptr<Morpher> serial_;
+  std::unique_ptr<Morpher> method_; ///< not prepared
+  std::unique_ptr<Morpher> serial_; ///< prepared
   std::vector<Index> owned_;   ///< numbers in partition().prescribed of the nodes this rank owns
   std::vector<Index> place_;   ///< of each gathered node in the order of ids
   std::size_t firstPlace_ = 0; ///< of this rank's nodes in place_

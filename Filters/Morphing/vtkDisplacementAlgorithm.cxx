@@ -193,6 +193,11 @@ vtkIdType vtkDisplacementAlgorithm::GetLayerPoints() const
   return this->Internals->Count[morph::Surroundings::IsLayer];
 }
 
+const char* vtkDisplacementAlgorithm::GetContactReport() const
+{
+  return this->Internals->ContactReport.c_str();
+}
+
 const char* vtkDisplacementAlgorithm::GetSlideReport() const
 {
   return this->Internals->SlideReport.c_str();

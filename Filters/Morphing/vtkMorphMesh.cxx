@@ -483,14 +483,15 @@ std::string vtkMorphMesh::vtkMorphing::Morph(const filters::Input::Mesh& mesh, c
   mesh.IsDistributed ? filters::Ranks::Together(take) : take();
   std::string partial = this->Morpher.Morph(
     grid, this->Boundary, mesh.IsDistributed, this->Motion, method, outputs, monitor);
-  for (const char* name : { "SlideChange", "SlideForce" })
+  for (const char* name : { "SlideChange", "SlideForce", "ContactGaps" })
   {
-    if (vtkDataArray* ofRounds = this->Boundary->GetFieldData()->GetArray(name))
+    if (vtkDataArray* array = this->Boundary->GetFieldData()->GetArray(name))
     {
-      outputs.Mesh->GetFieldData()->AddArray(ofRounds);
+      outputs.Mesh->GetFieldData()->AddArray(array);
     }
   }
   this->Results.SetText("SlideReport", this->Mover().SlideReport);
+  this->Results.SetText("ContactReport", this->Mover().ContactReport);
   this->WriteDistances(grid, outputs.Mesh);
   return partial;
 }

@@ -60,7 +60,7 @@ struct Case
   /// The sets of KnownMotion::around(), node by node.
   std::vector<std::vector<Index>> setsAround(const GeometryCurve& curve) const
   {
-    std::vector<std::vector<Index>> sets(4);
+    std::vector<std::vector<Index>> sets(3);
     const Index body = this->motion.bodyOfNode[curve.nodes[0]];
     for (Index node : this->motion.known())
     {
@@ -68,9 +68,8 @@ struct Case
       { return std::find(nodes.begin(), nodes.end(), node) != nodes.end(); };
       const bool isBeside = std::any_of(curve.surfaces.begin(), curve.surfaces.end(),
         [&](Index s) { return has(this->geometry.surfaces[s].nodes); });
-      const bool isIn[] = { has(curve.nodes), isBeside, this->motion.bodyOfNode[node] == body,
-        true };
-      for (int k = 0; k < 4; ++k)
+      const bool isIn[] = { has(curve.nodes), isBeside, this->motion.bodyOfNode[node] == body };
+      for (int k = 0; k < 3; ++k)
       {
         if (isIn[k])
         {

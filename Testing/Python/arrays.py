@@ -54,6 +54,12 @@ def wedges(cells):
     return numpy.concatenate(halves)
 
 
+def faces_of(cell):
+    """The faces of a hexahedron."""
+    return [[cell[i] for i in face] for face in (
+        (0, 3, 2, 1), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7))]
+
+
 def hexahedra():
     points, cells = cube()
     return mm.Mesh(points, [("hexahedron", cells)])
@@ -85,6 +91,36 @@ class Meshes(unittest.TestCase):
                 self.assertTrue((mesh.types == types).all())
                 moved = mm.morph(mesh, nodes, bend(points[nodes]))
                 self.assertTrue((moved == expected).all())
+
+    def test_polyhedra_of_blocks_and_of_one_row_are_the_same_mesh(self):
+        points, cells = cube(3)
+        faces = [faces_of(cell) for cell in cells.tolist()]
+        streams = [[6, *(number for face in cell for number in (4, *face))] for cell in faces]
+        flat = [number for stream in streams for number in (len(stream), *stream)]
+        blocks = mm.Mesh(points, [("polyhedron8", faces)])
+        row = mm.Mesh(points, flat, numpy.full(len(cells), 42))
+        nodes = blocks.boundary.nodes
+        bent = mm.morph(blocks, nodes, bend(points[nodes]))
+        self.assertTrue((bent == mm.morph(row, nodes, bend(points[nodes]))).all())
+        affine = mm.morph(blocks, nodes, targets=points[nodes] @ AFFINE)
+        self.assertLess(abs(affine - points @ AFFINE).max(), 1e-10)
+        self.assertEqual(mm.quality(blocks, bent).inverted, 0)
+
+    def test_small_cells_beside_large_ones_are_one_mesh(self):
+        coarse, cells = cube(2)
+        fine, small = cube(4)
+        places, ids = numpy.unique(numpy.vstack([coarse, fine + [1, 0, 0]]).round(12), axis=0,
+                                   return_inverse=True)
+        mesh = mm.Mesh(places, [("hexahedron", ids[cells]),
+                                ("hexahedron", ids[small + len(coarse)])])
+        self.assertEqual(len(mesh.surfaces()), 6)
+        nodes = mesh.boundary.nodes
+        moved = mm.morph(mesh, nodes, targets=places[nodes] @ AFFINE)
+        self.assertLess(abs(moved - places @ AFFINE).max(), 1e-10)
+        moved = mm.morph(mesh, nodes, bend(places[nodes]))
+        half = moved[(places[:, 0] == 1) & (places[:, 1] == 0.25) & (places[:, 2] == 0.5)]
+        ends = moved[(places[:, 0] == 1) & (places[:, 1] % 0.5 == 0) & (places[:, 2] == 0.5)]
+        self.assertLess(abs(half - ends[:2].mean(axis=0)).max(), 1e-12)  # no gap
 
     def test_points_of_a_mesh_are_a_view(self):
         mesh = hexahedra()
@@ -139,14 +175,17 @@ class Meshes(unittest.TestCase):
                 "outside 0 to 26: cell ids 1, 3": (points, [("hexahedron", strayed)]),
                 "cube with 8 nodes": (points, [("cube", cells)]),
                 "tetra with 8 nodes": (points, [("tetra", cells)]),
-                "no volume cells": (points, [("quad", cells[:, :4])]),
+                "is a volume cell": (points, [("quad", cells[:, :4])]),
                 "need celltypes": (points, flat),
                 "pair of type and array": (points, [cells]),
                 "at nodes 0, 1": (points + 1e60, block),
                 "cell 8 of 9": (points, flat, numpy.full(9, HEXAHEDRON)),
                 "7 cells have 63": (points, flat, types[:7]),
                 "whole numbers": (points, flat.astype(float), types),
-                "Polyhedra are not taken: cells 0, 1": (points, flat, numpy.full(8, 42))}.items():
+                "polyhedron 0 is no stream": (points, flat, numpy.full(8, 42)),
+                "faces of polyhedra are missing: cells 0, 1": (
+                    points, (8 * numpy.arange(9), cells.ravel(), numpy.full(8, 42))),
+                "closed": (points, [("polyhedron8", [faces_of(cells[0])[:5]])])}.items():
             with self.subTest(text), self.assertRaisesRegex(ValueError, text):
                 mm.Mesh(*arguments)
 
@@ -273,7 +312,7 @@ class Methods(unittest.TestCase):
                 "no nodes 9999: ids go from 0 to 342": lambda: mm.FEMWARP().prepare(mesh, [9999]),
                 "more than once: 3": lambda: mm.FEMWARP().prepare(mesh, [3, 3]),
                 "whole numbers": lambda: mm.FEMWARP().prepare(mesh, [0.5]),
-                "not linear": lambda: mm.Smoothing().prepare(mesh, nodes).adjoint(
+                "not a linear method": lambda: mm.Smoothing().prepare(mesh, nodes).adjoint(
                     mesh.points)}.items():
             with self.subTest(text), self.assertRaisesRegex(ValueError, text):
                 call()

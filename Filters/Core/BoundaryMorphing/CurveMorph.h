@@ -16,15 +16,14 @@ namespace morph
 ///
 /// On a straight curve by arc length u cancels, and U is linear in t. On a curved one u maps its
 /// shape, so affine motions are exact. u fits the first set whose affine span contains the curve.
-/// The sets are the known nodes of the curve, of its adjacent surfaces, of its body, of all bodies.
-/// If none does, u has minimum norm.
+/// The sets are the known nodes of the curve, of its adjacent surfaces, of its body. If none does,
+/// u has minimum norm; a body without known nodes stays.
 ///
 /// A closed curve without a known node follows the nodes of the same sets by `unattached`. Without
 /// motion the result is exactly zero. It does not depend on the order of curves.
 ///
 /// Returns the number of known nodes that the fits summed. Cost: linear in the boundary for any
-/// number of curves. The sums of a surface, of a body and of all are computed once; see
-/// KnownMotion.
+/// number of curves. The sums of a surface and of a body are computed once; see KnownMotion.
 Index morphCurves(const Classification& geometry, UnattachedMotion unattached,
   BoundaryMotion& motion, Monitor& monitor);
 }

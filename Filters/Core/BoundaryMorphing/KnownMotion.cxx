@@ -67,7 +67,6 @@ void KnownMotion::sumBodies()
   for (const std::vector<Index>& nodes : ofBody)
   {
     this->body_.push_back(this->sumOf(nodes));
-    this->all_.add(this->body_.back());
   }
 }
 
@@ -163,10 +162,6 @@ void KnownMotion::addBody(Index body, const Points& places, MotionAround& around
   if (place < this->body_.size())
   {
     this->add(this->body_[place], places, around);
-  }
-  if (around.left() > 0)
-  {
-    this->add(this->all_, places, around);
   }
 }
 }

@@ -151,7 +151,7 @@ Points BoundaryModel::outwardAreas(const Points& at) const
 void BoundaryModel::findFaces(const std::vector<std::uint8_t>& isNamed, Monitor& monitor)
 {
   const ConnectedComponents bodies = connectedComponents(this->mesh);
-  this->bodyOfNode = bodies.ofNode;
+  this->bodyOfNode = bodyOfNodes(this->mesh, bodies);
   this->faces = boundaryFaces(this->mesh, monitor);
   this->inner = innerFaces(this->mesh, this->faces, isNamed, monitor);
   if (this->inner.size() > 0)

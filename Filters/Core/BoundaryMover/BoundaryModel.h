@@ -40,7 +40,7 @@ struct BoundaryModel
   BoundaryFaces faces;
   InnerFaces inner;                     ///< the last ones of `faces`
   std::vector<std::int8_t> orientation; ///< #faces: -1 where the cell behind is wound inside out
-  std::vector<Index> bodyOfNode;        ///< as ConnectedComponents has it
+  std::vector<Index> bodyOfNode;        ///< see bodyOfNodes()
   Classification geometry;              ///< found at undeformed positions
   std::vector<NamedSet> namedSets;      ///< outer ones first
   std::vector<NamedSet> setsInside;     ///< without any node on the boundary

@@ -18,10 +18,8 @@ const Surroundings::Result& BoundaryMover::move(const BoundaryModel& model, cons
   const bool hasInner = options.hasInner();
   Surroundings::Result last = std::exchange(this->result_, {}); // nothing is left if it throws
   Surroundings::Result result;
-  Choice constrained; // by zones
-  Points constrainedTargets;
-  const Choice& chosen = hasInner ? constrained : choice;
-  const Points& places = hasInner ? constrainedTargets : targets;
+  Choice chosen = choice; // with what zones and contact add
+  Points places = targets;
   this->inner_.clear();
   if (hasInner)
   {
@@ -33,12 +31,19 @@ const Surroundings::Result& BoundaryMover::move(const BoundaryModel& model, cons
     {
       if (hasInner)
       {
-        constrained = choice;
-        constrainedTargets = targets;
-        this->inner_.constrain(model, options.inner, constrained, constrainedTargets);
+        this->inner_.constrain(model, options.inner, chosen, places);
       }
       result =
         this->surroundings_.spread(model, chosen, places, options.rest, spreading, std::move(last));
+      if (options.contact.distance > 0)
+      {
+        this->contact_.find(model, options.contact);
+        while (this->contact_.follow(model, result, chosen, places))
+        {
+          result = this->surroundings_.spread(
+            model, chosen, places, options.rest, spreading, std::move(result));
+        }
+      }
     });
   if (hasInner)
   {
@@ -61,6 +66,10 @@ const Surroundings::Result& BoundaryMover::move(const BoundaryModel& model, cons
         warnOfUnmet(
           model, choice, targets, options.rest.sliding, result, this->surroundings_, monitor);
       });
+  }
+  if (options.contact.distance > 0)
+  {
+    this->contact_.setRoles(result);
   }
   this->result_ = std::move(result);
   return this->result_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "BoundaryMover/Contact.h"
 #include "BoundaryMover/InnerNodes.h"
 #include "BoundaryMover/SlideRounds.h"
 #include "BoundaryMover/Surroundings.h"
@@ -24,6 +25,7 @@ public:
     std::vector<Zone> fixedZones, rigidZones; ///< of the mesh or, with pieces, of the piece
     InnerNodes::Options inner;
     int slideRounds = 0; ///< see SlideRounds
+    Contact::Options contact;
 
     bool hasInner() const
     {
@@ -33,8 +35,8 @@ public:
 
   /// `targets`: of choice.moving, #moving x 3, finite. `pieces`: of a mesh on several processes,
   /// whose boundary alone `model` is; else null. Then this is collective. Warns of what is not met
-  /// where zones and sliding surfaces win over what else is asked. Throws Error as InnerNodes and
-  /// SlideRounds do; then there is no result. Cost: passes over the boundary and, the first time,
+  /// where zones and sliding surfaces win over what else is asked. Throws Error as InnerNodes,
+  /// SlideRounds and Contact do; then there is no result. Cost: passes over the boundary and, the first time,
   /// the weights of surfaces that follow.
   const Surroundings::Result& move(const BoundaryModel& model, const Choice& choice,
     const Points& targets, const Options& options, const InnerPieces* pieces, Monitor& monitor);
@@ -42,6 +44,7 @@ public:
   const Surroundings::Result& result() const { return this->result_; } ///< of the last move()
   const InnerNodes& inner() const { return this->inner_; }
   const SlideRounds& rounds() const { return this->rounds_; }
+  const Contact& contact() const { return this->contact_; } ///< of options.contact
   Surroundings& surroundings() { return this->surroundings_; }
   const Surroundings& surroundings() const { return this->surroundings_; }
 
@@ -49,6 +52,7 @@ private:
   Surroundings surroundings_;
   InnerNodes inner_;
   SlideRounds rounds_;
+  Contact contact_;
   Surroundings::Result result_;
 };
 }

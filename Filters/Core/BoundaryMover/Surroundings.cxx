@@ -473,31 +473,45 @@ void Surroundings::fade(const BoundaryModel& model, const Choice& choice, const 
       key.moving != choice.moving || key.held != choice.held)
   {
     key = Key(); // in case it throws
-    this->others_.clear();
-    for (Index node : model.faces.nodes)
+    std::map<Index, Fading> bodies;
+    for (std::size_t i = 0; i < choice.moving.size(); ++i)
     {
-      if (result.roles[node] == Stays)
+      bodies[model.bodyOfNode[choice.moving[i]]].moving.push_back(static_cast<Index>(i));
+    }
+    for (const Index node : model.faces.nodes)
+    {
+      const auto body = bodies.find(model.bodyOfNode[node]);
+      if (result.roles[node] == Stays && body != bodies.end())
       {
-        this->others_.push_back(node);
+        body->second.others.push_back(node);
       }
     }
-    this->falloff_.prepare(model.points()(choice.moving, allColumns),
-      model.points()(this->others_, allColumns), radius, monitor);
+    this->fading_.clear();
+    const Points moving = model.points()(choice.moving, allColumns);
+    for (auto& [number, body] : bodies)
+    {
+      body.falloff.prepare(
+        moving(body.moving, allColumns), model.points()(body.others, allColumns), radius, monitor);
+      this->fading_.push_back(std::move(body));
+    }
     ++this->falloffCount_;
     key.motionVersion = model.motionVersion;
     key.radius = radius;
     key.moving = choice.moving;
     key.held = choice.held;
   }
-  const Points displacement =
-    this->falloff_.evaluate(targets - model.points()(choice.moving, allColumns), monitor);
-  for (Index i : this->falloff_.reached())
+  const Points motion = targets - model.points()(choice.moving, allColumns);
+  for (const Fading& body : this->fading_)
   {
-    const Index node = this->others_[i];
-    result.roles[node] = Follows;
-    if (!displacement.row(i).isZero(0))
+    const Points displacement = body.falloff.evaluate(motion(body.moving, allColumns), monitor);
+    for (const Index i : body.falloff.reached())
     {
-      result.moved.row(node) += displacement.row(i);
+      const Index node = body.others[i];
+      result.roles[node] = Follows;
+      if (!displacement.row(i).isZero(0))
+      {
+        result.moved.row(node) += displacement.row(i);
+      }
     }
   }
 }

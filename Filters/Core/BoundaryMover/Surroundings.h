@@ -70,7 +70,8 @@ public:
   ///   they leave it. Where a surface folds, its mesh is smoothed along its shape, and a warning
   ///   says so;
   /// - with FollowAll: all follow, and none slides;
-  /// - with Fade: nodes within the radius of a moving node follow it in part; see Falloff.
+  /// - with Fade: nodes within the radius of a moving node of their body follow it in part; see
+  ///   Falloff.
   /// Nodes of sliding surfaces, moving ones too, go to the nearest point at their height above the
   /// surface's shape.
   /// With Stay and Fade mid-side and face nodes keep their place between their corners. So they do
@@ -131,8 +132,14 @@ private:
   LocalBoundary local_;                               ///< of Follow
   Key weightsKey_, falloffKey_;
   SurfaceWeights weights_;
-  Falloff falloff_;
-  std::vector<Index> others_; ///< that the falloff was prepared for
+  /// The falloff of a body, within which the motion stays.
+  struct Fading
+  {
+    std::vector<Index> moving; ///< rows of Choice::moving
+    std::vector<Index> others; ///< nodes
+    Falloff falloff;
+  };
+  std::vector<Fading> fading_; ///< of the bodies that have moving nodes
   int falloffCount_ = 0;
 };
 }

@@ -8,6 +8,7 @@
 #include "Morpher/Morpher.h"
 
 #include <atomic>
+#include <memory>
 
 namespace morph
 {
@@ -66,6 +67,15 @@ public:
   /// before the correction, in the mesh's unit. Calls from several threads at once leave that of
   /// one.
   double largestResidual() const { return this->largestResidual_; }
+
+  std::unique_ptr<Morpher> copyWithoutCells() const override
+  {
+    auto copy = std::make_unique<RadialBasis>();
+    copy->kind_ = this->kind_;
+    copy->supportRadius_ = this->supportRadius_;
+    copy->numberOfCenters_ = this->numberOfCenters_;
+    return copy;
+  }
 
 protected:
   /// Throws Error of kind Singular for sites in one plane, or where rounding makes the system

@@ -6,6 +6,7 @@
 #include "Interpolation/WeightMatrix.h"
 #include "Morpher/Morpher.h"
 
+#include <memory>
 #include <vector>
 
 namespace morph
@@ -39,6 +40,11 @@ public:
   const Adjacency& means() const { return this->means_; }
   /// #free x #sites and means, four entries a row.
   const WeightMatrix& weights() const { return this->weights_; }
+
+  std::unique_ptr<Morpher> copyWithoutCells() const override
+  {
+    return std::make_unique<SimplexLinear>(*this);
+  }
 
 protected:
   void doPrepare(const Mesh& rest, Monitor& monitor) override;

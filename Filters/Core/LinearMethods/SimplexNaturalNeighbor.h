@@ -9,6 +9,7 @@
 #include "Morpher/Morpher.h"
 
 #include <functional>
+#include <memory>
 #include <vector>
 
 namespace morph
@@ -44,6 +45,11 @@ public:
   void forEachNode(
     const std::function<void(Index, const std::vector<std::int32_t>&, const std::vector<double>&)>&
       use) const;
+
+  std::unique_ptr<Morpher> copyWithoutCells() const override
+  {
+    return std::make_unique<SimplexNaturalNeighbor>(*this);
+  }
 
 protected:
   void doPrepare(const Mesh& rest, Monitor& monitor) override;

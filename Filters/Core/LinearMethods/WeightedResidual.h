@@ -6,6 +6,8 @@
 #include "Interpolation/WeightMatrix.h"
 #include "Morpher/Morpher.h"
 
+#include <memory>
+
 namespace morph
 {
 /// Weighted residuals: an affine fit of the whole boundary's motion plus weighted residuals of
@@ -42,6 +44,11 @@ public:
   const InterpolationSites& sites() const { return this->sites_; }
   /// #free x #sites, rows in the order of NodePartition::free.
   const WeightMatrix& weights() const { return this->weights_; }
+
+  std::unique_ptr<Morpher> copyWithoutCells() const override
+  {
+    return std::make_unique<WeightedResidual>(*this);
+  }
 
 protected:
   void doPrepare(const Mesh& rest, Monitor& monitor) override;

@@ -394,26 +394,11 @@ NodePartition HangingNodes::extend(NodePartition partition) const
   return partition;
 }
 
-std::vector<Index> HangingNodes::othersOf(const std::vector<Index>& ids) const
-{
-  std::vector<Index> places;
-  for (std::size_t i = 0; i < ids.size(); ++i)
-  {
-    if (!this->hangs(ids[i]))
-    {
-      places.push_back(static_cast<Index>(i));
-    }
-  }
-  return places;
-}
-
-std::vector<Index> HangingNodes::at(const std::vector<Index>& places, const std::vector<Index>& ids)
+std::vector<Index> HangingNodes::without(const std::vector<Index>& ids) const
 {
   std::vector<Index> result;
-  for (const Index place : places)
-  {
-    result.push_back(ids[place]);
-  }
+  std::copy_if(
+    ids.begin(), ids.end(), std::back_inserter(result), [&](Index id) { return !this->hangs(id); });
   return result;
 }
 

@@ -42,10 +42,8 @@ public:
   /// Gives large faces the nodes that hang on their edges as corners, as the small ones beside them
   /// have these, so that neighbors share edges.
   void divideEdges(BoundaryFaces& faces) const;
-  /// Returns the places in `ids` of nodes that do not hang.
-  std::vector<Index> othersOf(const std::vector<Index>& ids) const;
-  /// Returns the ids at these places.
-  static std::vector<Index> at(const std::vector<Index>& places, const std::vector<Index>& ids);
+  /// Returns the ids of nodes that do not hang.
+  std::vector<Index> without(const std::vector<Index>& ids) const;
 
   /// Fills the rows of `displacement`, #nodes x 3, of nodes that hang from those of the others.
   void apply(Points& displacement) const;

@@ -352,6 +352,19 @@ BoundaryFaces facesAt(const Mesh& mesh, const std::vector<std::pair<Index, int>>
   return describeFaces(mesh, faces);
 }
 
+std::vector<Index> bodyOfNodes(const Mesh& mesh, const ConnectedComponents& bodies)
+{
+  std::vector<Index> result = bodies.ofNode;
+  for (Index c = 0; c < mesh.numberOfCells(); ++c)
+  {
+    for (Index k = 0; bodies.ofCell[c] >= 0 && k < mesh.cellSize(c); ++k)
+    {
+      result[mesh.cell(c)[k]] = bodies.ofCell[c];
+    }
+  }
+  return result;
+}
+
 ConnectedComponents connectedComponents(const Mesh& mesh)
 {
   Monitor serial;

@@ -48,6 +48,8 @@ struct ConnectedComponents
 ConnectedComponents connectedComponents(const Mesh& mesh, Monitor& monitor);
 ConnectedComponents connectedComponents(const Mesh& mesh);
 ///@}
+/// ConnectedComponents::ofNode with the nodes between corners, which have the body of their cell.
+std::vector<Index> bodyOfNodes(const Mesh& mesh, const ConnectedComponents& bodies);
 
 /// Returns +1 or -1 for each cell: the orientation of its node list, one sign per body and shape.
 /// The sign is that of the summed signed volume. A single tet, hex or pyramid in a body has VTK's

@@ -67,6 +67,11 @@ public:
   /// follow the motion ignore it.
   virtual void setReference(Points reference);
 
+  /// A copy with the same options of a linear method that reads no cells, null of all others. Such
+  /// a method interpolates between all prescribed nodes, so that motions would cross the gaps
+  /// between bodies; see BodyByBody.h.
+  virtual std::unique_ptr<Morpher> copyWithoutCells() const { return nullptr; }
+
   /// Whether prepare() of `other` reads the same options, so that a preparation serves both. That
   /// of another class never does.
   bool preparesLike(const Morpher& other) const;
@@ -88,6 +93,19 @@ protected:
   /// Warns of what is wrong with a motion as a whole, `prescribed` as above. evaluate() calls it.
   /// Modes are none: only their sums are.
   virtual void warnOf(const Points& prescribed, Monitor& monitor) const;
+
+  /// displace() and warnOf() of another method, prepared, for one that works by others.
+  ///@{
+  static EvaluateReport displaceBy(
+    const Morpher& method, const Points& prescribed, Points& free, Monitor& monitor)
+  {
+    return method.displace(prescribed, free, monitor);
+  }
+  static void warnBy(const Morpher& method, const Points& prescribed, Monitor& monitor)
+  {
+    method.warnOf(prescribed, monitor);
+  }
+  ///@}
 
   HigherOrderNodes higherOrderNodes_;
 
@@ -144,6 +162,11 @@ protected:
   /// Adds M^T free to `prescribed` (#prescribed x 3); `free`: #free x 3.
   virtual EvaluateReport displaceTranspose(
     const Points& free, Points& prescribed, Monitor& monitor) const = 0;
+  static EvaluateReport transposeBy(
+    const LinearMorpher& method, const Points& free, Points& prescribed, Monitor& monitor)
+  {
+    return method.displaceTranspose(free, prescribed, monitor);
+  }
 
 private:
   Points mode(const Points& displacement, EvaluateReport& report, Monitor& monitor) const;

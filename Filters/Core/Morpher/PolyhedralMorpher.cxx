@@ -194,12 +194,16 @@ std::unique_ptr<Morpher> morpherForPolyhedra(
     std::move(method), cutsAll, std::move(hanging));
 }
 
+bool needsPieces(const Mesh& mesh, const HangingNodes& hanging)
+{
+  return hasPolyhedra(mesh) || !hanging.empty();
+}
+
 std::unique_ptr<Morpher> morpherForCells(
   const Mesh& mesh, const HangingNodes& hanging, std::unique_ptr<Morpher> method)
 {
-  return hasPolyhedra(mesh) || !hanging.empty()
-           ? morpherForPolyhedra(std::move(method), false, hanging)
-           : std::move(method);
+  return needsPieces(mesh, hanging) ? morpherForPolyhedra(std::move(method), false, hanging)
+                                    : std::move(method);
 }
 
 Morpher& methodOf(Morpher& morpher)

@@ -18,7 +18,10 @@ namespace morph
 std::unique_ptr<Morpher> morpherForPolyhedra(
   std::unique_ptr<Morpher> method, bool cutsAll = false, HangingNodes hanging = {});
 
-/// Returns this for a mesh with polyhedra or divided faces, and `method` itself for others.
+/// Whether a method works on pieces of some cells: of polyhedra, and of cells at divided faces.
+bool needsPieces(const Mesh& mesh, const HangingNodes& hanging);
+
+/// Returns morpherForPolyhedra() for a mesh that needs pieces, and `method` itself for others.
 std::unique_ptr<Morpher> morpherForCells(
   const Mesh& mesh, const HangingNodes& hanging, std::unique_ptr<Morpher> method);
 

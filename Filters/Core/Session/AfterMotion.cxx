@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Session/AfterMotion.h"
 
-#include "Mesh/Polyhedra.h"
 #include "Mesh/PolyhedronPieces.h"
 #include "Mesh/Topology.h"
+#include "Morpher/PolyhedralMorpher.h"
 #include "Quality/BoundaryDetermined.h"
 #include "Quality/ScaledJacobian.h"
 #include "Support/ProgressRange.h"
@@ -114,7 +114,7 @@ Index smoothAfterwards(const Mesh& rest, const HangingNodes& hanging,
 {
   const SmoothingOptions options = postSmoothing(iterationLimit);
   SmoothingReport report;
-  if (hasPolyhedra(rest) || !hanging.empty())
+  if (needsPieces(rest, hanging))
   {
     const PolyhedronPieces pieces(hanging.conforming(rest), monitor);
     const Mesh& mesh = pieces.mesh();

@@ -2,7 +2,6 @@
 #include "Session/Session.h"
 
 #include "Mesh/Extent.h"
-#include "Mesh/Polyhedra.h"
 #include "Morpher/PolyhedralMorpher.h"
 #include "Quality/BoundaryDetermined.h"
 #include "Quality/ScaledJacobian.h"
@@ -22,15 +21,10 @@ namespace morph
 {
 namespace
 {
-bool hasPieces(const UndeformedMesh& mesh)
-{
-  return hasPolyhedra(mesh.mesh()) || !mesh.hanging().empty();
-}
-
 /// A method with these options, not prepared, for the cells of `mesh` at its points or others.
 std::unique_ptr<Morpher> makeMethod(const Session::Options& options, const UndeformedMesh& mesh)
 {
-  return morpherForCells(mesh.mesh(), mesh.hanging(), options.settings(hasPieces(mesh)));
+  return mesh.fitted(options.settings(needsPieces(mesh.mesh(), mesh.hanging())));
 }
 
 void requireAscending(const std::vector<Index>& ids)
@@ -64,6 +58,37 @@ void requireTargets(const BoundaryTargets& boundary)
     }
     throw Error("The targets are not finite or beyond 1e50, at node ids " + listIds(wrong) + ".");
   }
+}
+
+/// The same motion of the nodes `ids`; see UndeformedMesh::prescribedFor(). Those that it does not
+/// name stay, and a warning says so.
+BoundaryTargets forMethod(
+  const BoundaryTargets& boundary, std::vector<Index> ids, const Mesh& from, Monitor& monitor)
+{
+  BoundaryTargets result;
+  result.unmatched = boundary.unmatched;
+  result.targets = from.points(ids, allColumns);
+  std::vector<Index> staying;
+  auto row = boundary.ids.begin();
+  for (std::size_t i = 0; i < ids.size(); ++i)
+  {
+    row = std::lower_bound(row, boundary.ids.end(), ids[i]);
+    if (row != boundary.ids.end() && *row == ids[i])
+    {
+      result.targets.row(static_cast<Index>(i)) = boundary.targets.row(row - boundary.ids.begin());
+    }
+    else
+    {
+      staying.push_back(ids[i]);
+    }
+  }
+  if (!staying.empty())
+  {
+    monitor.warn("Bodies of which no node is prescribed stay, " + std::to_string(staying.size()) +
+                 " nodes: node ids " + listIds(staying) + ".");
+  }
+  result.ids = std::move(ids);
+  return result;
 }
 }
 
@@ -175,14 +200,10 @@ StepResult Session::morphStep(const Mesh& from, const BoundaryTargets& boundary,
   const Mesh& rest = this->mesh_->mesh();
   const HangingNodes& hanging = this->mesh_->hanging();
   requireTargets(boundary);
-  const std::vector<Index> others = hanging.othersOf(boundary.ids);
-  if (others.size() < boundary.ids.size()) // these nodes move by their ties
+  if (std::vector<Index> ids = this->mesh_->prescribedFor(boundary.ids); ids != boundary.ids)
   {
-    BoundaryTargets own;
-    own.ids = HangingNodes::at(others, boundary.ids);
-    own.targets = boundary.targets(others, allColumns);
-    own.unmatched = boundary.unmatched;
-    return this->morphStep(from, own, nullptr, options, monitor);
+    return this->morphStep(
+      from, forMethod(boundary, std::move(ids), from, monitor), nullptr, options, monitor);
   }
   const std::vector<std::int8_t>& orientation = this->mesh_->orientation();
   const auto part = [&](double first, double last) { return ProgressRange(monitor, first, last); };
@@ -197,13 +218,13 @@ StepResult Session::morphStep(const Mesh& from, const BoundaryTargets& boundary,
   validity.requireFeasible();
 
   auto preparing = part(0.05, 0.45);
-  this->prepare(from, options, preparing);
+  this->prepareFor(from, options, preparing);
 
   auto evaluating = part(0.45, 0.75);
   const Stopwatch watch;
   StepResult result;
   const EvaluateReport report = this->evaluate(boundary.targets, handle, result.moved, evaluating);
-  if (validity.isInversionFree && hasPieces(*this->mesh_))
+  if (validity.isInversionFree && needsPieces(from, hanging))
   {
     auto repairing = part(0.7, 0.75);
     const auto bad = [&](const Points& points)
@@ -296,13 +317,20 @@ const NodePartition& Session::partitionOf(const std::vector<Index>& prescribed)
   return *this->partition_;
 }
 
-void Session::prepare(const Mesh& from, const Options& options, Monitor& monitor)
+void Session::prepare(const std::vector<Index>& ids, const Options& options, Monitor& monitor)
+{
+  requireAscending(ids);
+  this->partitionOf(this->mesh_->prescribedFor(ids));
+  this->prepareFor(this->mesh_->mesh(), options, monitor);
+}
+
+void Session::prepareFor(const Mesh& from, const Options& options, Monitor& monitor)
 {
   const Mesh& rest = this->mesh_->mesh();
   this->effort.prepareSeconds = 0;
   // setMesh() drops the method with the mesh that it is prepared for.
   const bool isOfMesh = &from == &rest;
-  std::unique_ptr<Morpher> settings = options.settings(hasPieces(*this->mesh_));
+  std::unique_ptr<Morpher> settings = options.settings(needsPieces(rest, this->mesh_->hanging()));
   if (this->method_ && this->settings_->preparesLike(*settings) &&
       this->method_->partition().prescribed == this->partition_->prescribed &&
       ((isOfMesh && this->methodIsOfMesh_) || this->method_->restPoints() == from.points))
@@ -336,12 +364,9 @@ void Session::prepare(const Mesh& from, const Options& options, Monitor& monitor
 Points Session::transpose(
   const std::vector<Index>& ids, Points gradient, const Options& options, Monitor& monitor)
 {
-  requireAscending(ids);
   requireRows("The gradient", gradient.rows(), this->mesh_->mesh().numberOfNodes());
   ProgressRange preparing(monitor, 0.05, 0.5), applying(monitor, 0.5, 1);
-  const std::vector<Index> others = this->mesh_->hanging().othersOf(ids);
-  this->partitionOf(HangingNodes::at(others, ids));
-  this->prepare(this->mesh_->mesh(), options, preparing);
+  this->prepare(ids, options, preparing);
   const auto* linear = dynamic_cast<const LinearMorpher*>(this->method_.get());
   if (!linear)
   {
@@ -352,7 +377,15 @@ Points Session::transpose(
   Points own, prescribed = Points::Zero(static_cast<Index>(ids.size()), 3);
   this->attached_.applyTranspose(gradient);
   linear->applyTranspose(gradient, own, applying);
-  prescribed(others, allColumns) = own;
+  const std::vector<Index>& known = this->partition_->prescribed;
+  for (std::size_t i = 0; i < ids.size(); ++i)
+  {
+    const auto row = std::lower_bound(known.begin(), known.end(), ids[i]);
+    if (row != known.end() && *row == ids[i]) // others hang, and move by their ties
+    {
+      prescribed.row(static_cast<Index>(i)) = own.row(row - known.begin());
+    }
+  }
   return prescribed;
 }
 }

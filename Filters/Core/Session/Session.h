@@ -88,6 +88,9 @@ public:
   /// or are there twice, and nodes where bodies touch.
   void reportMesh(const Options& options, Monitor& monitor) const;
 
+  /// Does the part of morph() that depends on the prescribed nodes alone, ascending. Throws Error
+  /// as morph().
+  void prepare(const std::vector<Index>& ids, const Options& options, Monitor& monitor);
   /// Moves the mesh. `handle`: of the boundary, or null. Nodes that the boundary does not prescribe
   /// are free, those of the outer faces, too. Throws Error for ids that do not exist, occur twice
   /// or do not ascend, and for another number of targets. Also where targets or results are not
@@ -124,7 +127,7 @@ private:
   const NodePartition& partitionOf(const std::vector<Index>& prescribed);
   /// Prepares the method for the mesh, with its own points or others, and for partition_, unless it
   /// is prepared. Sets its other options.
-  void prepare(const Mesh& from, const Options& options, Monitor& monitor);
+  void prepareFor(const Mesh& from, const Options& options, Monitor& monitor);
 
   std::shared_ptr<const UndeformedMesh> mesh_ = std::make_shared<UndeformedMesh>();
   /// of mesh_, or empty

@@ -3,8 +3,11 @@
 
 #include "Mesh/Extent.h"
 #include "Mesh/SharedCorners.h"
+#include "Morpher/BodyByBody.h"
+#include "Morpher/PolyhedralMorpher.h"
 #include "Support/Error.h"
 
+#include <algorithm>
 #include <string>
 #include <utility>
 
@@ -34,6 +37,46 @@ UndeformedMesh::UndeformedMesh(Mesh mesh, const UndeformedMesh* sameCells, Monit
     this->touching_ = morph::touchingNodes(this->hanging_.conforming(this->mesh_), this->outer_);
   }
   this->size_ = meshSize(this->mesh_);
+  if (bodies.count > 1)
+  {
+    this->bodyOfNode_ = bodyOfNodes(this->mesh_, bodies);
+  }
+}
+
+std::vector<Index> UndeformedMesh::prescribedFor(const std::vector<Index>& ids) const
+{
+  std::vector<Index> result = this->hanging_.without(ids);
+  if (this->bodyOfNode_.empty())
+  {
+    return result;
+  }
+  std::vector<std::uint8_t> isAsked(this->bodyOfNode_.size(), 0); // there are fewer bodies
+  for (const Index id : ids)
+  {
+    if (this->bodyOfNode_[id] >= 0)
+    {
+      isAsked[this->bodyOfNode_[id]] = 1;
+    }
+  }
+  const auto known = static_cast<std::ptrdiff_t>(result.size());
+  for (std::size_t n = 0; n < this->bodyOfNode_.size(); ++n)
+  {
+    if (this->bodyOfNode_[n] >= 0 && isAsked[this->bodyOfNode_[n]] == 0)
+    {
+      result.push_back(static_cast<Index>(n));
+    }
+  }
+  std::inplace_merge(result.begin(), result.begin() + known, result.end());
+  return result;
+}
+
+std::unique_ptr<Morpher> UndeformedMesh::fitted(std::unique_ptr<Morpher> method) const
+{
+  if (!this->bodyOfNode_.empty() && method->copyWithoutCells())
+  {
+    method = std::make_unique<BodyByBody>(std::move(method));
+  }
+  return morpherForCells(this->mesh_, this->hanging_, std::move(method));
 }
 
 const InvertedBefore& UndeformedMesh::before(Monitor& monitor) const

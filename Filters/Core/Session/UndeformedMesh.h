@@ -4,6 +4,7 @@
 #include "Mesh/HangingNodes.h"
 #include "Mesh/Mesh.h"
 #include "Mesh/Topology.h"
+#include "Morpher/Morpher.h"
 #include "Quality/InvertedBefore.h"
 #include "Support/Monitor.h"
 
@@ -39,6 +40,13 @@ public:
   const std::vector<Index>& repeatedCells() const { return this->repeated_; }
   const std::vector<Index>& touchingNodes() const { return this->touching_; }
   ///@}
+  /// The nodes that a method gets as prescribed where the boundary prescribes `ids`, ascending. Not
+  /// those that hang, as their ties move them; and all nodes of bodies that have none, which stay.
+  std::vector<Index> prescribedFor(const std::vector<Index>& ids) const;
+  /// Makes `method` fit for the mesh: on the pieces of polyhedra and of cells at divided faces, and
+  /// one that reads no cells for each body alone. `method`: not prepared.
+  std::unique_ptr<Morpher> fitted(std::unique_ptr<Morpher> method) const;
+
   /// Cost of the first call: a measure of the mesh.
   const InvertedBefore& before(Monitor& monitor) const;
 
@@ -46,6 +54,7 @@ private:
   Mesh mesh_;
   BoundaryFaces outer_;
   HangingNodes hanging_;
+  std::vector<Index> bodyOfNode_; ///< see bodyOfNodes(); empty for a single body
   double size_ = 0;
   std::vector<std::int8_t> orientation_;
   Index mirrored_ = 0;

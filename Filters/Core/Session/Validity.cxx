@@ -161,7 +161,7 @@ Validity::Outcome Validity::ofSubSteps(
 bool Validity::repair(Points& moved, Monitor& monitor) const
 {
   const auto bad = [&](const Points& points) { return this->inverted(points, monitor); };
-  if (hasPolyhedra(this->mesh) || !this->hanging.empty())
+  if (needsPieces(this->mesh, this->hanging))
   {
     return repairPolyhedra(
       this->mesh, this->hanging, this->reference, this->partition, bad, moved, monitor);
@@ -285,8 +285,7 @@ Validity::Outcome Validity::ensure(Points& moved, Monitor& monitor) const
         "The morph is refused: " + this->found(quality, moved) +
         (this->isInversionFree ? "Set `Validity` to Sub Step, or move the boundary less."
                                : "Set `Validity` to Repair or Sub Step, move the boundary less, or "
-                                 "use Morph Inversion "
-                                 "Free.");
+                                 "use Morph Inversion Free.");
       throw Error(text);
     }
     case Mode::Report:

@@ -102,6 +102,9 @@ public:
   /// best mesh found, and Outcome::error has the reason. Throws Error where `mode` refuses. Cost: a
   /// measure of the mesh; of invalid ones a repair, or morphIncrementally(), or both.
   Outcome ensure(Points& moved, Monitor& monitor) const;
+  /// Repairs the mesh, if that leaves fewer cells that count, by the inversion-free method: cells
+  /// near the bad ones first. Returns whether none are left.
+  bool repair(Points& moved, Monitor& monitor) const;
 
 private:
   /// The inverted cells that count.
@@ -110,8 +113,6 @@ private:
   /// Describes the worst of these cells, a line for each.
   std::string describe(
     const std::vector<Index>& inverted, const Quality& quality, const Points& points) const;
-  /// Repairs the mesh, if that leaves fewer cells that count. Returns whether none are left.
-  bool repair(Points& moved, Monitor& monitor) const;
   Outcome subStep(
     const std::function<std::unique_ptr<Morpher>()>& make, Points& moved, Monitor& monitor) const;
   /// The outcome of a mesh that stays invalid though `mode` asks for a valid one. `reason`: why.

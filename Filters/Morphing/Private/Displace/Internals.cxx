@@ -54,6 +54,21 @@ void writeRounds(
   data->AddArray(force);
 }
 
+/// The gaps of contact, before and after.
+void writeGaps(
+  const morph::BoundaryModel& model, const morph::BoundaryMover& mover, vtkFieldData* data)
+{
+  vtkNew<vtkDoubleArray> gaps;
+  gaps->SetName("ContactGaps");
+  gaps->SetNumberOfComponents(2);
+  for (const morph::Points* points : { &model.points(), &mover.result().moved })
+  {
+    const morph::Contact::Gaps found = mover.contact().gaps(model, *points);
+    gaps->InsertNextTuple2(found.least, found.most);
+  }
+  data->AddArray(gaps);
+}
+
 /// The direction of a projection along one; zero: the normals.
 Eigen::RowVector3d directionOf(int projectAlong, const std::array<double, 3>& vector)
 {
@@ -79,7 +94,7 @@ Eigen::RowVector3d directionOf(int projectAlong, const std::array<double, 3>& ve
 void vtkDisplacementAlgorithm::vtkInternals::ResetResults()
 {
   this->Count.fill(0);
-  this->SlideReport = "None";
+  this->SlideReport = this->ContactReport = "None";
 }
 
 void vtkDisplacementAlgorithm::vtkInternals::ClearList()
@@ -416,6 +431,9 @@ bool vtkDisplacementAlgorithm::vtkInternals::Prepare(const Options& options, vtk
   rest.follow.method = static_cast<morph::SurfaceMorphOptions::Method>(options.SurfaceMethod);
   rest.follow.unattached = static_cast<morph::UnattachedMotion>(options.UnattachedMotion);
   rest.free = morph::surfacesNamed(this->Model, options.FreeSurfaces, "FreeSurfaces");
+  moves.Contact.distance = options.ContactDistance;
+  moves.Contact.surfaces =
+    morph::surfacesNamed(this->Model, options.ContactSurfaces, "ContactSurfaces");
   for (const morph::Index sheet : this->Model.sheets())
   {
     if (std::count(rest.sliding.begin(), rest.sliding.end(), sheet) == 0)
@@ -455,6 +473,7 @@ void vtkDisplacementAlgorithm::vtkInternals::Displace(const Options& options, vt
   {
     this->FindInner(options, grid, zones, mover);
     mover.slideRounds = options.SlideRounds;
+    mover.contact = moves.Contact;
   }
   std::unique_ptr<filters::WholeVolume> pieces;
   if (whole)
@@ -505,7 +524,12 @@ void vtkDisplacementAlgorithm::vtkInternals::Write(const Options& options, vtkPo
     writeRounds(this->Mover.rounds().rounds(), this->Model.size, output->GetFieldData());
     this->SlideReport = this->Mover.rounds().report(this->Model.size);
   }
-  if (mover.hasInner() || mover.slideRounds > 0)
+  if (mover.contact.distance > 0)
+  {
+    writeGaps(this->Model, this->Mover, output->GetFieldData());
+    this->ContactReport = this->Mover.contact().report(this->Model, result);
+  }
+  if (mover.hasInner() || mover.slideRounds > 0 || mover.contact.distance > 0)
   {
     filters::AffineArrays::Remove(output);
   }

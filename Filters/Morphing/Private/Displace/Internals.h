@@ -70,7 +70,7 @@ struct vtkDisplacementAlgorithm::vtkInternals
   /// Results of the last execution: the points of each Surroundings::Role, and a text.
   ///@{
   std::array<vtkIdType, morph::Surroundings::IsLayer + 1> Count = {};
-  std::string SlideReport;
+  std::string SlideReport, ContactReport;
   int ChooseCount = 0; ///< of all executions
   ///@}
 
@@ -124,6 +124,7 @@ private:
     morph::filters::Motion::Options Motion;
     morph::Choice Choice;
     morph::Surroundings::Options Rest;
+    morph::Contact::Options Contact;
   };
   void Classify(const Options& options, vtkPointSet* input, morph::Monitor& monitor);
   void ListZones(vtkUnstructuredGrid* grid, const morph::Mesh& mesh);

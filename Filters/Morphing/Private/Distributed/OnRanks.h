@@ -57,9 +57,7 @@ public:
     int Precision;             ///< of the points, see MorphOutput::Write()
     MorphOutput::Measures Measures;
     bool FeatureLines;
-    vtkUnstructuredGrid* Output;
-    vtkUnstructuredGrid* BadCells;
-    vtkPolyData* Surface;
+    MorphOutput::Outputs Outputs;
   };
   /// Moves the mesh and writes the outputs. Names the options that need one rank. Returns an error
   /// that comes with a result, on one process, or nothing.

@@ -98,7 +98,7 @@ public:
   }
   const morph::AttachedNodes& Attached() const override { return this->Hanging; }
   Measured Write(vtkUnstructuredGrid* grid, const morph::Points& moved, int precision, bool all,
-    const Outputs& outputs, morph::Monitor& monitor) const override
+    const MorphOutput::Outputs& outputs, morph::Monitor& monitor) const override
   {
     Measured result;
     const morph::Quality mine =
@@ -110,8 +110,7 @@ public:
       Quality::Write(mine, outputs.Mesh);
       result.Judged = RankOutput::Judge(this->Pieces, mine, outputs.Mesh, monitor);
     }
-    result.SurfaceInverted = RankOutput::WriteParts(
-      this->Pieces, mine, all, outputs.Mesh, outputs.BadCells, outputs.Surface);
+    result.SurfaceInverted = RankOutput::WriteParts(this->Pieces, mine, all, outputs);
     return result;
   }
   void WriteUndeformedSurface(vtkUnstructuredGrid* grid, vtkPolyData* surface) const override

@@ -26,22 +26,23 @@ void writeMeasured(const RankMesh& mesh, const OnRanks::Morphing::Task& task,
 {
   const auto& ranks = mesh.Ranks();
   const morph::Quality whole = morph::distributed::reduce(ranks, mine, mesh.Whole().cellIds());
-  const Quality::Judged judged = Judge(mesh, mine, task.Output, monitor);
+  const Quality::Judged judged = Judge(mesh, mine, task.Outputs.Mesh, monitor);
   MorphOutput::SetStatus(step, judged.Added, results, ranks.rank() == 0 ? &monitor : nullptr);
   results.Set(judged);
-  Quality::Write(mine, task.Output);
+  Quality::Write(mine, task.Outputs.Mesh);
   results.Set(whole);
   results.SetNumber("WorstMeanScaledJacobian", morph::distributed::worstMean(ranks, mine));
   results.SetNumber("BoundaryMinimum", step.boundaryMinimum);
   if (task.Measures.Certify)
   {
-    const morph::CertificateReport report = Certify(mesh, task.Output, mesh.Unmeasured(), monitor);
-    Quality::Write(report, task.Output);
+    const morph::CertificateReport report =
+      Certify(mesh, task.Outputs.Mesh, mesh.Unmeasured(), monitor);
+    Quality::Write(report, task.Outputs.Mesh);
     results.Set(report);
   }
   if (task.Measures.Cross)
   {
-    const Crossings::Found found = RankCrossings::Find(mesh, task.Output, monitor);
+    const Crossings::Found found = RankCrossings::Find(mesh, task.Outputs.Mesh, monitor);
     if (found.Faces > 0 && ranks.rank() == 0)
     {
       monitor.warn(found.Warning);
@@ -99,22 +100,22 @@ morph::Quality WritePoints(const RankMesh& mesh, vtkUnstructuredGrid* grid,
   return mine;
 }
 
-morph::Index WriteParts(const RankMesh& mesh, const morph::Quality& mine, bool all,
-  vtkUnstructuredGrid* output, vtkUnstructuredGrid* badCells, vtkPolyData* surface)
+morph::Index WriteParts(
+  const RankMesh& mesh, const morph::Quality& mine, bool all, const MorphOutput::Outputs& outputs)
 {
   morph::Index inverted = 0;
   mesh.Ranks().together(
     [&]
     {
-      badCells->Initialize();
+      outputs.BadCells->Initialize();
       if (all)
       {
-        BadCells::Extract(mine, output, badCells);
+        BadCells::Extract(mine, outputs.Mesh, outputs.BadCells);
       }
-      inverted = mesh.Surface().Write(output->GetPoints(), mine, surface);
+      inverted = mesh.Surface().Write(outputs.Mesh->GetPoints(), mine, outputs.Surface);
     });
-  mesh.WriteGlobalIds(badCells);
-  mesh.WriteGlobalIds(surface);
+  mesh.WriteGlobalIds(outputs.BadCells);
+  mesh.WriteGlobalIds(outputs.Surface);
   return mesh.Ranks().sum(inverted);
 }
 
@@ -123,7 +124,7 @@ void Write(const RankMesh& mesh, const OnRanks::Morphing::Task& task, const morp
 {
   const bool all = task.Measures.All;
   const morph::Quality mine =
-    WritePoints(mesh, task.Grid, step.moved, task.Precision, all, task.Output, monitor);
+    WritePoints(mesh, task.Grid, step.moved, task.Precision, all, task.Outputs.Mesh, monitor);
   if (all)
   {
     writeMeasured(mesh, task, step, mine, results, monitor);
@@ -132,12 +133,11 @@ void Write(const RankMesh& mesh, const OnRanks::Morphing::Task& task, const morp
   {
     results.SetText("MorphStatus", "Unmeasured");
   }
-  results.SetInteger(
-    "SurfaceInvertedCells", WriteParts(mesh, mine, all, task.Output, task.BadCells, task.Surface));
+  results.SetInteger("SurfaceInvertedCells", WriteParts(mesh, mine, all, task.Outputs));
   if (mesh.Ranks().rank() == 0)
   {
     morph::warnOfLoose(step.loose, monitor);
   }
-  MorphOutput::WriteCounts(step, results, task.Output);
+  MorphOutput::WriteCounts(step, results, task.Outputs.Mesh);
 }
 }

@@ -22,8 +22,8 @@ morph::Quality WritePoints(const RankMesh& mesh, vtkUnstructuredGrid* grid,
   morph::Monitor& monitor);
 /// Writes the surface and, where `all` cells are measured, the bad cells. Returns the number of
 /// inverted cells behind the outer faces of the whole mesh.
-morph::Index WriteParts(const RankMesh& mesh, const morph::Quality& mine, bool all,
-  vtkUnstructuredGrid* output, vtkUnstructuredGrid* badCells, vtkPolyData* surface);
+morph::Index WriteParts(
+  const RankMesh& mesh, const morph::Quality& mine, bool all, const MorphOutput::Outputs& outputs);
 ///@}
 
 /// Quality::Judge() of the whole mesh. `mine`: of this process's own cells. Collective.

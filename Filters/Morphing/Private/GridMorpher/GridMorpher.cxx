@@ -109,7 +109,7 @@ std::string GridMorpher::Morph(vtkUnstructuredGrid* grid, vtkDataObject* boundar
       { grid, boundary, fractionOf(motion),
         GridMorpher::IsSeries(method.Options.Stepping, motion.Steps) ? &series : nullptr,
         method.Options.OutputPointsPrecision, measuresOf(method.Options),
-        method.Options.FeatureLines, outputs.Mesh, outputs.BadCells, outputs.Surface },
+        method.Options.FeatureLines, outputs },
       this->OptionsOf(method), monitor);
   }
   catch (const morph::Validity::Infeasible& infeasible)
@@ -179,8 +179,8 @@ std::string GridMorpher::MorphAlone(vtkUnstructuredGrid* grid, vtkDataObject* bo
   {
     single->moved.resize(0, 3); // 24 bytes a node, which the measures need
   }
-  MorphOutput::WriteMeasures(this->Kept, *result, measuresOf(method.Options), displaced,
-    this->Results, outputs.Mesh, outputs.BadCells, outputs.Surface, writing);
+  MorphOutput::WriteMeasures(
+    this->Kept, *result, measuresOf(method.Options), displaced, this->Results, outputs, writing);
   return result->valid.error;
 }
 

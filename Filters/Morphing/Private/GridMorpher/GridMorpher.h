@@ -43,12 +43,7 @@ public:
     /// The boundary at a step, of one that varies in time; for a series alone.
     std::function<vtkDataObject*(int step)> Boundary = {};
   };
-  struct Outputs
-  {
-    vtkUnstructuredGrid* Mesh;
-    vtkUnstructuredGrid* BadCells;
-    vtkPolyData* Surface;
-  };
+  using Outputs = MorphOutput::Outputs;
 
   /// Moves the grid and writes the outputs and results. `boundary`: displaced; of a series that of
   /// a step. `isDistributed`: the grid is a piece of a

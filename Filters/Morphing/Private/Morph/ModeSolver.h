@@ -6,6 +6,7 @@
 #include "Morpher/Morpher.h"
 #include "Private/Data/Quality.h"
 #include "Private/Morph/BoundaryMatch.h"
+#include "Private/Morph/MorphOutput.h"
 #include "Quality/ScaledJacobian.h"
 
 #include <cstdint>
@@ -67,12 +68,6 @@ public:
   /// The nodes that no volume cell uses. After Prepare(). Their functions are collective.
   virtual const morph::AttachedNodes& Attached() const = 0;
 
-  struct Outputs
-  {
-    vtkUnstructuredGrid* Mesh;
-    vtkUnstructuredGrid* BadCells;
-    vtkPolyData* Surface;
-  };
   struct Measured
   {
     morph::Quality Whole;   ///< the numbers of the whole mesh; of `all` cells alone
@@ -82,7 +77,7 @@ public:
   /// Writes the grid with its nodes at `moved`, #nodes of Mesh() x 3, and measures all cells, or
   /// those behind the outer faces alone. `precision`: see MorphOutput::WriteMesh().
   virtual Measured Write(vtkUnstructuredGrid* grid, const morph::Points& moved, int precision,
-    bool all, const Outputs& outputs, morph::Monitor& monitor) const = 0;
+    bool all, const MorphOutput::Outputs& outputs, morph::Monitor& monitor) const = 0;
   /// The surface of `grid` in its undeformed state, as far as it is known.
   virtual void WriteUndeformedSurface(vtkUnstructuredGrid* grid, vtkPolyData* surface) const = 0;
 };

@@ -25,9 +25,9 @@ namespace
 {
 /// Measures all cells, and writes what follows from it.
 void measureAll(const KeptMesh& kept, const morph::StepResult& step, Measures measures,
-  vtkPointSet* boundary, Results& results, vtkUnstructuredGrid* output,
-  vtkUnstructuredGrid* badCells, vtkPolyData* surface, morph::Monitor& monitor)
+  vtkPointSet* boundary, Results& results, const Outputs& outputs, morph::Monitor& monitor)
 {
+  vtkUnstructuredGrid* output = outputs.Mesh;
   const morph::UndeformedMesh& rest = *kept.Rest();
   const bool known =
     !step.valid.measured.scaledJacobian.empty() && Quality::IsThatOfComputed(output);
@@ -58,20 +58,21 @@ void measureAll(const KeptMesh& kept, const morph::StepResult& step, Measures me
     }
     SetCrossings(found, results);
   }
-  BadCells::Extract(quality, output, badCells);
+  BadCells::Extract(quality, output, outputs.BadCells);
   results.SetInteger(
-    "SurfaceInvertedCells", kept.Surface().Write(output->GetPoints(), quality, surface));
+    "SurfaceInvertedCells", kept.Surface().Write(output->GetPoints(), quality, outputs.Surface));
 }
 
 /// Measures the cells behind the outer faces alone.
-void measureSurface(const KeptMesh& kept, Results& results, vtkUnstructuredGrid* output,
-  vtkPolyData* surface, morph::Monitor& monitor)
+void measureSurface(
+  const KeptMesh& kept, Results& results, const Outputs& outputs, morph::Monitor& monitor)
 {
+  vtkUnstructuredGrid* output = outputs.Mesh;
   const morph::UndeformedMesh& rest = *kept.Rest();
   const morph::Quality quality =
     Quality::Measure(rest.mesh(), output, rest.orientation(), kept.Surface().OuterCells(), monitor);
   results.SetInteger(
-    "SurfaceInvertedCells", kept.Surface().Write(output->GetPoints(), quality, surface));
+    "SurfaceInvertedCells", kept.Surface().Write(output->GetPoints(), quality, outputs.Surface));
   results.SetText("MorphStatus", "Unmeasured");
 }
 }
@@ -84,20 +85,19 @@ void WriteMesh(const KeptMesh& kept, const morph::Points& moved, int precision,
 }
 
 void WriteMeasures(const KeptMesh& kept, const morph::StepResult& step, Measures measures,
-  vtkPointSet* boundary, Results& results, vtkUnstructuredGrid* output,
-  vtkUnstructuredGrid* badCells, vtkPolyData* surface, morph::Monitor& monitor)
+  vtkPointSet* boundary, Results& results, const Outputs& outputs, morph::Monitor& monitor)
 {
   if (measures.All)
   {
-    measureAll(kept, step, measures, boundary, results, output, badCells, surface, monitor);
+    measureAll(kept, step, measures, boundary, results, outputs, monitor);
   }
   else
   {
-    badCells->Initialize();
-    measureSurface(kept, results, output, surface, monitor);
+    outputs.BadCells->Initialize();
+    measureSurface(kept, results, outputs, monitor);
   }
   morph::warnOfLoose(step.loose, monitor);
-  WriteCounts(step, results, output);
+  WriteCounts(step, results, outputs.Mesh);
 }
 
 void SetStatus(

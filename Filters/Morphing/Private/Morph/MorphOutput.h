@@ -23,6 +23,14 @@ class Results;
 /// Writes the outputs of vtkMorphAlgorithm and their results.
 namespace MorphOutput
 {
+/// What a filter that morphs writes.
+struct Outputs
+{
+  vtkUnstructuredGrid* Mesh;
+  vtkUnstructuredGrid* BadCells;
+  vtkPolyData* Surface;
+};
+
 struct Measures
 {
   bool All = true;      ///< of all cells, not of those behind the outer faces alone
@@ -34,11 +42,10 @@ struct Measures
 /// Throws morph::Error where that precision does not hold the points.
 void WriteMesh(const KeptMesh& kept, const morph::Points& moved, int precision,
   vtkUnstructuredGrid* grid, vtkUnstructuredGrid* output, morph::Monitor& monitor);
-/// Writes what is measured on `output`, which has a step's mesh: its quality, its inverted cells
+/// Writes what is measured on outputs.Mesh, which has a step's mesh: its quality, its inverted cells
 /// and its surface. It does not read the step's points. `boundary`: the displaced one.
 void WriteMeasures(const KeptMesh& kept, const morph::StepResult& step, Measures measures,
-  vtkPointSet* boundary, Results& results, vtkUnstructuredGrid* output,
-  vtkUnstructuredGrid* badCells, vtkPolyData* surface, morph::Monitor& monitor);
+  vtkPointSet* boundary, Results& results, const Outputs& outputs, morph::Monitor& monitor);
 
 /// Sets the step's status and largest valid step. Where rounding has inverted `bad` cells of a mesh
 /// that was valid, both are those of an inverted mesh. `monitor`: is warned of it, or null.

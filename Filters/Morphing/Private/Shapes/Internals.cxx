@@ -234,7 +234,7 @@ void vtkMorphShapes::vtkInternals::Write(vtkUnstructuredGrid* grid,
   const std::vector<double>& weights, vtkInformationVector* outputs, morph::Monitor& monitor)
 {
   const bool all = this->Filter->Options->Quality == QUALITY_ALL;
-  const filters::ModeSolver::Outputs written = { this->Ports.Output(outputs),
+  const filters::MorphOutput::Outputs written = { this->Ports.Output(outputs),
     vtkUnstructuredGrid::GetData(outputs, 1), vtkPolyData::GetData(outputs, 2) };
   const filters::ModeSolver::Measured measured = this->Modes.GetSolver()->Write(
     grid, this->Moved, this->Filter->Options->OutputPointsPrecision, all, written, monitor);

@@ -2,7 +2,6 @@
 #include "Private/Shapes/KeptModeSolver.h"
 
 #include "Mesh/NodePartition.h"
-#include "Morpher/PolyhedralMorpher.h"
 #include "Private/Data/BadCells.h"
 #include "Private/Data/Output.h"
 #include "Private/Data/Quality.h"
@@ -43,13 +42,12 @@ void KeptModeSolver::Prepare(std::unique_ptr<morph::LinearMorpher> method,
   const std::vector<morph::Index>& prescribed, morph::Monitor& monitor)
 {
   this->Method.reset();
-  std::unique_ptr<morph::Morpher> onPieces =
-    morph::morpherForCells(this->Mesh(), this->Kept.Rest()->hanging(), std::move(method));
+  const morph::UndeformedMesh& rest = *this->Kept.Rest();
   // Of a linear method it is a linear one.
-  method.reset(dynamic_cast<morph::LinearMorpher*>(onPieces.release()));
-  this->Others = this->Kept.Rest()->hanging().othersOf(prescribed);
+  method.reset(dynamic_cast<morph::LinearMorpher*>(rest.fitted(std::move(method)).release()));
+  this->Prescribed = prescribed;
   const morph::NodePartition partition =
-    morph::partitionNodes(this->Mesh(), morph::HangingNodes::at(this->Others, prescribed));
+    morph::partitionNodes(this->Mesh(), rest.prescribedFor(prescribed));
   method->prepare(this->Mesh(), partition, monitor);
   this->Hanging = morph::AttachedNodes(this->Mesh(), partition);
   this->Method = std::move(method);
@@ -58,16 +56,18 @@ void KeptModeSolver::Prepare(std::unique_ptr<morph::LinearMorpher> method,
 std::vector<morph::Points> KeptModeSolver::Basis(const std::vector<morph::Points>& displacements,
   std::vector<morph::EvaluateReport>& reports, morph::Monitor& monitor) const
 {
-  std::vector<morph::Points> others;
+  std::vector<morph::Points> own;
   for (const morph::Points& displacement : displacements)
   {
-    others.emplace_back(displacement(this->Others, morph::allColumns));
+    morph::Points all = morph::Points::Zero(this->Mesh().numberOfNodes(), 3);
+    all(this->Prescribed, morph::allColumns) = displacement;
+    own.emplace_back(all(this->Method->partition().prescribed, morph::allColumns));
   }
-  return this->Method->basis(others, monitor, &reports);
+  return this->Method->basis(own, monitor, &reports);
 }
 
 ModeSolver::Measured KeptModeSolver::Write(vtkUnstructuredGrid* grid, const morph::Points& moved,
-  int precision, bool all, const Outputs& outputs, morph::Monitor& monitor) const
+  int precision, bool all, const MorphOutput::Outputs& outputs, morph::Monitor& monitor) const
 {
   const morph::Mesh& mesh = this->Mesh();
   const MovedSurface& surface = this->Kept.Surface();

@@ -36,7 +36,7 @@ public:
     std::vector<morph::EvaluateReport>& reports, morph::Monitor& monitor) const override;
   const morph::AttachedNodes& Attached() const override { return this->Hanging; }
   Measured Write(vtkUnstructuredGrid* grid, const morph::Points& moved, int precision, bool all,
-    const Outputs& outputs, morph::Monitor& monitor) const override;
+    const MorphOutput::Outputs& outputs, morph::Monitor& monitor) const override;
   void WriteUndeformedSurface(vtkUnstructuredGrid* grid, vtkPolyData* surface) const override
   {
     this->Kept.WriteUndeformedSurface(grid, surface);
@@ -45,7 +45,7 @@ public:
 private:
   KeptMesh Kept;
   std::unique_ptr<morph::LinearMorpher> Method; ///< prepared, or null
-  std::vector<morph::Index> Others; ///< places of the prescribed nodes that are not tied to faces
-  morph::AttachedNodes Hanging;     ///< of Method
+  std::vector<morph::Index> Prescribed;         ///< by the caller
+  morph::AttachedNodes Hanging;                 ///< of Method
 };
 }

@@ -1,0 +1,273 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "BoundaryMover/Contact.h"
+
+#include "Geometry/TriangleTree.h"
+#include "Support/Error.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <set>
+#include <sstream>
+#include <utility>
+
+namespace morph
+{
+namespace
+{
+using Row = Eigen::RowVector3d;
+using Triangle = std::array<Index, 3>;
+
+/// The faces of surfaces as triangles, outward.
+struct Facets
+{
+  std::vector<Triangle> corners;
+  TriangleTree tree;
+
+  Facets(std::vector<Triangle> ids, const Points& points)
+    : corners(std::move(ids))
+    , tree(placesOf(corners, points))
+  {
+  }
+  static std::vector<TriangleTree::Triangle> placesOf(
+    const std::vector<Triangle>& ids, const Points& points)
+  {
+    std::vector<TriangleTree::Triangle> result;
+    for (const Triangle& corner : ids)
+    {
+      result.push_back({ points.row(corner[0]), points.row(corner[1]), points.row(corner[2]) });
+    }
+    return result;
+  }
+};
+
+bool takesPart(const BoundaryModel& model, std::size_t face, const Contact::Options& options)
+{
+  const Index surface = model.geometry.surfaceOfFace[face];
+  return options.surfaces.empty() ||
+         std::binary_search(options.surfaces.begin(), options.surfaces.end(), surface);
+}
+
+/// The faces from their first corner on.
+std::vector<Triangle> trianglesOf(const BoundaryModel& model, const Contact::Options& options)
+{
+  const BoundaryFaces& faces = model.faces;
+  std::vector<Triangle> result;
+  for (std::size_t f = 0; f + 1 < faces.offsets.size(); ++f)
+  {
+    const bool isMirrored = model.orientation[f] < 0;
+    for (Index k = faces.offsets[f] + 2; takesPart(model, f, options) && k < faces.offsets[f + 1];
+         ++k)
+    {
+      Triangle corners = { faces.connectivity[faces.offsets[f]], faces.connectivity[k - 1],
+        faces.connectivity[k] };
+      if (isMirrored)
+      {
+        std::swap(corners[1], corners[2]);
+      }
+      result.push_back(corners);
+    }
+  }
+  return result;
+}
+
+std::vector<Index> nodesOf(const BoundaryModel& model, const Contact::Options& options)
+{
+  std::set<Index> nodes;
+  for (std::size_t f = 0; f + 1 < model.faces.offsets.size(); ++f)
+  {
+    if (takesPart(model, f, options))
+    {
+      nodes.insert(model.faces.connectivity.begin() + model.faces.offsets[f],
+        model.faces.connectivity.begin() + model.faces.offsets[f + 1]);
+    }
+  }
+  return { nodes.begin(), nodes.end() };
+}
+
+TriangleTree::Found otherBody(
+  const BoundaryModel& model, const Facets& triangles, Index node, const Row& place, double radius)
+{
+  const Index body = model.bodyOfNode[node];
+  return triangles.tree.nearest(place, radius,
+    [&](Index triangle) { return model.bodyOfNode[triangles.corners[triangle][0]] != body; });
+}
+
+/// Normal, not of unit length.
+Row normalAt(const Points& points, const std::array<Index, 3>& corners)
+{
+  const Row a = points.row(corners[0]);
+  return (points.row(corners[1]) - a).cross(points.row(corners[2]) - a);
+}
+
+/// The weights of a place in a triangle, by areas; in one without area those of its nearest corner.
+Row weightsAt(const Points& points, const std::array<Index, 3>& corners, const Row& place)
+{
+  const Row normal = normalAt(points, corners);
+  Row weights = Row::Zero();
+  if (normal.isZero(0))
+  {
+    int nearest = 0;
+    for (int k = 1; k < 3; ++k)
+    {
+      const auto distance = [&](int corner)
+      { return (points.row(corners[corner]) - place).squaredNorm(); };
+      nearest = distance(k) < distance(nearest) ? k : nearest;
+    }
+    weights[nearest] = 1;
+    return weights;
+  }
+  for (int k = 0; k < 3; ++k)
+  {
+    const Row a = points.row(corners[(k + 1) % 3]), b = points.row(corners[(k + 2) % 3]);
+    weights[k] = (a - place).cross(b - place).dot(normal) / normal.squaredNorm();
+  }
+  return weights;
+}
+
+Row placeOf(const Points& points, const std::array<Index, 3>& corners, const Row& weights)
+{
+  return weights[0] * points.row(corners[0]) + weights[1] * points.row(corners[1]) +
+         weights[2] * points.row(corners[2]);
+}
+}
+
+void Contact::find(const BoundaryModel& model, const Options& options)
+{
+  this->followers_.clear();
+  if (this->version_ == model.motionVersion && this->options_.distance == options.distance &&
+      this->options_.surfaces == options.surfaces)
+  {
+    return;
+  }
+  this->version_ = -1;
+  this->options_ = options;
+  this->pairs_.clear();
+  const Points& points = model.points();
+  const Facets triangles(trianglesOf(model, options), points);
+  for (const Index node : nodesOf(model, options))
+  {
+    const TriangleTree::Found found =
+      otherBody(model, triangles, node, points.row(node), options.distance);
+    if (found.triangle >= 0)
+    {
+      const Triangle& corners = triangles.corners[found.triangle];
+      this->pairs_.push_back({ node, corners, weightsAt(points, corners, found.place) });
+    }
+  }
+  if (this->pairs_.empty())
+  {
+    std::ostringstream text;
+    text << "No node is within `ContactDistance` " << options.distance
+         << " of another body, so there is no contact to keep. Give a larger distance"
+         << (options.surfaces.empty() ? "." : ", or other `ContactSurfaces`.");
+    throw Error(text.str());
+  }
+  this->version_ = model.motionVersion;
+}
+
+bool Contact::follow(
+  const BoundaryModel& model, const Surroundings::Result& result, Choice& choice, Points& targets)
+{
+  const Points& points = model.points();
+  std::set<Index> moving;
+  for (const Index node : choice.moving)
+  {
+    moving.insert(model.bodyOfNode[node]);
+  }
+  std::vector<std::pair<Index, Row>> all, added;
+  for (const Pair& pair : this->pairs_)
+  {
+    const Row before = placeOf(points, pair.corners, pair.weights);
+    const Row after = placeOf(result.moved, pair.corners, pair.weights);
+    const bool hasMoved = std::any_of(pair.corners.begin(), pair.corners.end(),
+      [&](Index corner) { return result.moved.row(corner) != points.row(corner); });
+    if (!hasMoved || result.roles[pair.node] != Surroundings::Stays ||
+        moving.count(model.bodyOfNode[pair.node]) > 0)
+    {
+      continue;
+    }
+    const Row from = normalAt(points, pair.corners), to = normalAt(result.moved, pair.corners);
+    Row gap = points.row(pair.node) - before;
+    if (!from.isZero(0) && !to.isZero(0))
+    {
+      gap = gap * Eigen::Quaterniond::FromTwoVectors(from.transpose(), to.transpose())
+                    .toRotationMatrix()
+                    .transpose();
+    }
+    added.emplace_back(pair.node, after + gap);
+    this->followers_.push_back(pair.node);
+  }
+  if (added.empty())
+  {
+    return false;
+  }
+  for (std::size_t i = 0; i < choice.moving.size(); ++i)
+  {
+    all.emplace_back(choice.moving[i], targets.row(static_cast<Index>(i)));
+  }
+  all.insert(all.end(), added.begin(), added.end());
+  std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  choice.moving.clear();
+  targets.resize(static_cast<Index>(all.size()), 3);
+  for (std::size_t i = 0; i < all.size(); ++i)
+  {
+    choice.moving.push_back(all[i].first);
+    targets.row(static_cast<Index>(i)) = all[i].second;
+  }
+  for (std::size_t f = 0; f + 1 < model.faces.offsets.size(); ++f)
+  {
+    const auto corner = model.faces.connectivity.begin();
+    choice.isMovingFace[f] =
+      choice.isMovingFace[f] ||
+      std::all_of(corner + model.faces.offsets[f], corner + model.faces.offsets[f + 1],
+        [&](Index node)
+        { return std::binary_search(choice.moving.begin(), choice.moving.end(), node); });
+  }
+  return true;
+}
+
+void Contact::setRoles(Surroundings::Result& result) const
+{
+  for (const Index node : this->followers_)
+  {
+    if (result.roles[node] == Surroundings::Moves)
+    {
+      result.roles[node] = Surroundings::Follows;
+    }
+  }
+}
+
+Contact::Gaps Contact::gaps(const BoundaryModel& model, const Points& points) const
+{
+  const Facets triangles(trianglesOf(model, this->options_), points);
+  Gaps gaps{ std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity() };
+  for (const Pair& pair : this->pairs_)
+  {
+    const Row place = points.row(pair.node);
+    const TriangleTree::Found found =
+      otherBody(model, triangles, pair.node, place, std::numeric_limits<double>::infinity());
+    const Row arm = place - found.place;
+    const double gap =
+      arm.dot(triangles.tree.normal(found.triangle)) < 0 ? -arm.norm() : arm.norm();
+    gaps.least = std::min(gaps.least, gap);
+    gaps.most = std::max(gaps.most, gap);
+  }
+  return gaps;
+}
+
+std::string Contact::report(const BoundaryModel& model, const Surroundings::Result& result) const
+{
+  const Gaps before = this->gaps(model, model.points()), after = this->gaps(model, result.moved);
+  std::ostringstream text;
+  text << this->pairs_.size() << " nodes in contact: gap " << before.least << " to " << before.most
+       << " before, " << after.least << " to " << after.most << " after";
+  if (std::min(before.least, after.least) < 0)
+  {
+    text << "; below 0 bodies overlap";
+  }
+  return text.str();
+}
+}

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "BoundaryMover/BoundaryModel.h"
+#include "BoundaryMover/Choice.h"
+#include "BoundaryMover/Surroundings.h"
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace morph
+{
+/// Contact between bodies, whose nodes need not match. Nodes of a body of which nothing else is
+/// asked follow their nearest place on the boundary of a body that moves: a node x above the place
+/// p of a face with the normal n goes to p' + R (x - p), where p' keeps its weights in the face and
+/// R turns n into its new direction. So the gap stays, 0 exactly. The motion of such a body may
+/// take others along.
+class Contact
+{
+public:
+  struct Options
+  {
+    /// Nodes are in contact up to this distance from another body's boundary, in the unit of the
+    /// points; 0: there is no contact.
+    double distance = 0;
+    std::vector<Index> surfaces; ///< on which both sides lie, ascending; empty: on any
+  };
+  /// The distances of the nodes in contact from the other body's boundary. Those below it are
+  /// negative.
+  struct Gaps
+  {
+    double least = 0, most = 0;
+  };
+
+  /// Finds the nodes in contact, unless the same are kept. Throws Error where there are none.
+  /// Cost: a search for each node of the surfaces.
+  void find(const BoundaryModel& model, const Options& options);
+  /// Adds nodes in contact with faces that have moved to what moves; not those of bodies in which
+  /// something moves. `result`: of `choice` and `targets`. Returns whether there are some.
+  bool follow(const BoundaryModel& model, const Surroundings::Result& result, Choice& choice,
+    Points& targets);
+  /// Gives the nodes that follow() has added since find() their role.
+  void setRoles(Surroundings::Result& result) const;
+  /// Of all nodes in contact, the boundary being at `points`, #nodes x 3. Cost: as find().
+  Gaps gaps(const BoundaryModel& model, const Points& points) const;
+  /// What became of the contact: the number of nodes, and gaps before and after.
+  std::string report(const BoundaryModel& model, const Surroundings::Result& result) const;
+
+private:
+  struct Pair
+  {
+    Index node;
+    std::array<Index, 3> corners; ///< of the triangle of the nearest place
+    Eigen::RowVector3d weights;
+  };
+
+  std::int64_t version_ = -1; ///< BoundaryModel::motionVersion
+  Options options_;
+  std::vector<Pair> pairs_; ///< ascending
+  std::vector<Index> followers_;
+};
+}
