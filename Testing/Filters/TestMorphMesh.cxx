@@ -2,6 +2,7 @@
 // vtkMorphMesh against the filters that it is made of.
 #include "DisplacedBoundaries.h"
 
+#include "../Core/BoundaryShapes.h"
 #include "vtkFEMWarpMorph.h"
 #include "vtkInversionFreeMorph.h"
 #include "vtkLBWarpMorph.h"
@@ -486,4 +487,35 @@ TEST(MorphMesh, KeepsThePrecisionOfItsInput)
   filter->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
   filter->Update();
   EXPECT_EQ(filter->GetOutput()->GetPoints()->GetDataType(), VTK_DOUBLE);
+}
+
+TEST(MorphMesh, ContactTakesAnotherBodyAlong)
+{
+  morph::Mesh mesh = meshes::hexes(4, 4, 4);
+  morph::Mesh above = meshes::tets(3, 3, 3);
+  meshes::transform(above, [](const Row& x) { return Row(x * 4 / 3 + Row(0, 0, 4.01)); });
+  const morph::Index half = mesh.numberOfNodes();
+  const auto grid = grids::make(shapes::together(mesh, above));
+  const auto filter = make(grid); // its top, which is the lower body's, moves up
+  const auto largestMotionAbove = [&]
+  {
+    filter->Update();
+    const morph::Points moved = grids::points(filter->GetOutput()) - grids::points(grid);
+    return moved.bottomRows(moved.rows() - half).rowwise().norm().maxCoeff();
+  };
+
+  EXPECT_EQ(largestMotionAbove(), 0);
+  EXPECT_STREQ(filter->GetContactReport(), "None");
+
+  filter->SetContactDistance(0.02);
+  EXPECT_NEAR(largestMotionAbove(), Up.norm(), 1e-12);
+  vtkDataArray* gaps = filter->GetOutput()->GetFieldData()->GetArray("ContactGaps");
+  ASSERT_EQ(gaps->GetNumberOfTuples(), 2);
+  EXPECT_NEAR(gaps->GetComponent(1, 0), 0.01, 1e-12) << filter->GetContactReport();
+
+  filter->AddContactSurface("Surface 0");
+  grids::Listener listener(filter);
+  filter->Update();
+  ASSERT_EQ(listener.Errors.size(), 1U);
+  EXPECT_NE(listener.Errors[0].find("other `ContactSurfaces`"), std::string::npos);
 }
