@@ -206,7 +206,7 @@ void vtkClassifyBoundary::vtkInternals::ClassifyOnRanks(vtkClassifyBoundary* fil
 {
   if (!this->Whole)
   {
-    this->Whole = std::make_unique<filters::WholeSurface>();
+    this->Whole = filters::WholeSurface::Make();
   }
   filters::WholeSurface& whole = *this->Whole;
   whole.Take(piece, monitor);

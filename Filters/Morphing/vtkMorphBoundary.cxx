@@ -295,7 +295,7 @@ void vtkMorphBoundary::vtkInternals::MorphOnRanks(vtkUnstructuredGrid* piece,
   filters::Monitor& monitor = filters::Ranks::IsFirst() ? given : silent;
   if (!this->Whole)
   {
-    this->Whole = std::make_unique<filters::WholeSurface>();
+    this->Whole = filters::WholeSurface::Make();
   }
   const filters::WholeSurface& whole = *this->Whole;
   vtkPointSet* points = nullptr;
@@ -310,7 +310,7 @@ void vtkMorphBoundary::vtkInternals::MorphOnRanks(vtkUnstructuredGrid* piece,
   const morph::BoundaryTargets match = whole.Match(points, this->Matching());
   if (surface)
   {
-    surface = filters::WholeSurface::Gather(surface);
+    surface = whole.Gather(surface);
   }
   whole.Together(
     [&]

@@ -533,10 +533,10 @@ TEST(RankBoundary, GathersTheSurfaceAndNotTheVolume)
       data->RemoveArray("Number");
       data->RemoveArray("Cell");
     }
-    morph::filters::WholeSurface surface;
-    surface.Take(grid, monitor);
+    const auto surface = morph::filters::WholeSurface::Make();
+    surface->Take(grid, monitor);
     const int boundary = (n + 1) * (n + 1) * (n + 1) - (n - 1) * (n - 1) * (n - 1);
-    return static_cast<double>(surface.Bytes()) / boundary;
+    return static_cast<double>(surface->Bytes()) / boundary;
   };
   const double small = bytes(8), large = bytes(16);
   if (ranks.rank() == 0)

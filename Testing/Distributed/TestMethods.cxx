@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "BoundaryShapes.h"
 #include "Distributed/HypreSolver.h"
 #include "Distributed/Methods.h"
 #include "LinearMethods/FemWarp.h"
@@ -9,6 +10,7 @@
 #include "LinearMethods/WeightedResidual.h"
 #include "Mesh/Topology.h"
 #include "Meshes.h"
+#include "Morpher/BodyByBody.h"
 #include "Pieces.h"
 #include "Support/Error.h"
 
@@ -103,6 +105,32 @@ TEST(DistributedMethods, AgreeWithTheSerialOnes)
     {
       EXPECT_LT(difference(ranks, whole, std::move(serial), bend, false), 1e-9)
         << method << ", " << name;
+    }
+  }
+}
+
+TEST(DistributedMethods, InterpolateEachBodyAlone)
+{
+  const Ranks ranks = pieces::world();
+  Mesh above = meshes::tets(3, 3, 3);
+  meshes::transform(
+    above, [](const auto& x) { return Eigen::RowVector3d(x + Eigen::RowVector3d(0, 0, 4.01)); });
+  const Mesh whole = shapes::together(meshes::hexes(4, 4, 4), above);
+  Monitor monitor;
+  const std::vector<Index> outer = morph::boundaryFaces(whole, monitor).nodes;
+  for (auto& [name, method] : methods())
+  {
+    if (method->copyWithoutCells())
+    {
+      const Points target = bend(whole.points);
+      Points expected, moved;
+      morph::BodyByBody serial(method->copyWithoutCells());
+      serial.prepare(whole, morph::partitionNodes(whole, outer), monitor);
+      serial.evaluate(Points(target(outer, morph::allColumns)), expected, monitor);
+      const pieces::OnRanks mine(ranks, whole, outer,
+        morph::distributed::makeMethod(std::move(method)), meshes::seed(), monitor);
+      mine.evaluate(target, moved, monitor);
+      EXPECT_LT(pieces::distance(mine.mesh, moved, expected), 1e-9) << name;
     }
   }
 }

@@ -36,12 +36,6 @@ void WeightedResidual::doPrepare(const Mesh& rest, Monitor& monitor)
     inverseDistanceWeights(this->sites_, this->freePlaces_, this->numberOfNeighbors_, monitor);
 }
 
-EvaluateReport WeightedResidual::report() const
-{
-  EvaluateReport report;
-  return report;
-}
-
 void WeightedResidual::warnOf(const Points& prescribed, Monitor& monitor) const
 {
   const AffineFit fit = this->fit_.fit(this->sites_.average(prescribed, monitor));
@@ -70,7 +64,7 @@ EvaluateReport WeightedResidual::displace(
   this->weights_.multiply(residual, free, monitor);
   parallel(free.rows(), Grain, monitor,
     [&](Index i) { free.row(i) += fit.displacement(this->freePlaces_.row(i)); });
-  return this->report();
+  return {};
 }
 
 EvaluateReport WeightedResidual::displaceTranspose(
@@ -84,6 +78,6 @@ EvaluateReport WeightedResidual::displaceTranspose(
   this->fit_.fitTranspose(this->freePlaces_, free, result);
   this->fit_.fitTranspose(this->sites_.coordinates(), -onSites, result);
   this->sites_.scatterTranspose(result, prescribed);
-  return this->report();
+  return {};
 }
 }

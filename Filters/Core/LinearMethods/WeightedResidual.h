@@ -64,8 +64,6 @@ protected:
     const Points& free, Points& prescribed, Monitor& monitor) const override;
 
 private:
-  EvaluateReport report() const;
-
   Index numberOfNeighbors_ = 80;
   InterpolationSites sites_;
   AffineLeastSquares fit_;

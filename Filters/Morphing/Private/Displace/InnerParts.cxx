@@ -3,7 +3,6 @@
 #include "Private/Displace/Internals.h"
 
 #include "Private/Displace/InnerPoints.h"
-#include "Private/Distributed/WholeVolume.h"
 #include "Private/Pipeline/Ranks.h"
 #include "Support/Error.h"
 
@@ -60,9 +59,9 @@ std::vector<filters::Zones::Part> vtkDisplacementAlgorithm::vtkInternals::FindZo
   filters::Zones::Kind kind, vtkUnstructuredGrid* grid, const filters::Zones::Options& zones) const
 {
   const filters::MergedBlocks* blocks = this->Blocks.Merged();
-  return this->Whole ? filters::Zones::FindOnRanks(
-                         kind, grid, filters::WholeVolume(*this->Whole), blocks, zones)
-                     : filters::Zones::Find(kind, grid, this->Model.mesh, blocks, zones);
+  return this->Whole
+           ? filters::Zones::FindOnRanks(kind, grid, *this->Whole->Volume(), blocks, zones)
+           : filters::Zones::Find(kind, grid, this->Model.mesh, blocks, zones);
 }
 
 void vtkDisplacementAlgorithm::vtkInternals::FindInner(const Options& options,

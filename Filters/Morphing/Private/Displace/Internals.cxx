@@ -8,7 +8,6 @@
 #include "Private/Data/Output.h"
 #include "Private/Data/Surface.h"
 #include "Private/Displace/DisplacedSurface.h"
-#include "Private/Distributed/WholeVolume.h"
 #include "Private/Pipeline/Ranks.h"
 #include "Private/Project/TargetDistance.h"
 #include "Support/Error.h"
@@ -475,11 +474,7 @@ void vtkDisplacementAlgorithm::vtkInternals::Displace(const Options& options, vt
     mover.slideRounds = options.SlideRounds;
     mover.contact = moves.Contact;
   }
-  std::unique_ptr<filters::WholeVolume> pieces;
-  if (whole)
-  {
-    pieces = std::make_unique<filters::WholeVolume>(*whole);
-  }
+  const std::unique_ptr<morph::InnerPieces> pieces = whole ? whole->Volume() : nullptr;
   morph::ProgressRange moving(monitor, target ? 0.7 : 0.5, 1);
   this->Mover.move(this->Model, moves.Choice, moves.Targets, mover, pieces.get(), moving);
   alike([&] { this->Write(options, input, target, moves, mover, output, monitor); });
@@ -613,7 +608,7 @@ void vtkDisplacementAlgorithm::vtkInternals::DisplaceOnRanks(const Options& opti
     });
   if (!this->Whole)
   {
-    this->Whole = std::make_unique<filters::WholeSurface>();
+    this->Whole = filters::WholeSurface::Make();
   }
   this->Whole->Take(piece, monitor);
   const bool byHandles = options.Displacement == DISPLACEMENT_HANDLES;
@@ -625,7 +620,7 @@ void vtkDisplacementAlgorithm::vtkInternals::DisplaceOnRanks(const Options& opti
   vtkSmartPointer<vtkPolyData> whole, control;
   if (target)
   {
-    whole = filters::WholeSurface::Gather(target);
+    whole = this->Whole->Gather(target);
   }
   if (filters::Ranks::Count(inputs.ControlPoints) > 0 &&
       (byHandles || options.Displacement == DISPLACEMENT_LATTICE))
@@ -637,7 +632,7 @@ void vtkDisplacementAlgorithm::vtkInternals::DisplaceOnRanks(const Options& opti
                     ? filters::ControlPoints::AsHandles(inputs.ControlPoints)
                     : filters::ControlPoints::AsLattice(inputs.ControlPoints, options.LatticeSize);
       });
-    control = filters::WholeSurface::Gather(control);
+    control = this->Whole->Gather(control);
   }
   this->Displace(options, this->Whole->Grid(), piece,
     { inputs.Selection, nullptr, inputs.Zone, control }, whole, output, monitor);

@@ -6,7 +6,6 @@
 #include "Private/Data/NamedSets.h"
 #include "Private/Displace/Chosen.h"
 #include "Private/Displace/Selection.h"
-#include "Private/Distributed/WholeVolume.h"
 #include "Private/Pipeline/Ranks.h"
 #include "Support/Error.h"
 
@@ -285,8 +284,8 @@ std::vector<Part> Find(Kind kind, vtkUnstructuredGrid* grid, const morph::Mesh& 
   return parts;
 }
 
-std::vector<Part> FindOnRanks(Kind kind, vtkUnstructuredGrid* grid, const WholeVolume& volume,
-  const MergedBlocks* blocks, Options options)
+std::vector<Part> FindOnRanks(Kind kind, vtkUnstructuredGrid* grid,
+  const morph::InnerPieces& volume, const MergedBlocks* blocks, Options options)
 {
   // A selection that is nowhere is an error, as on one process.
   const bool isSelected = options.Selection && options.Selection->GetNumberOfNodes() > 0;

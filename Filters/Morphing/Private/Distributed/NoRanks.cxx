@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A build without MPI or hypre: Input::TakeMesh() refuses meshes on several ranks before this.
+// A build without MPI or hypre: Input::TakeMesh() refuses meshes on several ranks before any of
+// this.
 #include "Private/Distributed/OnRanks.h"
+#include "Private/Distributed/WholeSurface.h"
+#include "Private/RankBlocks/RankBlocks.h"
 
 #include <stdexcept>
 
-namespace morph::filters::OnRanks
+namespace morph::filters
 {
 namespace
 {
@@ -14,46 +17,32 @@ namespace
 }
 }
 
-class Morphing::Internals
-{
-};
-
-Morphing::Morphing(Results&)
-{
-}
-
-Morphing::~Morphing() = default;
-
-std::string Morphing::Run(const Task&, const MotionOptions&, morph::Monitor&)
+std::unique_ptr<WholeSurface> WholeSurface::Make()
 {
   refuse();
 }
 
-void Morphing::CheckSeries(vtkMTimeType, bool, vtkMTimeType)
-{
-}
-
-void Morphing::Transpose(vtkUnstructuredGrid*, vtkDataObject*, vtkDataArray*, const MotionOptions&,
-  vtkDoubleArray*, morph::Monitor&)
+MergedBlocks RankBlocks::Make(vtkDataObjectTree*, MergedBlocks::Options)
 {
   refuse();
 }
 
-void Morphing::WriteUndeformedSurface(vtkUnstructuredGrid*, vtkPolyData*) const
-{
-}
-
-std::unique_ptr<ModeSolver> MakeModeSolver()
+std::unique_ptr<OnRanks::Morphing> OnRanks::MakeMorphing(Results&)
 {
   refuse();
 }
 
-void ExtractBoundary(vtkUnstructuredGrid*, vtkPolyData*, morph::Monitor&)
+std::unique_ptr<ModeSolver> OnRanks::MakeModeSolver()
 {
   refuse();
 }
 
-Measured Measure(vtkUnstructuredGrid*, bool, std::vector<Quality::OfCriterion>&,
+void OnRanks::ExtractBoundary(vtkUnstructuredGrid*, vtkPolyData*, morph::Monitor&)
+{
+  refuse();
+}
+
+OnRanks::Measured OnRanks::Measure(vtkUnstructuredGrid*, bool, std::vector<Quality::OfCriterion>&,
   vtkUnstructuredGrid*, morph::Monitor&)
 {
   refuse();

@@ -43,10 +43,7 @@ struct Motion
 class Morphing
 {
 public:
-  /// `results`: gets the seconds, the number of preparations and of mirrored bodies. All processes
-  /// get the numbers of the whole mesh.
-  explicit Morphing(Results& results);
-  ~Morphing();
+  virtual ~Morphing() = default;
 
   struct Task
   {
@@ -61,21 +58,21 @@ public:
   };
   /// Moves the mesh and writes the outputs. Names the options that need one rank. Returns an error
   /// that comes with a result, on one process, or nothing.
-  std::string Run(const Task& task, const MotionOptions& options, morph::Monitor& monitor);
+  virtual std::string Run(
+    const Task& task, const MotionOptions& options, morph::Monitor& monitor) = 0;
   /// The outer faces of this process's cells, if `grid` has the cells of the mesh, or else nothing.
   /// Not collective.
-  void WriteUndeformedSurface(vtkUnstructuredGrid* grid, vtkPolyData* surface) const;
+  virtual void WriteUndeformedSurface(vtkUnstructuredGrid* grid, vtkPolyData* surface) const = 0;
   /// See Series::check(). Not collective.
-  void CheckSeries(vtkMTimeType options, bool varies, vtkMTimeType boundary);
+  virtual void CheckSeries(vtkMTimeType options, bool varies, vtkMTimeType boundary) = 0;
   /// vtkMorphAlgorithm::ApplyTranspose(). `gradient`: of the piece's points, those of copies as of
   /// the node. Points of several processes that stand for one node get the same derivatives.
-  void Transpose(vtkUnstructuredGrid* rest, vtkDataObject* boundary, vtkDataArray* gradient,
-    const MotionOptions& options, vtkDoubleArray* boundaryGradient, morph::Monitor& monitor);
-
-private:
-  class Internals;
-  std::unique_ptr<Internals> Own;
+  virtual void Transpose(vtkUnstructuredGrid* rest, vtkDataObject* boundary, vtkDataArray* gradient,
+    const MotionOptions& options, vtkDoubleArray* boundaryGradient, morph::Monitor& monitor) = 0;
 };
+/// `results`: gets the seconds, the number of preparations and of mirrored bodies. All processes
+/// get the numbers of the whole mesh.
+std::unique_ptr<Morphing> MakeMorphing(Results& results);
 
 /// The mesh and method of vtkMorphShapes.
 std::unique_ptr<ModeSolver> MakeModeSolver();

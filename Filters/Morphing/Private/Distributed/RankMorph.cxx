@@ -70,16 +70,28 @@ bool isInversionFree(const Method& method)
   return dynamic_cast<const morph::distributed::InversionFree*>(
     onPieces ? &onPieces->method() : &method);
 }
-}
 
-class Morphing::Internals
+class RankMorphing : public Morphing
 {
 public:
-  explicit Internals(filters::Results& results)
+  explicit RankMorphing(filters::Results& results)
     : Results(results)
   {
   }
+  std::string Run(const Task& task, const MotionOptions& options, morph::Monitor& monitor) override;
+  void WriteUndeformedSurface(vtkUnstructuredGrid* grid, vtkPolyData* surface) const override
+  {
+    this->Mesh.WriteUndeformedSurface(grid, surface);
+  }
+  void CheckSeries(vtkMTimeType options, bool varies, vtkMTimeType boundary) override
+  {
+    this->Steps.check(options, varies, boundary);
+  }
+  void Transpose(vtkUnstructuredGrid* rest, vtkDataObject* boundary, vtkDataArray* gradient,
+    const MotionOptions& options, vtkDoubleArray* boundaryGradient,
+    morph::Monitor& monitor) override;
 
+private:
   filters::Results& Results;
   RankMesh Mesh;
   morph::Series Steps;
@@ -98,8 +110,6 @@ public:
     const MotionOptions& options, morph::Monitor& monitor);
   std::shared_ptr<const morph::StepResult> MorphSeries(
     const Motion& motion, const MotionOptions& options, morph::Monitor& monitor);
-
-private:
   std::unique_ptr<Method> Make(const MotionOptions& options) const;
   morph::NodePartition PartitionOf(
     const std::vector<morph::Index>& prescribed, morph::Monitor& monitor) const;
@@ -110,25 +120,14 @@ private:
   std::vector<morph::Index> PreparedFor; ///< the prescribed nodes of Prepared
   std::unique_ptr<const morph::Morpher> PreparedLike;
 };
-
-Morphing::Morphing(Results& results)
-  : Own(new Internals(results))
-{
 }
 
-Morphing::~Morphing() = default;
-
-void Morphing::CheckSeries(vtkMTimeType options, bool varies, vtkMTimeType boundary)
+std::unique_ptr<Morphing> MakeMorphing(Results& results)
 {
-  this->Own->Steps.check(options, varies, boundary);
+  return std::make_unique<RankMorphing>(results);
 }
 
-void Morphing::WriteUndeformedSurface(vtkUnstructuredGrid* grid, vtkPolyData* surface) const
-{
-  this->Own->Mesh.WriteUndeformedSurface(grid, surface);
-}
-
-void Morphing::Internals::Take(
+void RankMorphing::Take(
   vtkUnstructuredGrid* grid, const MotionOptions& options, morph::Monitor& monitor)
 {
   const std::unique_ptr<Method> sample = morph::distributed::makeMethod(options.createMorpher());
@@ -156,7 +155,7 @@ void Morphing::Internals::Take(
   }
 }
 
-morph::BoundaryTargets Morphing::Internals::Match(vtkDataObject* boundary, double fraction,
+morph::BoundaryTargets RankMorphing::Match(vtkDataObject* boundary, double fraction,
   const MotionOptions& options, std::vector<RankMatch::Follower>* followers,
   morph::Monitor& monitor) const
 {
@@ -174,7 +173,7 @@ morph::BoundaryTargets Morphing::Internals::Match(vtkDataObject* boundary, doubl
   return match;
 }
 
-std::unique_ptr<Method> Morphing::Internals::Make(const MotionOptions& options) const
+std::unique_ptr<Method> RankMorphing::Make(const MotionOptions& options) const
 {
   std::unique_ptr<Method> method =
     morph::distributed::makeMethod(options.settings(this->Mesh.HasPolyhedra()));
@@ -185,7 +184,7 @@ std::unique_ptr<Method> Morphing::Internals::Make(const MotionOptions& options) 
   return method;
 }
 
-morph::NodePartition Morphing::Internals::PartitionOf(
+morph::NodePartition RankMorphing::PartitionOf(
   const std::vector<morph::Index>& prescribed, morph::Monitor& monitor) const
 {
   morph::NodePartition partition;
@@ -198,7 +197,7 @@ morph::NodePartition Morphing::Internals::PartitionOf(
   return partition;
 }
 
-Method& Morphing::Internals::Prepare(
+Method& RankMorphing::Prepare(
   const morph::NodePartition& partition, const MotionOptions& options, morph::Monitor& monitor)
 {
   const auto& ranks = this->Mesh.Ranks();
@@ -222,7 +221,7 @@ Method& Morphing::Internals::Prepare(
   return *this->Prepared;
 }
 
-morph::StepResult Morphing::Internals::Step(const DistributedMesh* from,
+morph::StepResult RankMorphing::Step(const DistributedMesh* from,
   const morph::BoundaryTargets& match, const MotionOptions& options, morph::Monitor& monitor)
 {
   const DistributedMesh& whole = from ? *from : this->Mesh.Whole();
@@ -324,7 +323,7 @@ morph::StepResult Morphing::Internals::Step(const DistributedMesh* from,
   return result;
 }
 
-std::pair<int, morph::Series::Step> Morphing::Internals::LastUntil(int number) const
+std::pair<int, morph::Series::Step> RankMorphing::LastUntil(int number) const
 {
   // Ranks have meshes of different sizes, and may keep different steps.
   while (true)
@@ -339,7 +338,7 @@ std::pair<int, morph::Series::Step> Morphing::Internals::LastUntil(int number) c
   }
 }
 
-std::shared_ptr<const morph::StepResult> Morphing::Internals::MorphSeries(
+std::shared_ptr<const morph::StepResult> RankMorphing::MorphSeries(
   const Motion& motion, const MotionOptions& options, morph::Monitor& monitor)
 {
   const auto& ranks = this->Mesh.Ranks();
@@ -393,17 +392,17 @@ std::shared_ptr<const morph::StepResult> Morphing::Internals::MorphSeries(
   return result;
 }
 
-std::string Morphing::Run(const Task& task, const MotionOptions& options, morph::Monitor& monitor)
+std::string RankMorphing::Run(
+  const Task& task, const MotionOptions& options, morph::Monitor& monitor)
 {
-  Internals& own = *this->Own;
-  own.Take(task.Grid, options, monitor);
-  own.Mesh.SetFeatureLines(task.FeatureLines, monitor);
-  const bool isFirst = own.Mesh.Ranks().rank() == 0;
-  own.Mesh.WarnOfShared(monitor);
+  this->Take(task.Grid, options, monitor);
+  this->Mesh.SetFeatureLines(task.FeatureLines, monitor);
+  const bool isFirst = this->Mesh.Ranks().rank() == 0;
+  this->Mesh.WarnOfShared(monitor);
   if (options.measureAll)
   {
-    const std::string note = morph::Validity::note(
-      options.validity, RankQuality::GatherIds(own.Mesh.Whole(), own.Mesh.Before(monitor).cells()));
+    const std::string note = morph::Validity::note(options.validity,
+      RankQuality::GatherIds(this->Mesh.Whole(), this->Mesh.Before(monitor).cells()));
     if (!note.empty() && isFirst)
     {
       monitor.warn(note);
@@ -413,28 +412,28 @@ std::string Morphing::Run(const Task& task, const MotionOptions& options, morph:
   std::shared_ptr<const morph::StepResult> step;
   if (task.Series)
   {
-    step = own.MorphSeries(*task.Series, options, morphing);
+    step = this->MorphSeries(*task.Series, options, morphing);
   }
   else
   {
     const morph::BoundaryTargets match =
-      own.Match(task.Boundary, task.Fraction, options, nullptr, monitor);
-    step = std::make_shared<morph::StepResult>(own.Step(nullptr, match, options, morphing));
+      this->Match(task.Boundary, task.Fraction, options, nullptr, monitor);
+    step = std::make_shared<morph::StepResult>(this->Step(nullptr, match, options, morphing));
   }
   if (!step->valid.warning.empty() && isFirst)
   {
     monitor.warn(step->valid.warning);
   }
-  RankOutput::Write(own.Mesh, task, *step, own.Results, writing);
+  RankOutput::Write(this->Mesh, task, *step, this->Results, writing);
   return isFirst ? step->valid.error : "";
 }
 
-void Morphing::Transpose(vtkUnstructuredGrid* rest, vtkDataObject* boundary, vtkDataArray* gradient,
-  const MotionOptions& options, vtkDoubleArray* boundaryGradient, morph::Monitor& monitor)
+void RankMorphing::Transpose(vtkUnstructuredGrid* rest, vtkDataObject* boundary,
+  vtkDataArray* gradient, const MotionOptions& options, vtkDoubleArray* boundaryGradient,
+  morph::Monitor& monitor)
 {
-  Internals& own = *this->Own;
-  own.Take(rest, options, monitor);
-  const DistributedMesh& whole = own.Mesh.Whole();
+  this->Take(rest, options, monitor);
+  const DistributedMesh& whole = this->Mesh.Whole();
   const auto& ranks = whole.ranks();
   morph::Points nodes = morph::Points::Zero(whole.mesh().numberOfNodes(), 3);
   ranks.together(
@@ -447,12 +446,12 @@ void Morphing::Transpose(vtkUnstructuredGrid* rest, vtkDataObject* boundary, vtk
       }
     });
   std::vector<RankMatch::Follower> followers;
-  const morph::BoundaryTargets match = own.Match(boundary, 1, options, &followers, monitor);
+  const morph::BoundaryTargets match = this->Match(boundary, 1, options, &followers, monitor);
   morph::NodePartition partition;
   ranks.together([&] { partition = morph::partitionNodes(whole.mesh(), match.ids); });
   morph::ProgressRange preparing(monitor, 0.05, 0.5), applying(monitor, 0.5, 1);
-  const Method& method = own.Prepare(partition, options, preparing);
-  const std::string& status = own.Results.Text("MorphStatus");
+  const Method& method = this->Prepare(partition, options, preparing);
+  const std::string& status = this->Results.Text("MorphStatus");
   if ((options.postSmooth || status == "SubStepped" || status == "Repaired" ||
         status == "Partial") &&
       ranks.rank() == 0)

@@ -7,6 +7,7 @@
 #include "Private/Distributed/GatheredSurface.h"
 #include "Private/Distributed/RankMatch.h"
 #include "Private/Distributed/RankMesh.h"
+#include "Private/Distributed/WholeVolume.h"
 #include "Private/RankBlocks/GlobalRanks.h"
 #include "Support/Error.h"
 
@@ -55,29 +56,68 @@ void translate(vtkDataSetAttributes* data, const char* name, vtkIdType count,
   }
   data->AddArray(after);
 }
-}
 
-class WholeSurface::Internals
+class GatheredBoundary : public WholeSurface
 {
 public:
-  RankMesh Mesh;
-  const vtkUnstructuredGrid* Piece = nullptr; ///< compared, never used
-  vtkMTimeType PieceTime = 0;
-  GatheredSurface Surface;
+  void Take(vtkUnstructuredGrid* piece, morph::Monitor& monitor) override;
+  vtkUnstructuredGrid* Grid() const override { return this->Own.Surface.Grid; }
+  const morph::Mesh& Mesh() const override { return this->Own.Surface.Shell; }
+  const morph::BoundaryFaces& Faces() const override { return this->Own.Surface.Faces; }
+  const std::vector<Index>& BodyOfNode() const override { return this->Own.Surface.BodyOfNode; }
+  const std::vector<std::int8_t>& Orientation() const override
+  {
+    return this->Own.Surface.Orientation;
+  }
+  double Size() const override { return this->Own.Whole().size(); }
+  std::size_t Bytes() const override { return this->Own.Surface.Bytes; }
+  const RankMesh& Pieces() const override { return this->Own.Mesh; }
+  Index NumberOfBodies() const override
+  {
+    return static_cast<Index>(this->Own.Surface.NumberOfBody.size());
+  }
+  std::vector<Index> Places() const override;
+  Index NodeOf(std::int64_t id) const override;
+  const std::vector<std::int64_t>& NodeIds() const override { return this->Own.Surface.NodeIds; }
+  const std::vector<std::int64_t>& CellIds() const override { return this->Own.Surface.CellIds; }
+  morph::BoundaryTargets Match(
+    vtkPointSet* boundary, const BoundaryMatch::Options& options) const override;
+  void Together(const std::function<void()>& work) const override;
+  std::vector<std::uint8_t> AnyFlags(const std::vector<std::uint8_t>& ofPiece) const override;
+  void KeepOwn(vtkPolyData* surface) const override;
+  void MakeIdsGlobal(vtkPolyData* surface, vtkIdType count) const override;
+  vtkSmartPointer<vtkPolyData> OfPiece(vtkPolyData* surface) const override;
+  std::vector<std::int64_t> IdsOfPiece(const std::vector<Index>& points) const override;
+  std::pair<double, double> MaximumAndMean(
+    const std::vector<std::int64_t>& ids, const std::vector<double>& values) const override;
+  vtkSmartPointer<vtkPolyData> Gather(vtkPolyData* part) const override;
+  std::unique_ptr<morph::InnerPieces> Volume() const override
+  {
+    return std::make_unique<WholeVolume>(*this);
+  }
 
-  const DistributedMesh& Whole() const { return this->Mesh.Whole(); }
+private:
+  struct Internals
+  {
+    RankMesh Mesh;
+    const vtkUnstructuredGrid* Piece = nullptr; ///< compared, never used
+    vtkMTimeType PieceTime = 0;
+    GatheredSurface Surface;
+
+    const DistributedMesh& Whole() const { return this->Mesh.Whole(); }
+  };
+  Internals Own;
 };
-
-WholeSurface::WholeSurface()
-  : Own(new Internals)
-{
 }
 
-WholeSurface::~WholeSurface() = default;
-
-void WholeSurface::Take(vtkUnstructuredGrid* piece, morph::Monitor& monitor)
+std::unique_ptr<WholeSurface> WholeSurface::Make()
 {
-  Internals& own = *this->Own;
+  return std::make_unique<GatheredBoundary>();
+}
+
+void GatheredBoundary::Take(vtkUnstructuredGrid* piece, morph::Monitor& monitor)
+{
+  Internals& own = this->Own;
   const bool isNew = own.Mesh.Take(piece, 1, GridMesh::UnknownCells::Refuse, monitor);
   const bool same =
     !isNew && own.Surface.Grid && own.Piece == piece && own.PieceTime == piece->GetMTime();
@@ -92,54 +132,9 @@ void WholeSurface::Take(vtkUnstructuredGrid* piece, morph::Monitor& monitor)
   own.PieceTime = piece->GetMTime();
 }
 
-vtkUnstructuredGrid* WholeSurface::Grid() const
+std::vector<Index> GatheredBoundary::Places() const
 {
-  return this->Own->Surface.Grid;
-}
-
-const morph::Mesh& WholeSurface::Mesh() const
-{
-  return this->Own->Surface.Shell;
-}
-
-const morph::BoundaryFaces& WholeSurface::Faces() const
-{
-  return this->Own->Surface.Faces;
-}
-
-const std::vector<Index>& WholeSurface::BodyOfNode() const
-{
-  return this->Own->Surface.BodyOfNode;
-}
-
-const std::vector<std::int8_t>& WholeSurface::Orientation() const
-{
-  return this->Own->Surface.Orientation;
-}
-
-double WholeSurface::Size() const
-{
-  return this->Own->Whole().size();
-}
-
-std::size_t WholeSurface::Bytes() const
-{
-  return this->Own->Surface.Bytes;
-}
-
-const RankMesh& WholeSurface::Pieces() const
-{
-  return this->Own->Mesh;
-}
-
-Index WholeSurface::NumberOfBodies() const
-{
-  return static_cast<Index>(this->Own->Surface.NumberOfBody.size());
-}
-
-std::vector<Index> WholeSurface::Places() const
-{
-  const Internals& own = *this->Own;
+  const Internals& own = this->Own;
   const DistributedMesh& whole = own.Whole();
   const morph::Mesh& piece = own.Mesh.Piece();
   const Index nodes = own.Surface.Shell.numberOfNodes();
@@ -188,27 +183,17 @@ std::vector<Index> WholeSurface::Places() const
   return places;
 }
 
-Index WholeSurface::NodeOf(std::int64_t id) const
+Index GatheredBoundary::NodeOf(std::int64_t id) const
 {
-  const std::vector<std::int64_t>& ids = this->Own->Surface.NodeIds;
+  const std::vector<std::int64_t>& ids = this->Own.Surface.NodeIds;
   const auto found = std::lower_bound(ids.begin(), ids.end(), id);
   return found != ids.end() && *found == id ? static_cast<Index>(found - ids.begin()) : -1;
 }
 
-const std::vector<std::int64_t>& WholeSurface::NodeIds() const
-{
-  return this->Own->Surface.NodeIds;
-}
-
-const std::vector<std::int64_t>& WholeSurface::CellIds() const
-{
-  return this->Own->Surface.CellIds;
-}
-
-morph::BoundaryTargets WholeSurface::Match(
+morph::BoundaryTargets GatheredBoundary::Match(
   vtkPointSet* boundary, const BoundaryMatch::Options& options) const
 {
-  const Internals& own = *this->Own;
+  const Internals& own = this->Own;
   RankMatch::Gathered gathered = RankMatch::Gather(boundary, own.Whole(), options);
   morph::BoundaryTargets result;
   own.Mesh.Ranks().together(
@@ -241,9 +226,9 @@ morph::BoundaryTargets WholeSurface::Match(
   return result;
 }
 
-void WholeSurface::Together(const std::function<void()>& work) const
+void GatheredBoundary::Together(const std::function<void()>& work) const
 {
-  this->Own->Mesh.Ranks().together(
+  this->Own.Mesh.Ranks().together(
     [&]
     {
       try
@@ -262,28 +247,28 @@ void WholeSurface::Together(const std::function<void()>& work) const
     });
 }
 
-std::vector<std::uint8_t> WholeSurface::AnyFlags(const std::vector<std::uint8_t>& ofPiece) const
+std::vector<std::uint8_t> GatheredBoundary::AnyFlags(const std::vector<std::uint8_t>& ofPiece) const
 {
   std::vector<std::int64_t> ids;
   for (std::size_t n = 0; n < ofPiece.size(); ++n)
   {
-    const std::int64_t id = this->Own->Whole().nodeId(static_cast<Index>(n));
+    const std::int64_t id = this->Own.Whole().nodeId(static_cast<Index>(n));
     if (ofPiece[n] != 0 && this->NodeOf(id) >= 0)
     {
       ids.push_back(id);
     }
   }
-  std::vector<std::uint8_t> flags(this->Own->Surface.NodeIds.size(), 0);
-  for (const std::int64_t id : this->Own->Mesh.Ranks().gather(ids))
+  std::vector<std::uint8_t> flags(this->Own.Surface.NodeIds.size(), 0);
+  for (const std::int64_t id : this->Own.Mesh.Ranks().gather(ids))
   {
     flags[this->NodeOf(id)] = 1;
   }
   return flags;
 }
 
-void WholeSurface::KeepOwn(vtkPolyData* surface) const
+void GatheredBoundary::KeepOwn(vtkPolyData* surface) const
 {
-  const Internals& own = *this->Own;
+  const Internals& own = this->Own;
   const int rank = own.Mesh.Ranks().rank();
   vtkDataArray* behind = surface->GetCellData()->GetArray(GatheredSurface::CellName);
   vtkDataArray* nodeOf = surface->GetPointData()->GetArray(Surface::IdName);
@@ -343,18 +328,18 @@ void WholeSurface::KeepOwn(vtkPolyData* surface) const
   surface->ShallowCopy(kept);
 }
 
-void WholeSurface::MakeIdsGlobal(vtkPolyData* surface, vtkIdType count) const
+void GatheredBoundary::MakeIdsGlobal(vtkPolyData* surface, vtkIdType count) const
 {
-  const DistributedMesh& whole = this->Own->Whole();
+  const DistributedMesh& whole = this->Own.Whole();
   const vtkIdType first = surface->GetNumberOfPoints() - count;
   vtkIdType point = 0;
   translate(surface->GetPointData(), Surface::IdName, surface->GetNumberOfPoints(),
     [&](vtkIdType id) { return point++ < first ? id : static_cast<vtkIdType>(whole.nodeId(id)); });
 }
 
-vtkSmartPointer<vtkPolyData> WholeSurface::OfPiece(vtkPolyData* surface) const
+vtkSmartPointer<vtkPolyData> GatheredBoundary::OfPiece(vtkPolyData* surface) const
 {
-  const DistributedMesh& whole = this->Own->Whole();
+  const DistributedMesh& whole = this->Own.Whole();
   auto result = vtkSmartPointer<vtkPolyData>::New();
   result->ShallowCopy(surface);
   translate(result->GetPointData(), Surface::IdName, result->GetNumberOfPoints(),
@@ -378,17 +363,17 @@ vtkSmartPointer<vtkPolyData> WholeSurface::OfPiece(vtkPolyData* surface) const
   return result;
 }
 
-std::vector<std::int64_t> WholeSurface::IdsOfPiece(const std::vector<Index>& points) const
+std::vector<std::int64_t> GatheredBoundary::IdsOfPiece(const std::vector<Index>& points) const
 {
   std::vector<std::int64_t> ids;
   for (const Index point : points)
   {
-    ids.push_back(this->Own->Whole().nodeId(point));
+    ids.push_back(this->Own.Whole().nodeId(point));
   }
   return ids;
 }
 
-std::pair<double, double> WholeSurface::MaximumAndMean(
+std::pair<double, double> GatheredBoundary::MaximumAndMean(
   const std::vector<std::int64_t>& ids, const std::vector<double>& values) const
 {
   struct Value
@@ -401,7 +386,7 @@ std::pair<double, double> WholeSurface::MaximumAndMean(
   {
     all.push_back({ ids[i], values[i] });
   }
-  all = this->Own->Mesh.Ranks().gather(all);
+  all = this->Own.Mesh.Ranks().gather(all);
   std::sort(all.begin(), all.end(),
     [](const Value& a, const Value& b)
     { return std::tie(a.id, a.value) < std::tie(b.id, b.value); });
@@ -419,7 +404,7 @@ std::pair<double, double> WholeSurface::MaximumAndMean(
   return { most, count > 0 ? sum / static_cast<double>(count) : most };
 }
 
-vtkSmartPointer<vtkPolyData> WholeSurface::Gather(vtkPolyData* part)
+vtkSmartPointer<vtkPolyData> GatheredBoundary::Gather(vtkPolyData* part) const
 {
   std::size_t bytes = 0;
   const Ranks ranks = GlobalRanks();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "BoundaryMover/InnerPieces.h"
 #include "Mesh/Mesh.h"
 #include "Mesh/Topology.h"
 #include "Private/Morph/BoundaryMatch.h"
@@ -33,76 +34,77 @@ class RankMesh;
 class WholeSurface
 {
 public:
-  WholeSurface();
-  ~WholeSurface();
+  /// Throws std::logic_error in a build without MPI.
+  static std::unique_ptr<WholeSurface> Make();
+  virtual ~WholeSurface() = default;
 
   /// Gathers the boundary, unless the pieces are those that it was gathered from. Throws
   /// morph::Error on all processes for a mesh that cannot be read or has no volume cells.
   /// Collective, as all functions that say so.
-  void Take(vtkUnstructuredGrid* piece, morph::Monitor& monitor);
+  virtual void Take(vtkUnstructuredGrid* piece, morph::Monitor& monitor) = 0;
 
   /// Those cells, with the arrays that all pieces have.
-  vtkUnstructuredGrid* Grid() const;
-  const morph::Mesh& Mesh() const; ///< of Grid()
+  virtual vtkUnstructuredGrid* Grid() const = 0;
+  virtual const morph::Mesh& Mesh() const = 0; ///< of Grid()
   /// The outer faces of the whole mesh; partition interfaces are none.
-  const morph::BoundaryFaces& Faces() const;
+  virtual const morph::BoundaryFaces& Faces() const = 0;
   /// #nodes: the body of the whole mesh, or -1, as ConnectedComponents has it.
-  const std::vector<morph::Index>& BodyOfNode() const;
+  virtual const std::vector<morph::Index>& BodyOfNode() const = 0;
   /// #cells: cellSigns() of the whole mesh.
-  const std::vector<std::int8_t>& Orientation() const;
+  virtual const std::vector<std::int8_t>& Orientation() const = 0;
   /// The diagonal of the whole mesh's bounding box.
-  double Size() const;
+  virtual double Size() const = 0;
   /// Bytes that this process received to gather the boundary.
-  std::size_t Bytes() const;
+  virtual std::size_t Bytes() const = 0;
 
   /// The pieces that it was gathered from.
-  const RankMesh& Pieces() const;
+  virtual const RankMesh& Pieces() const = 0;
 
   /// Bodies of the whole mesh, numbered by their lowest cell.
-  morph::Index NumberOfBodies() const;
+  virtual morph::Index NumberOfBodies() const = 0;
   /// For each point of the piece its node of Grid(), or #nodes + its body or, for a point of no
   /// volume cell, #nodes + NumberOfBodies().
-  std::vector<morph::Index> Places() const;
+  virtual std::vector<morph::Index> Places() const = 0;
   /// The node of Grid() with a global id, or -1.
-  morph::Index NodeOf(std::int64_t id) const;
+  virtual morph::Index NodeOf(std::int64_t id) const = 0;
   /// The global ids of the nodes and cells of Grid(), ascending.
   ///@{
-  const std::vector<std::int64_t>& NodeIds() const;
-  const std::vector<std::int64_t>& CellIds() const;
+  virtual const std::vector<std::int64_t>& NodeIds() const = 0;
+  virtual const std::vector<std::int64_t>& CellIds() const = 0;
   ///@}
   /// BoundaryMatch::Match() for the nodes of Grid(). `boundary`: the points of this process. Inner
   /// nodes that it names are left out. Collective.
-  morph::BoundaryTargets Match(vtkPointSet* boundary, const BoundaryMatch::Options& options) const;
+  virtual morph::BoundaryTargets Match(
+    vtkPointSet* boundary, const BoundaryMatch::Options& options) const = 0;
 
   /// Calls `work`, the same on each process, which must not communicate; throws as
   /// Ranks::Together() does. A message with ids says of what they are. Collective.
-  void Together(const std::function<void()>& work) const;
+  virtual void Together(const std::function<void()>& work) const = 0;
 
   /// Whether any process sets a node's flag. `ofPiece`: of its points, or empty. Collective.
-  std::vector<std::uint8_t> AnyFlags(const std::vector<std::uint8_t>& ofPiece) const;
+  virtual std::vector<std::uint8_t> AnyFlags(const std::vector<std::uint8_t>& ofPiece) const = 0;
 
   /// Leaves those cells of a surface of Grid() that belong to cells of this process, and the
   /// points on them; a cell without MorphCellId belongs where its first point does. MorphPointId
   /// and MorphCellId, nodes and cells of Grid() before, become global ids.
-  void KeepOwn(vtkPolyData* surface) const;
+  virtual void KeepOwn(vtkPolyData* surface) const = 0;
   /// Replaces points of the piece in MorphPointId by global ids, for the last `count` points.
-  void MakeIdsGlobal(vtkPolyData* surface, vtkIdType count) const;
+  virtual void MakeIdsGlobal(vtkPolyData* surface, vtkIdType count) const = 0;
   /// A shallow copy of what KeepOwn() left, where MorphPointId and MorphCellId are points and cells
   /// of this process's piece.
-  vtkSmartPointer<vtkPolyData> OfPiece(vtkPolyData* surface) const;
+  virtual vtkSmartPointer<vtkPolyData> OfPiece(vtkPolyData* surface) const = 0;
   /// The global ids of points of the piece.
-  std::vector<std::int64_t> IdsOfPiece(const std::vector<morph::Index>& points) const;
+  virtual std::vector<std::int64_t> IdsOfPiece(const std::vector<morph::Index>& points) const = 0;
   /// The largest and the mean of values of nodes, each of which counts once. `ids`: global, of the
   /// nodes that this process has a value for. NaN without any. Collective.
-  std::pair<double, double> MaximumAndMean(
-    const std::vector<std::int64_t>& ids, const std::vector<double>& values) const;
+  virtual std::pair<double, double> MaximumAndMean(
+    const std::vector<std::int64_t>& ids, const std::vector<double>& values) const = 0;
 
   /// All processes' parts of a surface as one, the same on each of them. Where processes have equal
   /// parts, as where each has read the whole surface, one of these counts. Collective.
-  static vtkSmartPointer<vtkPolyData> Gather(vtkPolyData* part);
+  virtual vtkSmartPointer<vtkPolyData> Gather(vtkPolyData* part) const = 0;
 
-private:
-  class Internals;
-  std::unique_ptr<Internals> Own;
+  /// The inner nodes of the mesh, by nodes of Grid(). Holds this object by reference, after Take().
+  virtual std::unique_ptr<morph::InnerPieces> Volume() const = 0;
 };
 }

@@ -188,7 +188,7 @@ OnRanks::Morphing& GridMorpher::Ranks()
 {
   if (!this->Distributed)
   {
-    this->Distributed = std::make_unique<OnRanks::Morphing>(this->Results);
+    this->Distributed = OnRanks::MakeMorphing(this->Results);
   }
   return *this->Distributed;
 }
