@@ -280,7 +280,7 @@ void vtkMorphBoundary::vtkInternals::Morph(vtkUnstructuredGrid* grid, vtkDataObj
   const morph::Mesh mesh = filters::GridMesh::FromGrid(grid);
   morph::requireVolumeCells(mesh);
   const morph::BoundaryFaces faces = morph::boundaryFaces(mesh, monitor);
-  const std::vector<Index> bodyOfNode = morph::connectedComponents(mesh).ofNode;
+  const std::vector<Index> bodyOfNode = morph::bodyOfNodes(mesh, morph::connectedComponents(mesh));
   const double size = morph::meshSize(mesh);
   const auto match = [&]
   { return filters::BoundaryMatch::Match(given, mesh, faces, size, this->Matching()); };

@@ -170,11 +170,11 @@ TEST(Bodies, AMotionFadesWithinItsBody)
     motions::difference(moved.topRows(cubes.half), cubes.mesh.points.topRows(cubes.half)), 0.29);
 }
 
-/// A box of hexahedra, 125 nodes, and one of tetrahedra above it.
+/// A box of hexahedra, 125 nodes, and a wider one of tetrahedra above it.
 morph::Mesh tower(double gap)
 {
   morph::Mesh upper = meshes::tets(3, 3, 3);
-  meshes::transform(upper, [&](const Row& x) { return Row(x * 4 / 3 + Row(0, 0, 4 + gap)); });
+  meshes::transform(upper, [&](const Row& x) { return Row(x * 1.6 + Row(-0.4, -0.4, 4 + gap)); });
   return shapes::together(meshes::hexes(4, 4, 4), upper);
 }
 
@@ -198,16 +198,21 @@ TEST(Bodies, ContactKeepsItsGapWhicheverSideTurns)
       int followers = 0;
       for (const Index node : boundary.model.faces.nodes)
       {
-        if (!isAsked(node) && std::abs(mesh.points(node, 2) - (isLower ? 4 + gap : 4)) < 1e-12)
+        const Row x = mesh.points.row(node);
+        if (!isAsked(node) && std::abs(x[2] - (isLower ? 4 + gap : 4)) < 1e-12 && x[0] >= 0 &&
+            x[0] <= 4 && x[1] >= 0 && x[1] <= 4)
         {
-          EXPECT_LT((moved.row(node) - turned(mesh.points.row(node))).norm(), 1e-12);
+          EXPECT_LT((moved.row(node) - turned(x)).norm(), 1e-12);
           ++followers;
         }
       }
-      EXPECT_EQ(followers, isLower ? 16 : 25);
-      const morph::Contact::Gaps after = boundary.mover.contact().gaps(boundary.model, moved);
-      EXPECT_NEAR(after.least, gap, 1e-12);
-      EXPECT_NEAR(after.most, gap, 1e-12);
+      EXPECT_EQ(followers, isLower ? 4 : 25);
+      if (!isLower) // else nodes below the sides of the wider box follow its other nodes
+      {
+        const morph::Contact::Gaps after = boundary.mover.contact().gaps(boundary.model, moved);
+        EXPECT_NEAR(after.least, gap, 1e-12);
+        EXPECT_NEAR(after.most, gap, 1e-12);
+      }
     }
   }
 }

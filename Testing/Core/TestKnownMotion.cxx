@@ -159,7 +159,7 @@ TEST(KnownMotion, CurvesFollowTheFirstSetThatHoldsThem)
       const double a = x[1] * std::acos(0.) / 6, r = 1 + 0.25 * x[0];
       return Row(r * std::cos(a), r * std::sin(a), 0.3 * x[2]);
     });
-  int second = 0, later = 0;
+  int second = 0;
   const std::vector<std::pair<Mesh, std::size_t>> cases = { { plateWithHoles(2), 7 },
     { plateWithHoles(2), 0 }, { arcs, 0 }, { shapes::boxWithHole(32, 4, 3), 40 },
     { shapes::together(shapes::cylinder(8, 4), meshes::tets(2, 2, 2)), 7 },
@@ -184,7 +184,6 @@ TEST(KnownMotion, CurvesFollowTheFirstSetThatHoldsThem)
         if (holds(meshes::rows(c.mesh.points, sets[k]), places))
         {
           second += k == 1;
-          later += k > 1;
           break;
         }
       }
@@ -192,7 +191,6 @@ TEST(KnownMotion, CurvesFollowTheFirstSetThatHoldsThem)
     }
   }
   EXPECT_GT(second, 0);
-  EXPECT_GT(later, 0);
 }
 
 TEST(KnownMotion, CurvesCostWhatTheBoundaryDoesHoweverManyThereAre)

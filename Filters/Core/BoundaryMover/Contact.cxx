@@ -102,6 +102,17 @@ Row normalAt(const Points& points, const std::array<Index, 3>& corners)
   return (points.row(corners[1]) - a).cross(points.row(corners[2]) - a);
 }
 
+/// Rows of unit length, orthogonal: a side of the triangle, across it, and its normal; zero for a
+/// triangle without area.
+Eigen::Matrix3d frameOf(const Points& points, const std::array<Index, 3>& corners)
+{
+  const Row normal = normalAt(points, corners).normalized();
+  const Row side = (points.row(corners[1]) - points.row(corners[0])).normalized();
+  Eigen::Matrix3d frame;
+  frame << side, normal.cross(side), normal;
+  return frame;
+}
+
 /// The weights of a place in a triangle, by areas; in one without area those of its nearest corner.
 Row weightsAt(const Points& points, const std::array<Index, 3>& corners, const Row& place)
 {
@@ -189,13 +200,12 @@ bool Contact::follow(
     {
       continue;
     }
-    const Row from = normalAt(points, pair.corners), to = normalAt(result.moved, pair.corners);
+    const Eigen::Matrix3d from = frameOf(points, pair.corners);
+    const Eigen::Matrix3d to = frameOf(result.moved, pair.corners);
     Row gap = points.row(pair.node) - before;
-    if (!from.isZero(0) && !to.isZero(0))
+    if (!from.row(2).isZero(0) && !to.row(2).isZero(0)) // else the face has no direction
     {
-      gap = gap * Eigen::Quaterniond::FromTwoVectors(from.transpose(), to.transpose())
-                    .toRotationMatrix()
-                    .transpose();
+      gap = gap * from.transpose() * to;
     }
     added.emplace_back(pair.node, after + gap);
     this->followers_.push_back(pair.node);
@@ -250,8 +260,10 @@ Contact::Gaps Contact::gaps(const BoundaryModel& model, const Points& points) co
     const TriangleTree::Found found =
       otherBody(model, triangles, pair.node, place, std::numeric_limits<double>::infinity());
     const Row arm = place - found.place;
-    const double gap =
-      arm.dot(triangles.tree.normal(found.triangle)) < 0 ? -arm.norm() : arm.norm();
+    // At an edge the arm may lie in the plane of the face, by rounding below it.
+    constexpr double Below = -1e-6;
+    const double height = arm.dot(triangles.tree.normal(found.triangle));
+    const double gap = height < Below * arm.norm() ? -arm.norm() : arm.norm();
     gaps.least = std::min(gaps.least, gap);
     gaps.most = std::max(gaps.most, gap);
   }

@@ -315,8 +315,7 @@ void GatheredSurface::DescribeCells(const std::vector<std::vector<CellRecord>>& 
 {
   this->Orientation.assign(this->CellIds.size(), 1);
   this->RankOfCell.assign(this->CellIds.size(), std::numeric_limits<int>::max());
-  const std::vector<Index> isCorner = morph::connectedComponents(this->Shell).ofNode;
-  this->BodyOfNode.assign(isCorner.size(), -1);
+  this->BodyOfNode.assign(this->Shell.numberOfNodes(), -1);
   for (std::size_t p = 0; p < cells.size(); ++p)
   {
     for (std::size_t c = 0; c < cells[p].size(); ++c)
@@ -326,8 +325,7 @@ void GatheredSurface::DescribeCells(const std::vector<std::vector<CellRecord>>& 
       this->RankOfCell[cell] = std::min(this->RankOfCell[cell], static_cast<int>(p));
       for (Index k = 0; cells[p][c].body >= 0 && k < this->Shell.cellSize(cell); ++k)
       {
-        const Index node = this->Shell.cell(cell)[k];
-        this->BodyOfNode[node] = isCorner[node] < 0 ? -1 : cells[p][c].body;
+        this->BodyOfNode[this->Shell.cell(cell)[k]] = cells[p][c].body;
       }
     }
   }

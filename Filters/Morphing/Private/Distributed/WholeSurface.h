@@ -48,7 +48,7 @@ public:
   virtual const morph::Mesh& Mesh() const = 0; ///< of Grid()
   /// The outer faces of the whole mesh; partition interfaces are none.
   virtual const morph::BoundaryFaces& Faces() const = 0;
-  /// #nodes: the body of the whole mesh, or -1, as ConnectedComponents has it.
+  /// #nodes: the body of the whole mesh, or -1; see bodyOfNodes().
   virtual const std::vector<morph::Index>& BodyOfNode() const = 0;
   /// #cells: cellSigns() of the whole mesh.
   virtual const std::vector<std::int8_t>& Orientation() const = 0;
