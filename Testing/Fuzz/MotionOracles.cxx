@@ -439,6 +439,25 @@ Finding checkAttached(const Case& made, vtkAlgorithm* filter, const Run& run)
   return {};
 }
 
+namespace
+{
+/// The least distance, above 0, of nodes that follow one another in a cell.
+double shortestEdge(const morph::Mesh& mesh)
+{
+  double least = std::numeric_limits<double>::infinity();
+  for (Index c = 0; c < mesh.numberOfCells(); ++c)
+  {
+    for (Index k = 1; k < mesh.cellSize(c); ++k)
+    {
+      const double length =
+        (mesh.points.row(mesh.cell(c)[k]) - mesh.points.row(mesh.cell(c)[k - 1])).norm();
+      least = length > 0 ? std::min(least, length) : least;
+    }
+  }
+  return least;
+}
+}
+
 Finding checkRanges(Case& made, vtkAlgorithm* filter, const Run& run)
 {
   auto* shapes = vtkMorphShapes::SafeDownCast(filter);
@@ -485,9 +504,9 @@ Finding checkRanges(Case& made, vtkAlgorithm* filter, const Run& run)
     const Run again = execute(shapes, made.time);
     // Of places that are too far, and of cells without volume, the determinants are rounding.
     constexpr double Rounding = 1e-12;
-    const bool isFar =
-      pointsOf(vtkPointSet::SafeDownCast(again.outputs.front())).cwiseAbs().maxCoeff() >
-      1e4 * made.grid.size;
+    const morph::Points places = pointsOf(vtkPointSet::SafeDownCast(again.outputs.front()));
+    const bool isFar = places.cwiseAbs().maxCoeff() > 1e4 * made.grid.size ||
+                       rounding(places, false) > 1e-6 * shortestEdge(made.grid.mesh);
     if (again.errors.empty() && !isFar && shapes->GetNewInvertedCells() > 0 &&
         shapes->GetMinScaledJacobian() < -Rounding)
     {

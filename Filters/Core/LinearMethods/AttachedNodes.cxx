@@ -129,6 +129,22 @@ std::vector<Index> AttachedNodes::anchorsOf(
   return anchors;
 }
 
+namespace
+{
+/// Calls act(row, column, value).
+template <typename Matrix, typename Act>
+void forEachEntry(const Matrix& matrix, const Act& act)
+{
+  for (int k = 0; k < matrix.outerSize(); ++k)
+  {
+    for (typename Matrix::InnerIterator entry(matrix, k); entry; ++entry)
+    {
+      act(entry.row(), entry.col(), entry.value());
+    }
+  }
+}
+}
+
 AttachedNodes::AttachedNodes(const Mesh& rest, const NodePartition& partition)
   : rest_(&rest)
   , piece_{ [](Index id) { return id; }, [](Index) { return true; }, [](double*, std::size_t) {} }
@@ -182,6 +198,15 @@ void AttachedNodes::prepare(std::vector<Link> links, std::vector<Index> anchors)
     }
   }
   this->anchors_ = std::move(anchors);
+  std::vector<int> first(all.size(), -1); // anchor of a part
+  for (int a = static_cast<int>(this->anchors_.size()) - 1; a >= 0; --a)
+  {
+    first[parts.root(placeOf(all, this->anchors_[a]))] = a;
+  }
+  for (const Index id : this->ids_)
+  {
+    this->reference_.push_back(first[parts.root(placeOf(all, id))]);
+  }
 
   std::vector<Eigen::Triplet<double, int>> own, coupling;
   for (const Link& link : links)
@@ -302,7 +327,11 @@ void AttachedNodes::apply(Points& moved) const
     motion.row(a).tail<9>() = Eigen::Map<const Eigen::RowVectorXd>(turn.data(), 9);
   }
   this->piece_.sum(motion.data(), static_cast<std::size_t>(motion.size()));
-  const Rows own = this->factor_->solve(Rows(this->coupling_ * motion));
+  // From the motion of one anchor on: what hangs at that alone moves by it, to the last bit.
+  Rows right = Rows::Zero(static_cast<Index>(this->ids_.size()), 12);
+  forEachEntry(this->coupling_, [&](Index i, Index a, double weight)
+    { right.row(i) += weight * (motion.row(a) - motion.row(this->reference_[i])); });
+  const Rows own = Rows(this->factor_->solve(right)) + motion(this->reference_, allColumns);
   for (Index i = 0; i < own.rows(); ++i)
   {
     const Index node = this->piece_.nodeOf(this->ids_[i]);
@@ -344,7 +373,18 @@ void AttachedNodes::applyTranspose(Points& gradient) const
     }
   }
   this->piece_.sum(own.data(), static_cast<std::size_t>(own.size()));
-  const Rows motion = this->coupling_.transpose() * Rows(this->factor_->solve(own));
+  const Rows right = this->factor_->solve(own);
+  Rows motion = Rows::Zero(static_cast<Index>(this->anchors_.size()), 12);
+  for (Index i = 0; i < own.rows(); ++i)
+  {
+    motion.row(this->reference_[i]) += own.row(i);
+  }
+  forEachEntry(this->coupling_,
+    [&](Index i, Index a, double weight)
+    {
+      motion.row(a) += weight * right.row(i);
+      motion.row(this->reference_[i]) -= weight * right.row(i);
+    });
   for (Index a = 0; a < motion.rows(); ++a)
   {
     const Index node = this->nodeOfAnchor_[a];

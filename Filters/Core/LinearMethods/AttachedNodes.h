@@ -84,6 +84,7 @@ private:
   std::vector<Index> ids_, loose_, anchors_;
   std::vector<Index> nodeOfAnchor_; ///< #anchors; -1 for those that another process owns
   Matrix coupling_;                 ///< #nodes x #anchors
+  std::vector<int> reference_;      ///< #nodes, an anchor of its part
   std::shared_ptr<Eigen::SimplicialLDLT<Matrix>> factor_;
   Adjacency rings_; ///< of each such anchor: the nodes of the volume cells around it, with it
   Eigen::RowVector3d origin_ = Eigen::RowVector3d::Zero();

@@ -81,30 +81,30 @@ struct Step
   double sign; ///< of the direction
   int degree;  ///< of the bounds
   double most; ///< what is of interest
-  struct Bound
-  {
-    Polynomial value;
-    Lengths lengths; ///< of the edges whose determinant it bounds
-  };
-  std::vector<Bound> bounds;
+  std::vector<Polynomial> bounds;
 
+  /// A bound that may reach 0 is less rounding, whatever is of interest: else the end of a cell
+  /// could depend on the ends found before.
   void add(const Polynomial& determinant, const Lengths& lengths)
   {
-    this->bounds.push_back({ determinant, lengths });
-    Polynomial& value = this->bounds.back().value;
+    Polynomial value = determinant;
     for (int k = 1; k <= this->degree; k += 2)
     {
       value[k] *= this->sign;
     }
     if (this->degree > 3)
     {
-      subtract(products(lengths, true), 1, value);
+      this->subtract(products(lengths, true), 1, value);
     }
+    if (!this->isPositive(value, Infinity))
+    {
+      this->subtract(products(lengths, false), Rounding, value);
+    }
+    this->bounds.push_back(value);
   }
-  /// Whether the bound needs no root: most do not.
-  bool isPositive(const Bound& bound, double last) const
+  bool isPositive(const Polynomial& bound, double last) const
   {
-    return isPositiveUntil(bound.value.data(), this->degree, last);
+    return isPositiveUntil(bound.data(), this->degree, last);
   }
   /// Forgets the bounds, and returns the step; infinity if it is beyond `most`. Else it does not
   /// depend on it.
@@ -112,15 +112,14 @@ struct Step
   {
     double length = Infinity;
     const bool isBeyond = std::all_of(this->bounds.begin(), this->bounds.end(),
-      [this](const Bound& bound) { return this->isPositive(bound, this->most); });
-    for (Bound& bound : this->bounds)
+      [this](const Polynomial& bound) { return this->isPositive(bound, this->most); });
+    for (const Polynomial& bound : this->bounds)
     {
       if (!isBeyond && !this->isPositive(bound, length))
       {
-        subtract(products(bound.lengths, false), Rounding, bound.value);
         // Other steps follow, and few where the bound is nearly the determinant.
         const double precision = this->degree == 3 ? 1e-12 : 1e-2;
-        length = std::min(length, firstPositiveRoot(bound.value.data(), this->degree, precision));
+        length = std::min(length, firstPositiveRoot(bound.data(), this->degree, precision));
       }
     }
     this->bounds.clear();
