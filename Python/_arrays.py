@@ -172,7 +172,7 @@ def _from_blocks(blocks: Sequence[Any]) -> _Cells:
 
 
 def _from_flat(cells: Ids, types: Ids) -> _Cells:
-    """VTK's cells in one row: n, n ids, n, n ids, ..., where those of a polyhedron are its faces."""
+    """VTK's cells in one row: n, n ids, n, n ids, ..., of a polyhedron its stream of faces."""
     row, place, starts = cells.tolist(), 0, []
     for cell in range(len(types)):
         if place >= len(row) or row[place] < 0:

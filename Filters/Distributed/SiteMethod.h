@@ -11,9 +11,9 @@
 namespace morph::distributed
 {
 /// A method that interpolates between the prescribed nodes and reads no cells. Each rank gathers
-/// all prescribed nodes, and evaluates its own free nodes by the serial method, each body alone. So memory and
-/// messages of each rank grow with the whole boundary: 32 bytes a prescribed node to prepare, 24 a
-/// motion.
+/// all prescribed nodes, and evaluates its own free nodes by the serial method, each body alone. So
+/// memory and messages of each rank grow with the whole boundary: 32 bytes a prescribed node to
+/// prepare, 24 a motion.
 class SiteMethod : public Method
 {
 public:

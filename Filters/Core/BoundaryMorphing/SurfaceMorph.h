@@ -56,9 +56,9 @@ struct SurfaceWeights
 /// Moves the unknown nodes of all surfaces. Each surface moves by itself; nodes of its curves and
 /// vertices, and given nodes on it, are fixed. Call it after morphCurves(). A surface without known
 /// nodes (closed, without curves) follows the known nodes of its body by options.unattached, and
-/// stays where there are none. A surface whose known nodes do not move stays exactly. `kept`: reused
-/// weights, or null; the result is the same. Throws Error as SurfaceResidual does. Cost: that of
-/// the method on each surface.
+/// stays where there are none. A surface whose known nodes do not move stays exactly. `kept`:
+/// reused weights, or null; the result is the same. Throws Error as SurfaceResidual does. Cost:
+/// that of the method on each surface.
 SurfaceMorphReport morphSurfaces(const BoundaryFaces& faces, const Classification& geometry,
   const SurfaceMorphOptions& options, BoundaryMotion& motion, Monitor& monitor,
   SurfaceWeights* kept = nullptr);

@@ -270,9 +270,8 @@ Contact::Gaps Contact::gaps(const BoundaryModel& model, const Points& points) co
   return gaps;
 }
 
-std::string Contact::report(const BoundaryModel& model, const Surroundings::Result& result) const
+std::string Contact::report(const Gaps& before, const Gaps& after) const
 {
-  const Gaps before = this->gaps(model, model.points()), after = this->gaps(model, result.moved);
   std::ostringstream text;
   text << this->pairs_.size() << " nodes in contact: gap " << before.least << " to " << before.most
        << " before, " << after.least << " to " << after.most << " after";

@@ -15,8 +15,7 @@ namespace morph
 /// Contact between bodies, whose nodes need not match. Nodes of a body of which nothing else is
 /// asked follow their nearest place on the boundary of a body that moves: a node x above the place
 /// p of a face goes to p' + R (x - p), where p' keeps its weights in the face and R turns as the
-/// face does. So the gap stays, 0 exactly. The motion of such a body may
-/// take others along.
+/// face does. So the gap stays, 0 exactly. The motion of such a body may take others along.
 class Contact
 {
 public:
@@ -45,8 +44,8 @@ public:
   void setRoles(Surroundings::Result& result) const;
   /// Of all nodes in contact, the boundary being at `points`, #nodes x 3. Cost: as find().
   Gaps gaps(const BoundaryModel& model, const Points& points) const;
-  /// What became of the contact: the number of nodes, and gaps before and after.
-  std::string report(const BoundaryModel& model, const Surroundings::Result& result) const;
+  /// Tells the number of nodes in contact and their gaps.
+  std::string report(const Gaps& before, const Gaps& after) const;
 
 private:
   struct Pair

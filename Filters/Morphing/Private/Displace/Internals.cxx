@@ -53,18 +53,14 @@ void writeRounds(
   data->AddArray(force);
 }
 
-/// The gaps of contact, before and after.
 void writeGaps(
-  const morph::BoundaryModel& model, const morph::BoundaryMover& mover, vtkFieldData* data)
+  const morph::Contact::Gaps& before, const morph::Contact::Gaps& after, vtkFieldData* data)
 {
   vtkNew<vtkDoubleArray> gaps;
   gaps->SetName("ContactGaps");
   gaps->SetNumberOfComponents(2);
-  for (const morph::Points* points : { &model.points(), &mover.result().moved })
-  {
-    const morph::Contact::Gaps found = mover.contact().gaps(model, *points);
-    gaps->InsertNextTuple2(found.least, found.most);
-  }
+  gaps->InsertNextTuple2(before.least, before.most);
+  gaps->InsertNextTuple2(after.least, after.most);
   data->AddArray(gaps);
 }
 
@@ -521,8 +517,11 @@ void vtkDisplacementAlgorithm::vtkInternals::Write(const Options& options, vtkPo
   }
   if (mover.contact.distance > 0)
   {
-    writeGaps(this->Model, this->Mover, output->GetFieldData());
-    this->ContactReport = this->Mover.contact().report(this->Model, result);
+    const morph::Contact& contact = this->Mover.contact();
+    const morph::Contact::Gaps before = contact.gaps(this->Model, this->Model.points());
+    const morph::Contact::Gaps after = contact.gaps(this->Model, result.moved);
+    writeGaps(before, after, output->GetFieldData());
+    this->ContactReport = contact.report(before, after);
   }
   if (mover.hasInner() || mover.slideRounds > 0 || mover.contact.distance > 0)
   {

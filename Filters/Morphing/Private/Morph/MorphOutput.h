@@ -42,8 +42,8 @@ struct Measures
 /// Throws morph::Error where that precision does not hold the points.
 void WriteMesh(const KeptMesh& kept, const morph::Points& moved, int precision,
   vtkUnstructuredGrid* grid, vtkUnstructuredGrid* output, morph::Monitor& monitor);
-/// Writes what is measured on outputs.Mesh, which has a step's mesh: its quality, its inverted cells
-/// and its surface. It does not read the step's points. `boundary`: the displaced one.
+/// Writes what is measured on outputs.Mesh, which has a step's mesh: its quality, its inverted
+/// cells and its surface. It does not read the step's points. `boundary`: the displaced one.
 void WriteMeasures(const KeptMesh& kept, const morph::StepResult& step, Measures measures,
   vtkPointSet* boundary, Results& results, const Outputs& outputs, morph::Monitor& monitor);
 
