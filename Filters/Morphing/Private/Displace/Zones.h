@@ -76,6 +76,6 @@ std::vector<Part> Find(Kind kind, vtkUnstructuredGrid* grid, const morph::Mesh& 
   const MergedBlocks* blocks, const Options& options);
 /// The same of a mesh on several MPI processes, of which `grid` is a piece, merged from this
 /// process's `blocks`. Flags are of its points and cells. Collective.
-std::vector<Part> FindOnRanks(Kind kind, vtkUnstructuredGrid* grid, const morph::InnerPieces& volume,
-  const MergedBlocks* blocks, Options options);
+std::vector<Part> FindOnRanks(Kind kind, vtkUnstructuredGrid* grid,
+  const morph::InnerPieces& volume, const MergedBlocks* blocks, Options options);
 }
