@@ -22,8 +22,8 @@ public:
   /// or of the last nonempty one. The sets are the known nodes of the curve, of its adjacent
   /// surfaces, of its body: none where a body has no known node. An affine motion of the set is
   /// then known on the curve. Where a set is nearly flat and the curve leaves it, the set tells a
-  /// share, and the next ones the rest (PrincipalDirections). Cost: the curve's nodes; once for each
-  /// set of adjacent surfaces, the nodes of all but the largest.
+  /// share, and the next ones the rest (PrincipalDirections). Cost: the curve's nodes; once for
+  /// each set of adjacent surfaces, the nodes of all but the largest.
   MotionAround around(const GeometryCurve& curve);
   /// The same for other nodes on a body. Cost: `nodes`.
   MotionAround around(Index body, const std::vector<Index>& nodes);
