@@ -95,10 +95,10 @@ void setBoundary(Morphing& morphing, vtkUnstructuredGrid* grid, const Arguments&
   const GivenProperties& given = arguments.properties;
   if (!arguments.boundary.empty())
   {
-    morphing.method->SetBoundaryData(
-      given.has("BoundaryIdArray")
-        ? readPoints(arguments.boundary)
-        : readBoundary(grid, arguments.boundary, given.has("DisplacementArray")));
+    morphing.method->SetBoundaryData(given.has("BoundaryIdArray")
+                                       ? readPoints(arguments.boundary)
+                                       : readBoundary(grid, arguments.boundary,
+                                           given.has("DisplacementArray"), arguments.timeStep));
   }
   else if (!arguments.displacements.empty())
   {
@@ -211,7 +211,9 @@ int morphMesh(const Arguments& arguments)
   {
     throw UsageError("--steps needs an output with an extension, before which it puts the number.");
   }
-  const vtkSmartPointer<vtkUnstructuredGrid> grid = readGrid(arguments.grid);
+  const bool hasOwn = arguments.boundary.empty() && arguments.field.empty(); // displacements
+  const vtkSmartPointer<vtkUnstructuredGrid> grid =
+    readGrid(arguments.grid, hasOwn ? arguments.timeStep : -1);
   morphing.filter->SetInputDataObject(0, grid);
   setBoundary(morphing, grid, arguments);
   if (arguments.steps == 0)
@@ -235,7 +237,11 @@ int morphMesh(const Arguments& arguments)
 
 int run(int argc, char* argv[])
 {
-  const Arguments arguments = parseArguments(argc, argv);
+  Arguments arguments = parseArguments(argc, argv);
+  if (!arguments.region.empty())
+  {
+    arguments.grid = regionOf(arguments.grid, arguments.region);
+  }
   if (numberOfRanks() > 1 && arguments.task != Arguments::Task::ShowHelp &&
       arguments.task != Arguments::Task::ShowVersion)
   {

@@ -20,6 +20,10 @@ public:
   const std::string& path() const { return this->path_; }
   /// The displacements of a time step, from 0 on, as those of mesh(); none where it is not there.
   virtual std::vector<double> displacementsAt(Index) const { return {}; }
+  /// The number of time steps that have displacements.
+  virtual Index steps() const { return 0; }
+  /// Gives mesh() the displacements of a time step. Throws Error where it is not there.
+  void takeStep(Index step);
 
   /// The files to write so that `out` is a copy with these coordinates (3 x #nodes, in the order of
   /// mesh()), the one of `out` last. Nothing else differs. Sets the largest difference between a
