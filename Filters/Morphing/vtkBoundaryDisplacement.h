@@ -9,9 +9,9 @@
  * - Moving defines what moves: all of the boundary, a selection of points or cells, surfaces (the
  *   surfaces and curves that vtkClassifyBoundary finds), or what is inside an implicit function, a
  *   box for instance.
- * - Motion defines how: by a transform, by a vector, along the normals, by a point vector array of
- *   the input, by a field of other data, onto a target surface, by handles, or by a lattice; each
- *   times ScaleFactor.
+ * - Motion defines how: by a transform, by a vector, along the normals, or by a point vector array
+ *   of the input. Or by a field of other data, onto a target surface, by handles, or by a lattice;
+ *   each times ScaleFactor.
  * - Surroundings defines what the rest does. It stays, follows as with vtkMorphBoundary (curves
  *   first, then surfaces; vertices are held), or fades out with the distance from what moves.
  *   FixedSurfaces stay in any case, except for the nodes that they share with what moves. Mid-side

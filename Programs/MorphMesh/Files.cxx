@@ -4,10 +4,10 @@
 #include "FileCheck.h"
 #include "Messages.h"
 #include "Pieces.h"
-#include "Properties.h"
 
 #include "Files/ReplaceFile.h"
 #include "Formats/FoamFolders.h"
+#include "Formats/SolverFile.h"
 
 #include <vtkAVSucdReader.h>
 #include <vtkAppendFilter.h>
@@ -100,8 +100,8 @@ vtkSmartPointer<vtkAlgorithm> makeReader(const std::string& path)
   {
     return readerFor<vtkOBJReader>(path);
   }
-  throw Failure("Cannot read " + path + ": its extension is none of those that --help lists." +
-                (kind == ".unv" ? " Gmsh converts it: gmsh " + path + " -save -o model.msh" : ""));
+  throw Failure("Cannot read " + path + ": no format that --help lists has its extension." +
+                io::converterOf(path));
 }
 
 vtkSmartPointer<vtkUnstructuredGrid> merged(vtkCompositeDataSet* blocks)
@@ -180,7 +180,11 @@ vtkSmartPointer<vtkDataObject> readSolverFile(const std::string& path, int timeS
   reader->Update();
   if (!messages.errors().empty())
   {
-    throw Failure(inOptions(messages.errors().front())); // it names the file
+    std::string error = messages.errors().front(); // it names the file
+    const std::string property = "`TimeStep`";
+    const std::size_t at = error.find(property);
+    throw Failure(
+      at == std::string::npos ? error : error.replace(at, property.size(), "--time-step"));
   }
   printWarnings(path, messages.warnings());
   return reader->GetOutput();

@@ -323,7 +323,7 @@ TEST(RankBoundary, DisplacementMovesWhatItMovesOnOneRank)
       {
         filter->SetControlPointsData(vtkNew<vtkPolyData>());
       }
-      if ((what == "field" || what == "points") && ranks.rank() != ranks.size() / 2)
+      if ((what == "field" || what == "points") && ranks.rank() != ranks.count() / 2)
       {
         filter->SetFieldData(vtkNew<vtkPolyData>());
       }

@@ -424,6 +424,36 @@ class SolverFiles(unittest.TestCase):
         subprocess.run(["gmsh", unv, "-save", "-o", msh], check=True, capture_output=True,
                        timeout=120)
         self.assertRegex(run("--list-surfaces", msh).stdout, "(?m)^wall +[1-9]")
+        med, fluent = self.folder / "box.med", self.folder / "fluent.msh"
+        med.write_bytes(b"\x89HDF")
+        self.refuse("Gmsh converts it: gmsh .*box.med -save -o model.msh", "list", med)
+        fluent.write_text('(0 "GAMBIT to Fluent File")\n(2 3)\n')
+        self.refuse("of Fluent, .*meshio convert --input-format ansys .*fluent.msh model.vtu",
+                    "list", fluent)
+
+    def test_meshes_that_gmsh_writes(self):
+        """With parameters of nodes, and of several partitions, whose interfaces are no surfaces."""
+        box = self.folder / "box.geo"
+        box.write_text('SetFactory("OpenCASCADE"); Box(1) = {0, 0, 0, 1, 1, 1};\n'
+                       'Physical Volume("body") = {1}; Physical Surface("wall") = {1};\n'
+                       "Mesh.MeshSizeMax = 0.5;\n")
+        path, out = self.folder / "box.msh", self.folder / "out.msh"
+        parametric = ("-setnumber", "Mesh.SaveParametric", "1")
+        ghosts = ("-part", "3", "-setnumber", "Mesh.PartitionCreateGhostCells", "1")
+        rows = set()
+        for words in (parametric, ("-part", "2"), ghosts):
+            for form in ("msh22", "msh41"):
+                for code in ((), ("-bin",)):
+                    with self.subTest(words=words, form=form, code=code):
+                        subprocess.run(["gmsh", "-3", box, "-format", form, *words, *code, "-o",
+                                        path], check=True, capture_output=True, timeout=120)
+                        rows.add(tuple(re.findall(r"(?m)^((?!Surface).*) +\d", run(
+                            "list", path).stdout)))
+                        self.assertEqual(len(rows), 1, rows)
+                        self.morph(path, out, "--move", "wall", "--translate", "0,0,0")
+                        self.assertEqual(out.read_bytes(), path.read_bytes())
+                        self.check_by_reading(path, out, "--move", "wall", "--translate",
+                                              "-0.25,0,0", delta=1e-12)
 
     def test_planar_elements_beside_volumes_are_faces(self):
         """Mesh generators name faces by types of planar models."""
@@ -628,7 +658,8 @@ class SolverFiles(unittest.TestCase):
             ("m.msh", msh + "$Nodes\n0 0 0 0\n$EndNodes\n", "the section .Nodes twice"),
             ("m.msh", msh.replace("$Nodes", "$Modes").replace("$EndNodes", "$EndModes"),
              "no section .Nodes"),
-            ("m.msh", msh + "$PartitionedEntities\n$EndPartitionedEntities\n", "partitioned"))
+            ("m.msh", msh + "$PartitionedEntities\n2\n$EndPartitionedEntities\n",
+             "line 23: the section ends where a number should follow"))
         for name, content, message in cases:
             with self.subTest(message=message):
                 path = self.folder / name

@@ -85,7 +85,8 @@ const Format& requireFormat(const std::string& path)
   if (!format)
   {
     readFile(path); // says where there is none
-    throw Error("Cannot read " + path + ": it is no file of a solver that is known here.");
+    throw Error("Cannot read " + path + ": it is no file of a solver that is known here." +
+                converterOf(path));
   }
   return *format;
 }
@@ -160,6 +161,21 @@ std::string solverFormat(const std::string& path)
 {
   const Format* format = formatOf(path);
   return format && format->isBuilt ? format->name : "";
+}
+
+std::string converterOf(const std::string& path)
+{
+  const std::string extension = extensionOf(path);
+  if (extension == ".unv" || extension == ".med")
+  {
+    return " Gmsh converts it: gmsh " + path + " -save -o model.msh";
+  }
+  if (extension == ".msh" && readHead(path, 1) == "(")
+  {
+    return " It is of Fluent, and meshio converts it: meshio convert --input-format ansys " + path +
+           " model.vtu";
+  }
+  return {};
 }
 
 std::unique_ptr<SolverFile> readSolverFile(const std::string& path)

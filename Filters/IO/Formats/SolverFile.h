@@ -48,6 +48,10 @@ private:
 /// Empty where it is none of these formats (README.md of this folder), or where VTK reads it.
 std::string solverFormat(const std::string& path);
 
+/// The command that converts a file of another format: " Gmsh converts it: gmsh m.unv -save -o
+/// model.msh". Empty where none is known.
+std::string converterOf(const std::string& path);
+
 /// Reads a file. Throws Error naming what is missing, wrong or not supported, with file and line.
 std::unique_ptr<SolverFile> readSolverFile(const std::string& path);
 

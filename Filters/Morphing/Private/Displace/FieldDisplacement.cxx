@@ -241,7 +241,12 @@ private:
   bool Search(At& at, double reach, vtkGenericCell* cell, std::vector<double>& weights) const
   {
     Row x = at.Place;
-    vtkIdType id = -1;
+    vtkIdType id = this->Locator.Get()->FindCell(
+      x.data(), this->Rounding * this->Rounding, cell, at.Part, at.Parameters, weights.data());
+    if (id >= 0 && cell->GetCellDimension() == 3)
+    {
+      return true; // which is sooner found than the nearest of all
+    }
     int inside = 0;
     double square = 0;
     return this->Locator.Get()->FindClosestPointWithinRadius(x.data(), reach + this->Rounding,

@@ -25,10 +25,10 @@ namespace morph::filters::FieldDisplacement
 ///
 /// A place has no value where a point that it depends on is NaN, or vtkValidPointMask 0. Of several
 /// blocks or processes the nearest one counts, the first of equal ones. Throws morph::Error on all
-/// processes alike for no field, arrays that are missing, not numeric or of other than three
-/// components, points that are not finite, and cells that VTK does not know. Collective over
-/// `processes`, which have the same places. Cost: a search tree of the cells, and some microseconds
-/// a place.
+/// processes alike for no field, points that are not finite, and cells that VTK does not know. So
+/// it does for arrays that are missing, not numeric or of other than three components. Collective
+/// over `processes`, which have the same places. Cost: a search tree of the cells, and some
+/// microseconds a place.
 morph::Points At(vtkDataObject* field, const std::string& name, const morph::Points& places,
   double reach, const RankGroup& processes, morph::Monitor& monitor);
 }

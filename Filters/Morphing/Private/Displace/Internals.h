@@ -35,6 +35,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <tuple>
 #include <vector>
 
 struct vtkDisplacementAlgorithm::vtkInternals
@@ -117,6 +118,12 @@ private:
   morph::Choice Choice;
   morph::filters::BoundaryFields Fields;
   std::vector<std::uint8_t> IsSelected; ///< #nodes of Whole, of MOVING_SELECTION
+  /// The displacements of DISPLACEMENT_FIELD, and what they depend on: the field, its time and
+  /// array, the reach, the version of Model, and ChooseCount. Unused with Whole.
+  ///@{
+  std::tuple<const vtkDataObject*, vtkMTimeType, std::string, double, vtkIdType, int> FieldOrigin;
+  morph::Points FieldValues;
+  ///@}
 
   /// What moves, and how the rest of the boundary does.
   struct Moves

@@ -127,9 +127,22 @@ morph::Points vtkDisplacementAlgorithm::vtkInternals::ByControlPoints(const Opti
 morph::Points vtkDisplacementAlgorithm::vtkInternals::ByField(
   const Options& options, vtkDataObject* field, morph::Monitor& monitor)
 {
-  const filters::RankGroup processes(
-    this->Whole ? filters::RankGroup::Of::All : filters::RankGroup::Of::One);
-  return filters::FieldDisplacement::At(field, filters::Input::ArrayName(options.FieldArray),
+  const std::string array = filters::Input::ArrayName(options.FieldArray);
+  const auto origin = std::make_tuple(field, field ? field->GetMTime() : 0, array,
+    options.FieldReach, this->Model.inputVersion, this->ChooseCount);
+  if (!this->Whole && field && this->FieldOrigin == origin)
+  {
+    return this->FieldValues;
+  }
+  this->FieldOrigin = {}; // in case it throws
+  this->FieldValues = filters::FieldDisplacement::At(field, array,
     this->Model.points()(this->Choice.moving, morph::allColumns),
-    options.FieldReach * this->Model.size, processes, monitor);
+    options.FieldReach * this->Model.size,
+    filters::RankGroup(this->Whole ? filters::RankGroup::Of::All : filters::RankGroup::Of::One),
+    monitor);
+  if (!this->Whole)
+  {
+    this->FieldOrigin = origin;
+  }
+  return this->FieldValues;
 }
