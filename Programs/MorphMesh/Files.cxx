@@ -362,16 +362,17 @@ void writeGrid(vtkUnstructuredGrid* grid, const std::string& path)
                               : writeXml<vtkXMLUnstructuredGridWriter>(grid, path);
 }
 
-double writeMorphed(vtkUnstructuredGrid* grid, const std::string& original, const std::string& path)
+Written writeMorphed(
+  vtkUnstructuredGrid* grid, const std::string& original, const std::string& path)
 {
   if (isVtkGrid(path))
   {
     writeGrid(grid, path);
-    return 0;
+    return {};
   }
   if (isListOfPieces(original))
   {
-    return writePieces(grid, original, path);
+    return { writePieces(grid, original, path), -1 };
   }
   vtkNew<vtkSolverFileWriter> writer;
   writer->SetInputData(grid);
@@ -384,7 +385,7 @@ double writeMorphed(vtkUnstructuredGrid* grid, const std::string& original, cons
   {
     throw Failure(messages.errors().front()); // it names the file
   }
-  return writer->GetLargestRounding();
+  return { writer->GetLargestRounding(), writer->GetChangedCoordinates() };
 }
 
 void writeBoundary(vtkPointSet* boundary, const std::string& path)

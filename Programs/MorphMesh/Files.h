@@ -43,7 +43,12 @@ void writeBoundary(vtkPointSet* boundary, const std::string& path);
 
 /// Writes a morphed grid: in VTK's format by the extension .vtu or .vtk, or else as a copy of the
 /// solver's file, or the list of pieces, `original`, which the grid was read from, with other
-/// coordinates. Returns the largest rounding of a coordinate.
-double writeMorphed(
+/// coordinates.
+struct Written
+{
+  double rounding = 0;    ///< the largest of a coordinate
+  long long changed = -1; ///< coordinates of a solver's file; -1: it is none
+};
+Written writeMorphed(
   vtkUnstructuredGrid* grid, const std::string& original, const std::string& path);
 }

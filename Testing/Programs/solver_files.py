@@ -413,7 +413,8 @@ class SolverFiles(unittest.TestCase):
                 path, out = self.folder / ("box" + extension), self.folder / ("out" + extension)
                 subprocess.run(["gmsh", "-3", box, "-o", path], check=True, capture_output=True,
                                timeout=120)
-                self.morph(path, out, "--move", wall, "--translate", "0,0,0")
+                said = self.morph(path, out, "--move", wall, "--translate", "0,0,0")
+                self.assertIn("\n0 coordinates of %s changed, all else kept" % out, said)
                 self.assertEqual(out.read_bytes(), path.read_bytes())
                 self.check_by_reading(path, out, "--move", wall, "--translate", "-0.25,0,0",
                                       delta=1e-6)

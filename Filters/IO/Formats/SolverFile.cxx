@@ -183,16 +183,20 @@ std::unique_ptr<SolverFile> readSolverFile(const std::string& path)
   return requireFormat(path).read(path);
 }
 
-double writeSolverFile(const std::string& original, const std::vector<Index>& numbers,
+Copied writeSolverFile(const std::string& original, const std::vector<Index>& numbers,
   const std::vector<double>& coordinates, const std::string& out, Signals signals)
 {
   const Format& format = requireFormat(original);
   format.targets(original, out); // throws
   const std::unique_ptr<SolverFile> file = format.read(original);
-  double largestRounding = 0;
-  replaceFiles(
-    file->withCoordinates(inOrder(*file, numbers, coordinates), out, largestRounding), signals);
-  return largestRounding;
+  const std::vector<double> all = inOrder(*file, numbers, coordinates);
+  Copied copied;
+  replaceFiles(file->withCoordinates(all, out, copied.largestRounding), signals);
+  for (std::size_t i = 0; i < all.size(); ++i)
+  {
+    copied.changed += all[i] != file->mesh().coordinates[i];
+  }
+  return copied;
 }
 
 std::vector<double> requireOwnCoordinates(const std::string& original,

@@ -55,11 +55,18 @@ std::string converterOf(const std::string& path);
 /// Reads a file. Throws Error naming what is missing, wrong or not supported, with file and line.
 std::unique_ptr<SolverFile> readSolverFile(const std::string& path);
 
+/// What a copy of a file with other coordinates is.
+struct Copied
+{
+  double largestRounding = 0; ///< between a coordinate and what is written
+  Index changed = 0;          ///< coordinates that are not those of the original
+};
+
 /// Writes `out`, a copy of `original` with other coordinates, as replaceFiles() does. `numbers`:
-/// the node numbers of the file, in any order; `coordinates`: 3 for each. Returns the largest
-/// difference between a coordinate and what is written. Throws Error, and writes nothing, where
-/// they are not all nodes of the file, or a coordinate is not finite, or does not fit.
-double writeSolverFile(const std::string& original, const std::vector<Index>& numbers,
+/// the node numbers of the file, in any order; `coordinates`: 3 for each. Throws Error, and writes
+/// nothing, where they are not all nodes of the file, or a coordinate is not finite, or does not
+/// fit.
+Copied writeSolverFile(const std::string& original, const std::vector<Index>& numbers,
   const std::vector<double>& coordinates, const std::string& out, Signals signals = Signals::Leave);
 
 /// Throws Error where `original` has displacements, and `coordinates`, which another reader gave,
