@@ -20,6 +20,7 @@ bool FirstReader::eventFilter(QObject* watched, QEvent* event)
         readers->findItems(QStringLiteral("Solver File Reader"), Qt::MatchExactly);
       if (!own.isEmpty())
       {
+        readers->setSortingEnabled(false);
         readers->insertItem(0, readers->takeItem(readers->row(own[0])));
         readers->setCurrentRow(0);
       }

@@ -115,7 +115,8 @@ class Open(unittest.TestCase):
                                          environment={"MORPH_SCENE": "empty",
                                                       "MORPH_FILE": str(path)})
             self.assertEqual(code, 0, messages)
-            self.assertIn('type="SolverFileReader"', state.read_text())
+            found = re.search(r"group=.sources. type=.(\w+).", state.read_text())
+            self.assertEqual(found and found[1], "SolverFileReader", messages)
 
 
 if "MORPH_SCENE" in os.environ:
