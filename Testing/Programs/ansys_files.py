@@ -151,7 +151,7 @@ class Ansys(solver_files.SolverFiles):
              "line 16: element 11 should have 4 nodes, and has 3"),
             (cdb[:cdb.index("       -1,") - 30], "line 12: .*is no|ends inside of NBLOCK"),
             ("/PREP7\n", "no nodes, in NBLOCK or in commands N"),
-            (plain.replace("N,R5.3,LOC,       2", "N,R5.3,LOC,       1"), "more than one node .* 1"),
+            (plain.replace("LOC,       2", "LOC,       1"), "more than one node .* 1"),
             (plain.replace(" 0.0000000000E+00", " x", 1), "line 7: 'x' is no number"),
             (plain.replace("      11", "      1x"), "line 24: .*is no"),
             (plain[:plain.index("EN,R5.3,NODE")], "line 24: element 11 lacks 8 of its nodes"),

@@ -99,7 +99,8 @@ class Cases(solver_files.SolverFiles):
     def test_a_time_of_a_decomposed_case(self):
         self.make("decomposePar")
         self.morph(*TOP, self.case, self.case / "0.5")
-        times = sorted(str(p.relative_to(self.case)) for p in self.case.rglob("0.5/polyMesh/points"))
+        times = sorted(str(p.relative_to(self.case))
+                       for p in self.case.rglob("0.5/polyMesh/points"))
         self.assertEqual(times, [f"processor{i}/0.5/polyMesh/points" for i in range(4)])
 
     def test_nodes_have_the_numbers_of_the_whole_case(self):

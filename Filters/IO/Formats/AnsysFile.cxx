@@ -241,8 +241,8 @@ void AnsysFile::readComponent(Lines& lines, const std::vector<Span>& command)
   this->components_.push_back(std::move(component));
 }
 
-/// "N,R5.3,LOC,number,,,x,y,z", as CDWRITE has it unblocked, or "N,number,x,y,z". A number of -1 ends
-/// the nodes.
+/// "N,R5.3,LOC,number,,,x,y,z", as CDWRITE has it unblocked, or "N,number,x,y,z". A number of -1
+/// ends the nodes.
 void AnsysFile::readNodeCommand(Span line)
 {
   const std::vector<NumberField> fields = freeFields(this->text(), line, 9);

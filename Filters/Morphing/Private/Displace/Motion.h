@@ -32,8 +32,8 @@ morph::Points Targets(const BoundaryModel& model, const Choice& choice, const Op
 morph::Points OfArray(vtkPointSet* input, const Options& options, const Choice& choice);
 
 /// Takes the nodes whose displacement is NaN out of choice.moving and `displacements`, and warns.
-/// With MISSING_VALUES_STAY they are held; else it returns them, which are free. Throws morph::Error
-/// where none is left.
+/// With MISSING_VALUES_STAY they are held; else it returns them, which are free. Throws
+/// morph::Error where none is left.
 std::vector<morph::Index> TakeMissing(
   morph::Points& displacements, const Options& options, Choice& choice, morph::Monitor& monitor);
 
