@@ -87,6 +87,10 @@ int vtkSolverFileReader::RequestData(
   try
   {
     const auto file = morph::io::readSolverFile(this->FileName);
+    if (this->TimeStep >= 0)
+    {
+      file->takeStep(this->TimeStep);
+    }
     if (auto* blocks = vtkPartitionedDataSetCollection::SafeDownCast(output))
     {
       morph::io::fillBlocks(file->mesh(), this->FileName, blocks);
@@ -115,5 +119,6 @@ void vtkSolverFileReader::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "FileName: " << (this->FileName ? this->FileName : "(none)") << "\n"
-     << indent << "SetsAsBlocks: " << this->SetsAsBlocks << "\n";
+     << indent << "SetsAsBlocks: " << this->SetsAsBlocks << "\n"
+     << indent << "TimeStep: " << this->TimeStep << "\n";
 }

@@ -13,7 +13,7 @@
  *   element, but belongs to a surface, a side set or a patch.
  * - For each named set of nodes a point array, and for each named set of elements or faces a cell
  *   array, of its name: 1 (unsigned char) in the set, 0 elsewhere.
- * - Point vectors of their name (`disp_`): the displacements of the last time step, if an Exodus II
+ * - Point vectors of their name (`disp_`): the displacements of TimeStep, if an Exodus II or CGNS
  *   file has any. The points are undeformed.
  * - Field data `SurfaceNames`: the names of these sets. Boundary Displacement and Morph Mesh offer
  *   them as surfaces.
@@ -60,6 +60,15 @@ public:
   vtkBooleanMacro(SetsAsBlocks, bool);
   ///@}
 
+  ///@{
+  /**
+   * The time step of the displacements, from 0 on; -1, the default: the last. A step that the file
+   * does not have is an error.
+   */
+  vtkSetClampMacro(TimeStep, int, -1, VTK_INT_MAX);
+  vtkGetMacro(TimeStep, int);
+  ///@}
+
   /**
    * Whether this class reads the file: 1 or 0. It reads the first bytes.
    */
@@ -87,6 +96,7 @@ private:
 
   char* FileName = nullptr;
   bool SetsAsBlocks = false;
+  int TimeStep = -1;
 };
 
 #endif

@@ -200,7 +200,7 @@ std::string vtkSolverFileWriter::WhyNot(const char* original, const char* name)
 
 void vtkSolverFileWriter::WriteData()
 {
-  this->LargestRounding = -1;
+  this->LargestRounding = this->ChangedCoordinates = -1;
   try
   {
     this->WriteCopy(this->GetInput());
@@ -233,9 +233,11 @@ void vtkSolverFileWriter::WriteCopy(vtkDataObject* input)
       original, nodes.Numbers, nodes.Undeformed, nodes.Precision, nodes.AreMorphed);
     nodes.Coordinates = displaced.empty() ? nodes.Coordinates : displaced;
   }
-  this->LargestRounding =
+  const morph::io::Copied copied =
     morph::io::writeSolverFile(original, nodes.Numbers, nodes.Coordinates, this->FileName,
       this->HandleSignals ? morph::io::Signals::RemoveTemporaries : morph::io::Signals::Leave);
+  this->LargestRounding = copied.largestRounding;
+  this->ChangedCoordinates = static_cast<vtkIdType>(copied.changed);
 }
 
 void vtkSolverFileWriter::PrintSelf(ostream& os, vtkIndent indent)
@@ -245,5 +247,6 @@ void vtkSolverFileWriter::PrintSelf(ostream& os, vtkIndent indent)
      << indent
      << "OriginalFileName: " << (this->OriginalFileName ? this->OriginalFileName : "(none)") << "\n"
      << indent << "HandleSignals: " << this->HandleSignals << "\n"
-     << indent << "LargestRounding: " << this->LargestRounding << "\n";
+     << indent << "LargestRounding: " << this->LargestRounding << "\n"
+     << indent << "ChangedCoordinates: " << this->ChangedCoordinates << "\n";
 }

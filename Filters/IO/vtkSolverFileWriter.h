@@ -76,6 +76,12 @@ public:
   vtkGetMacro(LargestRounding, double);
 
   /**
+   * The number of coordinates that the last Write() has changed, of three a node. All else is that
+   * of the original. -1 before and after an error.
+   */
+  vtkGetMacro(ChangedCoordinates, vtkIdType);
+
+  /**
    * Throws nothing and writes nothing: the reason why a copy of `original` cannot be written to
    * `name`, by their extensions and the folder's rights; empty where it can.
    */
@@ -98,6 +104,7 @@ private:
   char* OriginalFileName = nullptr;
   bool HandleSignals = false;
   double LargestRounding = -1;
+  vtkIdType ChangedCoordinates = -1;
 };
 
 #endif

@@ -9,8 +9,9 @@
  * - Moving defines what moves: all of the boundary, a selection of points or cells, surfaces (the
  *   surfaces and curves that vtkClassifyBoundary finds), or what is inside an implicit function, a
  *   box for instance.
- * - Motion defines how: by a transform, by a vector, along the normals, by a point vector array of
- *   the input, onto a target surface, by handles, or by a lattice; each times ScaleFactor.
+ * - Motion defines how: by a transform, by a vector, along the normals, or by a point vector array
+ *   of the input. Or by a field of other data, onto a target surface, by handles, or by a lattice;
+ *   each times ScaleFactor.
  * - Surroundings defines what the rest does. It stays, follows as with vtkMorphBoundary (curves
  *   first, then surfaces; vertices are held), or fades out with the distance from what moves.
  *   FixedSurfaces stay in any case, except for the nodes that they share with what moves. Mid-side
@@ -24,7 +25,8 @@
  * MOVING_SELECTION. Selected cells move all of their nodes that are on the boundary. Port 2,
  * optional, takes the target of DISPLACEMENT_TARGET (vtkPolyData, an STL file for instance). Port
  * 3, optional, takes the selection of a zone. Port 4, optional, takes the control points of
- * DISPLACEMENT_HANDLES and DISPLACEMENT_LATTICE.
+ * DISPLACEMENT_HANDLES and DISPLACEMENT_LATTICE. Port 5, optional, takes the data of
+ * DISPLACEMENT_FIELD.
  *
  * The output is the boundary as vtkClassifyBoundary writes it on its port 1, at its displaced
  * points: the input of port 1 of a morph filter. Two point arrays are added:

@@ -17,7 +17,7 @@ vtkDisplacementAlgorithm::vtkDisplacementAlgorithm()
   : Options(std::make_unique<morph::DisplacementOptions>())
   , Internals(std::make_unique<vtkInternals>())
 {
-  this->SetNumberOfInputPorts(5);
+  this->SetNumberOfInputPorts(6);
 }
 
 vtkDisplacementAlgorithm::~vtkDisplacementAlgorithm() = default;
@@ -84,6 +84,16 @@ void vtkDisplacementAlgorithm::SetControlPointsConnection(vtkAlgorithmOutput* ou
 void vtkDisplacementAlgorithm::SetControlPointsData(vtkDataObject* points)
 {
   this->SetInputDataObject(4, points);
+}
+
+void vtkDisplacementAlgorithm::SetFieldConnection(vtkAlgorithmOutput* output)
+{
+  this->SetInputConnection(5, output);
+}
+
+void vtkDisplacementAlgorithm::SetFieldData(vtkDataObject* field)
+{
+  this->SetInputDataObject(5, field);
 }
 
 void vtkDisplacementAlgorithm::SetSelectionExtractor(vtkExtractSelection* extractor)

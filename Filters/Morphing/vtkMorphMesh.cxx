@@ -365,8 +365,8 @@ vtkMorphMesh::vtkMorphing::Origin vtkMorphMesh::vtkMorphing::OriginOf(
   const vtkInternals& mover = this->Mover();
   std::vector<std::pair<const void*, vtkMTimeType>> objects;
   for (vtkObject* object : std::initializer_list<vtkObject*>{ mesh.Data, inputs.Selection,
-         inputs.Target, inputs.Zone, inputs.ControlPoints, mover.Region, mover.ZoneRegion,
-         mover.Transform, mover.RigidTransform, mover.Extractor })
+         inputs.Target, inputs.Zone, inputs.ControlPoints, inputs.Field, mover.Region,
+         mover.ZoneRegion, mover.Transform, mover.RigidTransform, mover.Extractor })
   {
     objects.emplace_back(object, object ? object->GetMTime() : 0);
   }

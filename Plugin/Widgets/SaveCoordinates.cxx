@@ -17,6 +17,9 @@
 
 #include <QAction>
 #include <QFileInfo>
+#include <QLocale>
+#include <QMainWindow>
+#include <QStatusBar>
 #include <QString>
 
 namespace
@@ -50,6 +53,10 @@ QString chosen(pqServer* server, const char* name, const QString& title, const Q
   pqFileDialog dialog(server, pqCoreUtilities::mainWidget(), title, folder, formats);
   dialog.setObjectName(name);
   dialog.setFileMode(static_cast<pqFileDialog::FileMode>(mode));
+  if (mode == pqFileDialog::ExistingFile && !start.isEmpty())
+  {
+    dialog.selectFile(start);
+  }
   const bool isChosen = dialog.exec() == QDialog::Accepted && !dialog.getSelectedFiles().isEmpty();
   return isChosen ? dialog.getSelectedFiles()[0] : QString();
 }
@@ -110,4 +117,13 @@ void SaveCoordinates::save()
   vtkSMPropertyHelper(writer, "OriginalFileName").Set(original.toUtf8().constData());
   writer->UpdateVTKObjects();
   vtkSMSourceProxy::SafeDownCast(writer)->UpdatePipeline(server->getTimeKeeper()->getTime());
+  writer->UpdatePropertyInformation();
+  const vtkIdType changed = vtkSMPropertyHelper(writer, "ChangedCoordinates").GetAsIdType();
+  auto* const window = qobject_cast<QMainWindow*>(pqCoreUtilities::mainWidget());
+  if (window && changed >= 0) // else an error was told
+  {
+    window->statusBar()->showMessage(
+      QString("%1 coordinates of %2 changed, all else kept")
+        .arg(QLocale(QLocale::English).toString(qlonglong(changed)), QFileInfo(copy).fileName()));
+  }
 }

@@ -130,12 +130,17 @@ void checkMotion(const Arguments& arguments)
   }
   if (!given.has("Displacement"))
   {
-    throw UsageError("Nothing says how it moves: give --translate, --rotate, --scale, --radius, "
-                     "--distance, --displacement-array, --target, --handles or --lattice.");
+    throw UsageError(
+      "Nothing says how it moves: give --translate, --rotate, --scale, --radius, "
+      "--distance, --displacement-array, --target, --handles, --lattice or --field.");
   }
   if (given.text("Displacement") == "Target" && arguments.target.empty())
   {
     throw UsageError(given.giver("Displacement") + " needs --target.");
+  }
+  if (given.text("Displacement") == "Field" && arguments.field.empty())
+  {
+    throw UsageError(given.giver("Displacement") + " needs --field.");
   }
   if (given.text("Displacement") == "Lattice" && arguments.lattice.empty())
   {
@@ -304,12 +309,23 @@ std::vector<Option> optionsOf(Arguments& result)
       "j, "
       "k,\ndx, dy, dz",
       Files, moving(result.lattice, "Lattice", "--lattice") },
+    { "--field", "<file>",
+      "another mesh or an image with the displacements --field-array, or a table with the columns "
+      "x, y, z,\ndx, dy, dz: what moves takes the values there",
+      Files, moving(result.field, "Field", "--field") },
     { "--displacements", "<csv>",
       "nodes that move: columns id (0-based point id), dx, dy, dz; or pointDisplacement of "
       "OpenFOAM",
       Files, text(result.displacements) },
     { "--node-numbers", "", "ids of --displacements are the node numbers of the grid's file", Files,
       flag(result.nodeNumbers) },
+    { "--region", "<name>",
+      "the region of a case of OpenFOAM that is read and written; by default all of them", Files,
+      text(result.region) },
+    { "--time-step", "<number>",
+      "the step of the displacements in a file of Exodus II or CGNS, from 0 on; by default the "
+      "last",
+      Files, whole("--time-step", result.timeStep, 0) },
     { "--steps", "<number>",
       "write the equal steps of the motion: <output> with -1, -2, ... before its extension", Files,
       whole("--steps", result.steps, 1) },

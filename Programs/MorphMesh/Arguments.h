@@ -25,10 +25,12 @@ struct Arguments
   };
   Task task = Task::Morph;
   std::string grid, boundary, output; ///< files; boundary: empty unless it is read
+  std::string region;                 ///< of a case of OpenFOAM, the grid; empty: the whole case
   GivenProperties properties;
-  std::string target, handles, lattice, displacements; ///< files; empty: none
-  bool nodeNumbers = false;                            ///< of displacements
-  int steps = 0;                                       ///< 0: the whole motion alone
+  std::string target, handles, lattice, field, displacements; ///< files; empty: none
+  bool nodeNumbers = false;                                   ///< of displacements
+  int timeStep = -1;                  ///< of the file that has the displacements; -1: the last
+  int steps = 0;                      ///< 0: the whole motion alone
   std::vector<std::string> shapes;    ///< files, of WriteDesigns, whose output is a folder
   std::vector<std::string> rotations; ///< names of shapes
   std::string table;                  ///< file of WriteDesigns

@@ -23,6 +23,7 @@
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkStringArray.h>
+#include <vtkTable.h>
 #include <vtkTrivialProducer.h>
 #include <vtkUnstructuredGrid.h>
 
@@ -73,6 +74,30 @@ vtkSmartPointer<vtkPolyData> readTarget(const std::string& path)
     throw Failure(path + " is no surface: --target needs one, an .stl file for instance.");
   }
   return surface;
+}
+
+/// A table of points, by its extension, or any data of VTK's and of solvers.
+vtkSmartPointer<vtkDataObject> readField(const std::string& path, int timeStep)
+{
+  const std::string kind = extensionOf(path);
+  if (kind != ".csv" && kind != ".tsv" && kind != ".txt")
+  {
+    return readFile(path, timeStep);
+  }
+  const std::vector<std::string> names = { "x", "y", "z", "dx", "dy", "dz" };
+  const std::vector<NumberLine> lines = readNumbers(path, names);
+  auto table = vtkSmartPointer<vtkTable>::New();
+  for (std::size_t c = 0; c < names.size(); ++c)
+  {
+    vtkNew<vtkDoubleArray> column;
+    column->SetName(names[c].c_str());
+    for (const NumberLine& line : lines)
+    {
+      column->InsertNextValue(line.numbers[c]);
+    }
+    table->AddColumn(column);
+  }
+  return table;
 }
 
 using Displacements = std::vector<std::pair<vtkIdType, std::array<double, 3>>>; ///< of point ids
@@ -287,12 +312,16 @@ void readMotion(vtkDisplacementAlgorithm* filter, const Arguments& arguments)
       filter->AddLatticeDisplacement(line.numbers.data());
     }
   }
+  if (!arguments.field.empty())
+  {
+    filter->SetFieldData(readField(arguments.field, arguments.timeStep));
+  }
 }
 
 vtkSmartPointer<vtkPointSet> readBoundary(
-  vtkUnstructuredGrid* grid, const std::string& path, bool isDisplacement)
+  vtkUnstructuredGrid* grid, const std::string& path, bool isDisplacement, int timeStep)
 {
-  vtkSmartPointer<vtkPointSet> boundary = readPoints(path);
+  vtkSmartPointer<vtkPointSet> boundary = readPoints(path, timeStep);
   vtkDataArray* numbers = numbersOf(boundary);
   if (!numbers || !numbersOf(grid) || boundary->GetPointData()->HasArray("MorphPointId") ||
       boundary->GetNumberOfPoints() != grid->GetNumberOfPoints())

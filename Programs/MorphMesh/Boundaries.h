@@ -19,12 +19,12 @@ struct Arguments;
 /// The boundary that a file holds. Where it is a copy of the grid with node numbers (`NodeNumber`,
 /// `GlobalNodeId` or global ids), points are matched by these: outer nodes alone, or, where
 /// `isDisplacement`, all. Throws Failure for a file that cannot be read, and for a copy with other
-/// numbers.
+/// numbers. `timeStep`: of readFile().
 vtkSmartPointer<vtkPointSet> readBoundary(
-  vtkUnstructuredGrid* grid, const std::string& path, bool isDisplacement);
+  vtkUnstructuredGrid* grid, const std::string& path, bool isDisplacement, int timeStep);
 
-/// Gives the filter the files by which the boundary moves: a target, handles or a lattice. Throws
-/// Failure.
+/// Gives the filter the files by which the boundary moves: a target, handles, a lattice or a field.
+/// Throws Failure.
 void readMotion(vtkDisplacementAlgorithm* filter, const Arguments& arguments);
 
 /// Prints the largest and the mean distance of what moves from the target, before and after.

@@ -6,6 +6,8 @@
 #include "Pieces.h"
 
 #include "Files/ReplaceFile.h"
+#include "Formats/FoamFolders.h"
+#include "Formats/SolverFile.h"
 
 #include <vtkAVSucdReader.h>
 #include <vtkAppendFilter.h>
@@ -31,9 +33,11 @@
 #include <vtksys/SystemTools.hxx>
 
 #include <algorithm>
+#include <filesystem>
 #include <initializer_list>
 #include <iostream>
 #include <new>
+#include <set>
 #include <vector>
 
 namespace morph_mesh
@@ -96,8 +100,8 @@ vtkSmartPointer<vtkAlgorithm> makeReader(const std::string& path)
   {
     return readerFor<vtkOBJReader>(path);
   }
-  throw Failure("Cannot read " + path + ": its extension is none of those that --help lists." +
-                (kind == ".unv" ? " Gmsh converts it: gmsh " + path + " -save -o model.msh" : ""));
+  throw Failure("Cannot read " + path + ": no format that --help lists has its extension." +
+                io::converterOf(path));
 }
 
 vtkSmartPointer<vtkUnstructuredGrid> merged(vtkCompositeDataSet* blocks)
@@ -167,15 +171,20 @@ vtkSmartPointer<vtkDataObject> readByVtk(const std::string& path)
 }
 
 /// The format's name, not the extension alone, tells that VTK has no reader for it.
-vtkSmartPointer<vtkDataObject> readSolverFile(const std::string& path)
+vtkSmartPointer<vtkDataObject> readSolverFile(const std::string& path, int timeStep)
 {
   vtkNew<vtkSolverFileReader> reader;
+  reader->SetTimeStep(timeStep);
   reader->SetFileName(path.c_str());
   Messages messages(reader);
   reader->Update();
   if (!messages.errors().empty())
   {
-    throw Failure(messages.errors().front()); // it names the file
+    std::string error = messages.errors().front(); // it names the file
+    const std::string property = "`TimeStep`";
+    const std::size_t at = error.find(property);
+    throw Failure(
+      at == std::string::npos ? error : error.replace(at, property.size(), "--time-step"));
   }
   printWarnings(path, messages.warnings());
   return reader->GetOutput();
@@ -223,16 +232,21 @@ std::string extensionOf(const std::string& path)
   return vtksys::SystemTools::LowerCase(vtksys::SystemTools::GetFilenameLastExtension(path));
 }
 
-vtkSmartPointer<vtkDataObject> readFile(const std::string& path)
+vtkSmartPointer<vtkDataObject> readFile(const std::string& path, int timeStep)
 {
-  if (isListOfPieces(path))
+  if (isListOfPieces(path) && timeStep < 0)
   {
     return mergedPieces(path);
   }
   // VTK has no reader of CGNS here: the error names the library that is missing.
   if (vtkSolverFileReader::CanReadFile(path.c_str()) || extensionOf(path) == ".cgns")
   {
-    return readSolverFile(path);
+    return readSolverFile(path, timeStep);
+  }
+  if (timeStep >= 0)
+  {
+    throw Failure("--time-step is of files of Exodus II and CGNS with displacements, and " + path +
+                  " is neither.");
   }
   return readByVtk(path);
 }
@@ -251,9 +265,9 @@ template std::string xmlOf<vtkXMLPolyDataWriter>(vtkDataObject*, const std::stri
 template std::string xmlOf<vtkXMLStructuredGridWriter>(vtkDataObject*, const std::string&);
 template std::string xmlOf<vtkXMLUnstructuredGridWriter>(vtkDataObject*, const std::string&);
 
-vtkSmartPointer<vtkUnstructuredGrid> readGrid(const std::string& path)
+vtkSmartPointer<vtkUnstructuredGrid> readGrid(const std::string& path, int timeStep)
 {
-  const vtkSmartPointer<vtkDataObject> data = readFile(path);
+  const vtkSmartPointer<vtkDataObject> data = readFile(path, timeStep);
   auto* grid = vtkUnstructuredGrid::SafeDownCast(data);
   if (!grid || grid->GetNumberOfCells() == 0)
   {
@@ -265,15 +279,40 @@ vtkSmartPointer<vtkUnstructuredGrid> readGrid(const std::string& path)
   return grid;
 }
 
-vtkSmartPointer<vtkPointSet> readPoints(const std::string& path)
+vtkSmartPointer<vtkPointSet> readPoints(const std::string& path, int timeStep)
 {
-  const vtkSmartPointer<vtkDataObject> data = readFile(path);
+  const vtkSmartPointer<vtkDataObject> data = readFile(path, timeStep);
   auto* points = vtkPointSet::SafeDownCast(data);
   if (!points || points->GetNumberOfPoints() == 0)
   {
     throw Failure("Cannot read " + path + ": it holds no points.");
   }
   return points;
+}
+
+std::string regionOf(const std::string& folder, const std::string& region)
+{
+  const bool isMarker = extensionOf(folder) == ".foam";
+  const std::filesystem::path root =
+    isMarker ? std::filesystem::path(folder).parent_path() : std::filesystem::path(folder);
+  const std::string path = (root / "constant" / region).string();
+  if (!io::FoamFolders::of(path).parts.empty())
+  {
+    return path;
+  }
+  std::set<std::string> names;
+  for (const io::FoamFolder& part : io::FoamFolders::of(folder).parts)
+  {
+    names.insert(part.region);
+  }
+  names.erase("");
+  std::string list;
+  for (const std::string& name : names)
+  {
+    list += (list.empty() ? "" : ", ") + name;
+  }
+  throw Failure(folder + " has no region '" + region + "' with a mesh of OpenFOAM" +
+                (list.empty() ? "." : ". Its regions are " + list + "."));
 }
 
 void requireGridFormat(const std::string& path)
@@ -323,16 +362,17 @@ void writeGrid(vtkUnstructuredGrid* grid, const std::string& path)
                               : writeXml<vtkXMLUnstructuredGridWriter>(grid, path);
 }
 
-double writeMorphed(vtkUnstructuredGrid* grid, const std::string& original, const std::string& path)
+Written writeMorphed(
+  vtkUnstructuredGrid* grid, const std::string& original, const std::string& path)
 {
   if (isVtkGrid(path))
   {
     writeGrid(grid, path);
-    return 0;
+    return {};
   }
   if (isListOfPieces(original))
   {
-    return writePieces(grid, original, path);
+    return { writePieces(grid, original, path), -1 };
   }
   vtkNew<vtkSolverFileWriter> writer;
   writer->SetInputData(grid);
@@ -345,7 +385,7 @@ double writeMorphed(vtkUnstructuredGrid* grid, const std::string& original, cons
   {
     throw Failure(messages.errors().front()); // it names the file
   }
-  return writer->GetLargestRounding();
+  return { writer->GetLargestRounding(), writer->GetChangedCoordinates() };
 }
 
 void writeBoundary(vtkPointSet* boundary, const std::string& path)

@@ -95,10 +95,10 @@ void setBoundary(Morphing& morphing, vtkUnstructuredGrid* grid, const Arguments&
   const GivenProperties& given = arguments.properties;
   if (!arguments.boundary.empty())
   {
-    morphing.method->SetBoundaryData(
-      given.has("BoundaryIdArray")
-        ? readPoints(arguments.boundary)
-        : readBoundary(grid, arguments.boundary, given.has("DisplacementArray")));
+    morphing.method->SetBoundaryData(given.has("BoundaryIdArray")
+                                       ? readPoints(arguments.boundary)
+                                       : readBoundary(grid, arguments.boundary,
+                                           given.has("DisplacementArray"), arguments.timeStep));
   }
   else if (!arguments.displacements.empty())
   {
@@ -144,6 +144,17 @@ vtkSmartPointer<vtkUnstructuredGrid> withPoints(
   return result;
 }
 
+/// 12,345
+std::string grouped(long long number)
+{
+  std::string digits = std::to_string(number);
+  for (std::size_t at = digits.size(); at > 3; at -= 3)
+  {
+    digits.insert(at - 3, ",");
+  }
+  return digits;
+}
+
 /// Morphs by a part of the motion, and writes and reports the mesh. `report`: of Arguments.
 int morphPart(Morphing& morphing, vtkUnstructuredGrid* grid, const Arguments& arguments,
   const std::string& output, const std::string& report)
@@ -180,7 +191,7 @@ int morphPart(Morphing& morphing, vtkUnstructuredGrid* grid, const Arguments& ar
   {
     std::cout << "sliding: " << morphing.mesh->GetSlideReport() << "\n";
   }
-  const double rounding = writeMorphed(
+  const Written written = writeMorphed(
     arguments.results ? morphed : withPoints(grid, morphed).Get(), arguments.grid, output);
   const Outcome outcome = outcomeOf(morphing.filter);
   const vtkSmartPointer<vtkScaledJacobian> after =
@@ -194,9 +205,15 @@ int morphPart(Morphing& morphing, vtkUnstructuredGrid* grid, const Arguments& ar
   if (!arguments.quiet)
   {
     printReport(before, outcome, after);
-    if (rounding > 0)
+    if (written.rounding > 0)
     {
-      std::cout << "largest rounding of a coordinate: " << std::scientific << rounding << "\n";
+      std::cout << "largest rounding of a coordinate: " << std::scientific << written.rounding
+                << "\n";
+    }
+    if (written.changed >= 0)
+    {
+      std::cout << grouped(written.changed) << " coordinates of " << output
+                << " changed, all else kept\n";
     }
   }
   return !partial.empty() || (arguments.wantsValid() && !outcome.isValid()) ? 3 : 0;
@@ -211,7 +228,9 @@ int morphMesh(const Arguments& arguments)
   {
     throw UsageError("--steps needs an output with an extension, before which it puts the number.");
   }
-  const vtkSmartPointer<vtkUnstructuredGrid> grid = readGrid(arguments.grid);
+  const bool hasOwn = arguments.boundary.empty() && arguments.field.empty(); // displacements
+  const vtkSmartPointer<vtkUnstructuredGrid> grid =
+    readGrid(arguments.grid, hasOwn ? arguments.timeStep : -1);
   morphing.filter->SetInputDataObject(0, grid);
   setBoundary(morphing, grid, arguments);
   if (arguments.steps == 0)
@@ -235,7 +254,11 @@ int morphMesh(const Arguments& arguments)
 
 int run(int argc, char* argv[])
 {
-  const Arguments arguments = parseArguments(argc, argv);
+  Arguments arguments = parseArguments(argc, argv);
+  if (!arguments.region.empty())
+  {
+    arguments.grid = regionOf(arguments.grid, arguments.region);
+  }
   if (numberOfRanks() > 1 && arguments.task != Arguments::Task::ShowHelp &&
       arguments.task != Arguments::Task::ShowVersion)
   {

@@ -13,7 +13,9 @@
 #include <vtkClassifyBoundary.h>
 #include <vtkDataArray.h>
 #include <vtkDataArraySelection.h>
+#include <vtkDoubleArray.h>
 #include <vtkIdTypeArray.h>
+#include <vtkImageData.h>
 #include <vtkMorphBoundary.h>
 #include <vtkNew.h>
 #include <vtkPlane.h>
@@ -208,6 +210,17 @@ TEST(RankBoundary, DisplacementMovesWhatItMovesOnOneRank)
   by << 0, 0, 0.1, 0.2, 0, 0;
   const auto handles = grids::cloud(places);
   grids::addVectors(handles, "Displacement", by);
+  vtkNew<vtkImageData> field;
+  field->SetDimensions(7, 7, 7);
+  vtkNew<vtkDoubleArray> values;
+  values->SetName("U");
+  values->SetNumberOfComponents(3);
+  for (vtkIdType i = 0; i < field->GetNumberOfPoints(); ++i)
+  {
+    const double* x = field->GetPoint(i);
+    values->InsertNextTuple3(0.01 * x[1] * x[2], 0, 0.02 * x[0]);
+  }
+  field->GetPointData()->AddArray(values);
   using Filter = vtkBoundaryDisplacement;
   const std::vector<std::pair<std::string, std::function<void(Filter*)>>> cases = {
     { "surface",
@@ -263,6 +276,22 @@ TEST(RankBoundary, DisplacementMovesWhatItMovesOnOneRank)
         filter->SetLatticeBasisToBSpline();
         filter->AddLatticeDisplacement(1, 2, 1, 0.1, 0.2, -0.1);
       } },
+    { "field",
+      [&](Filter* filter)
+      {
+        filter->SetDisplacementToField();
+        filter->SetFieldData(field);
+        filter->SetFieldArray("U");
+        filter->SetFieldReach(0.1);
+      } },
+    { "points",
+      [&](Filter* filter)
+      {
+        filter->SetDisplacementToField();
+        filter->SetFieldData(handles);
+        filter->SetFieldArray("Displacement");
+        filter->SetFieldReach(10);
+      } },
   };
   const auto all = shapes();
   for (const std::size_t shape : { 0u, 1u, 3u, 6u, 7u, 9u })
@@ -293,6 +322,10 @@ TEST(RankBoundary, DisplacementMovesWhatItMovesOnOneRank)
       if (what == "handles" && ranks.rank() > 0)
       {
         filter->SetControlPointsData(vtkNew<vtkPolyData>());
+      }
+      if ((what == "field" || what == "points") && ranks.rank() != ranks.count() / 2)
+      {
+        filter->SetFieldData(vtkNew<vtkPolyData>());
       }
       filter->SetInputData(rank_grids::part(ranks, whole, mesh, ++seed));
       grids::Listener listener(filter);

@@ -176,7 +176,7 @@ TEST(BoundaryDisplacementErrors, TheMotion)
         f->SetDisplacementToArray();
         f->SetDisplacementArray("Short");
       } },
-    { "'Wild' is NaN, or vtkValidPointMask 0, at all",
+    { "at all of its nodes 'Wild' is NaN, or vtkValidPointMask 0",
       [](auto* f)
       {
         addNumbers(vtkDataSet::SafeDownCast(f->GetInputDataObject(0, 0)), "Wild", 3, 27, NAN);

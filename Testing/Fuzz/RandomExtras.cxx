@@ -283,6 +283,8 @@ bool setMotion(Choices& choices, const RandomGrid& grid, vtkDisplacementAlgorith
   const double size = grid.size;
   filter->SetTransform(transformAbout(middle, size, random, hostile));
   filter->SetDisplacementArray("Displacement");
+  filter->SetFieldData(grid.data); // broken, where the input is
+  filter->SetFieldArray("Displacement");
   filter->SetMovingArray("Marked");
   const int kind =
     choices.pick("displace.region", { "none", "sphere", "box", "plane" }, { 1, 1, 1, 1 });

@@ -75,6 +75,11 @@ const char* const Ansys =
   "   1   1   1   1   0   0   0   0   8   0   1   1   2   3   3   4   4   4   4\n"
   "   2   2   1   1   0   0   0   0   4   0   2   1   2   3   3\n  -1\n"
   "CMBLOCK,SOME,NODE,3\n(8i10)\n         1        -3         4\nFINISH\n";
+const char* const Unblocked =
+  "/PREP7\nET,1,185\nET,2,SHELL181\nN,R5.3,LOC,       1,       0,       0, 0.0, 0.0, 0.0\n"
+  "N,UNBL,LOC,2,,,1.\nN,R5.3,ANG,2,0,0,30.\nN,3,0.,1. ! typed\nN,4,,,1\nN,R5.3,LOC,-1,\n"
+  "EN,R5.5,ATTR,8,1,1,1,1,0,7,0,0,0\nEN,R5.5,NODE,1,2,3,3,4,4,4,4,\nTYPE,2\nMAT,3\nCSYS,0\n"
+  "EN,8,1,2,3\nEMORE,3\nEN,R5.5,ATTR,-1\nCMBLOCK,SOME,NODE,1\n(8i10)\n         1\nFINISH\n";
 const char* const LsDyna =
   "$ a deck\n*KEYWORD\n*NODE\n       1             0.0             0.0             0.0\n"
   "2,1.,0.,0.\n3,0.,1.,0.\n4,0.,0.,1.\n*ELEMENT_SOLID\n1,7,1,2,3,4,4,4,4,4\n2,7\n1,2,3,4\n"
@@ -92,6 +97,17 @@ const char* const Gmsh4 =
   "$Entities\n0 0 1 1\n1 0 0 0 1 1 1 1 1 0\n1 0 0 0 1 1 1 0 1 1\n$EndEntities\n$Nodes\n1 4 1 4\n"
   "3 1 0 4\n1\n2\n3\n4\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n$EndNodes\n$Elements\n2 2 1 2\n2 1 2 1\n"
   "1 1 2 3\n3 1 4 1\n2 1 2 3 4\n$EndElements\n";
+
+const char* const Parametric =
+  "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$ParametricNodes\n4\n1 0 0 0 0 1\n2 1 0 0 1 1 0.5\n"
+  "3 0 1 0 2 1 0.5 0.25\n4 0 0 1 3 1\n$EndParametricNodes\n$Elements\n1\n1 4 2 2 1 1 2 3 4\n"
+  "$EndElements\n";
+const char* const Partitioned =
+  "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Entities\n0 0 0 1\n1 0 0 0 1 1 1 1 7 0\n$EndEntities\n"
+  "$PartitionedEntities\n2\n1\n9 1\n0 0 1 2\n5 3 1 2 1 2 0 0 0 1 1 1 1 7 0\n"
+  "2 3 1 1 1 0 0 0 1 1 1 1 7 0\n3 3 1 1 2 0 0 0 1 1 1 1 7 1 5\n$EndPartitionedEntities\n$Nodes\n"
+  "1 5 1 5\n3 2 0 5\n1\n2\n3\n4\n5\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n1 1 1\n$EndNodes\n$Elements\n"
+  "3 3 1 3\n2 5 2 1\n1 2 3 4\n3 2 4 1\n2 1 2 3 4\n3 3 4 1\n3 2 3 4 5\n$EndElements\n";
 
 std::string binaryGmsh(bool isVersion4)
 {
@@ -255,7 +271,8 @@ TEST_F(BrokenSolverFiles, OneFile)
 {
   const std::pair<const char*, std::string> samples[] = { { "a.inp", Abaqus },
     { "b.inp", Assembly }, { "a.bdf", Nastran }, { "a.k", LsDyna }, { "a.cdb", Ansys },
-    { "a.su2", Su2 }, { "a2.msh", Gmsh2 }, { "a4.msh", Gmsh4 }, { "b2.msh", binaryGmsh(false) },
+    { "b.cdb", Unblocked }, { "p2.msh", Parametric }, { "p4.msh", Partitioned }, { "a.su2", Su2 },
+    { "a2.msh", Gmsh2 }, { "a4.msh", Gmsh4 }, { "b2.msh", binaryGmsh(false) },
     { "b4.msh", binaryGmsh(true) } };
   for (const auto& [name, content] : samples)
   {
@@ -279,6 +296,48 @@ TEST_F(BrokenSolverFiles, OpenFoam)
   for (const char* name : { "points", "faces", "owner", "neighbour", "boundary" })
   {
     this->Break(mesh / name, mesh / "points", name);
+  }
+}
+
+TEST_F(BrokenSolverFiles, CollatedFilesOfOpenFoam)
+{
+  const auto header = [](const std::string& type)
+  { return "FoamFile\n{\n version 2.0;\n format ascii;\n class " + type + ";\n}\n"; };
+  const fs::path mesh = this->Folder / "case" / "processors2" / "constant" / "polyMesh";
+  fs::create_directories(mesh);
+  // Two tetrahedra with a face in common.
+  const auto write = [&](const char* name, const char* type, std::string first, std::string second)
+  {
+    first = header(type) + first;
+    std::string content = header("decomposedBlockData");
+    for (const auto& [number, block] : { std::pair("0", first), std::pair("1", second) })
+    {
+      content += std::string("\n// Processor") + number + "\n\n" + std::to_string(block.size()) +
+                 "\n(" + block + ")\n";
+    }
+    this->Write(mesh / name, content);
+  };
+  const auto patches = [](const std::string& other)
+  {
+    return "2\n(\nwall\n{\n type wall;\n nFaces 3;\n startFace 0;\n}\nprocBoundary" + other +
+           "\n{\n type processor;\n nFaces 1;\n startFace 3;\n}\n)\n";
+  };
+  write("points", "vectorField", "4\n((0 0 0)\n(1 0 0)\n(0 1 0)\n(0 0 1))\n",
+    "4\n((1 0 0)\n(0 1 0)\n(0 0 1)\n(1 1 1))\n");
+  write("faces", "faceList", "4\n(3(0 2 1)\n3(0 1 3)\n3(2 0 3)\n3(1 2 3))\n",
+    "4\n(3(0 1 3)\n3(1 2 3)\n3(2 0 3)\n3(0 2 1))\n");
+  write("owner", "labelList", "4\n(0 0 0 0)\n", "4\n(0 0 0 0)\n");
+  write("neighbour", "labelList", "0\n()\n", "0\n()\n");
+  write("boundary", "polyBoundaryMesh", patches("0to1"), patches("1to0"));
+  write("pointProcAddressing", "labelList", "4\n(0 1 2 3)\n", "4\n(1 2 3 4)\n");
+  const fs::path path = this->Folder / "case";
+  fs::create_directories(this->Folder / "copy");
+  fs::copy(path, this->Folder / "copy" / "case", fs::copy_options::recursive);
+  EXPECT_EQ(morph::io::readSolverFile(path.string())->mesh().nodes(), 5);
+  for (const char* name :
+    { "points", "faces", "owner", "neighbour", "boundary", "pointProcAddressing" })
+  {
+    this->Break(mesh / name, path, name);
   }
 }
 

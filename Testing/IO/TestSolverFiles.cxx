@@ -80,6 +80,7 @@ protected:
     const int written = writer->Write();
     EXPECT_EQ(written, message.empty() ? 1 : 0);
     EXPECT_EQ(writer->GetLargestRounding(), message.empty() ? 0 : -1);
+    EXPECT_EQ(writer->GetChangedCoordinates() >= 0, message.empty());
     EXPECT_EQ(fs::exists(this->Path("b.inp")), message.empty());
     return message;
   }

@@ -117,7 +117,7 @@ class Properties(unittest.TestCase):
         boundary.UpdatePipeline()
         target = ExtractMorphBoundary(Input=grid)
         cls.inputs = {"Input": grid, "Boundary": boundary, "Target": target, "Gradient": boundary,
-                      "Shapes": boundary}
+                      "Shapes": boundary, "Field": boundary}
 
     def create(self, xml):
         names = [p.get("name") for p in xml.iter("InputProperty")]

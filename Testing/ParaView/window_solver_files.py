@@ -23,6 +23,8 @@ def scene():
     from paraview import simple
     simple.LoadPlugin(os.environ["MESHMORPHING_PLUGIN"], remote=False, ns=globals())
     path = os.environ["MORPH_FILE"]
+    if os.environ["MORPH_SCENE"] == "empty":
+        return
     if os.environ["MORPH_SCENE"] == "displaced":
         active = simple.OpenDataFile(path)
         active.ApplyDisplacements = 1
@@ -91,6 +93,30 @@ class SaveCoordinates(unittest.TestCase):
                 displacement = 1e-3 * (axis + 1) + 1e-5 * i
                 self.assertAlmostEqual(written[i], self.model.points[node][axis] + displacement,
                                        delta=1e-14)
+
+
+class Open(unittest.TestCase):
+    def test_our_reader_is_first_for_a_deck_of_abaqus(self):
+        """ParaView asks for a reader of .inp; OK takes the selected one."""
+        from window_events import MAIN, Events
+        with tempfile.TemporaryDirectory() as name:
+            folder = Path(name)
+            path, state = folder / "part.inp", folder / "state.pvsm"
+            path.write_text("*NODE\n1,0.,0.,0.\n2,1.,0.,0.\n3,0.,1.,0.\n4,0.,0.,1.\n"
+                            "*ELEMENT, TYPE=C3D4\n1,1,2,3,4\n")
+            events = Events()
+            events.do(MAIN + "MainControlsToolbar/actionOpenData", "activate")
+            events.do(MAIN + "FileOpenDialog", "filesSelected", str(path))
+            events.do(MAIN + "pqSelectReaderDialog/okButton", "activate")
+            events.save_state(state)
+            home = folder / "home"
+            home.mkdir()
+            code, messages = events.play(home, seconds=250, script=Path(__file__).resolve(),
+                                         environment={"MORPH_SCENE": "empty",
+                                                      "MORPH_FILE": str(path)})
+            self.assertEqual(code, 0, messages)
+            found = re.search(r"group=.sources. type=.(\w+).", state.read_text())
+            self.assertEqual(found and found[1], "SolverFileReader", messages)
 
 
 if "MORPH_SCENE" in os.environ:

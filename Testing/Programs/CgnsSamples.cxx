@@ -97,6 +97,32 @@ public:
       cg_boco_gridlocation_write(this->file_, 1, this->zone_, condition, CGNS_ENUMV(FaceCenter)));
   }
 
+  /// Displacements of two steps: (0.125 + step, 0, 0.25 z), and values of cells beside them.
+  void writeSteps(int first) const
+  {
+    for (int step = 0; step < 3; ++step)
+    {
+      const bool isOfCells = step == 2;
+      const int layer = isOfCells ? 9 : Nodes * Nodes;
+      const int count = layer * (this->layers_ + (isOfCells ? 0 : 1));
+      int solution = 0, field = 0;
+      check(cg_sol_write(this->file_, 1, this->zone_, ("Step" + std::to_string(step)).c_str(),
+        isOfCells ? CGNS_ENUMV(CellCenter) : CGNS_ENUMV(Vertex), &solution));
+      std::vector<double> x(count, 0.125 + step), y(count, 0), z;
+      for (int i = 0; i < count; ++i)
+      {
+        z.push_back(0.25 * (first + i / layer));
+      }
+      const std::vector<double>* values[] = { &x, &y, &z };
+      const char* const names[] = { "DisplacementX", "DisplacementY", "DisplacementZ" };
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        check(cg_field_write(this->file_, 1, this->zone_, solution, CGNS_ENUMV(RealDouble),
+          names[axis], values[axis]->data(), &field));
+      }
+    }
+  }
+
   /// A condition on the uppermost nodes.
   void writeTop() const
   {
@@ -143,7 +169,7 @@ int open(const std::string& path, int type)
   return file;
 }
 
-void writeCube(const std::string& path, int type, bool isSingle)
+void writeCube(const std::string& path, int type, bool isSingle, bool hasSteps = false)
 {
   const int file = open(path, type);
   int family = 0;
@@ -154,6 +180,11 @@ void writeCube(const std::string& path, int type, bool isSingle)
   lower.writeWall();
   upper.writeWall();
   upper.writeTop();
+  if (hasSteps)
+  {
+    lower.writeSteps(0);
+    upper.writeSteps(1);
+  }
   check(cg_close(file));
 }
 
@@ -250,6 +281,7 @@ void writeCgnsSamples(const std::string& folder)
   writeCube(folder + "/cube.cgns", CG_FILE_HDF5, false);
   writeCube(folder + "/cube_adf.cgns", CG_FILE_ADF, false);
   writeCube(folder + "/cube_single.cgns", CG_FILE_HDF5, true);
+  writeCube(folder + "/steps.cgns", CG_FILE_HDF5, false, true);
   writeStructured(folder + "/structured.cgns");
   writePlanar(folder + "/planar.cgns");
 }

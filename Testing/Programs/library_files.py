@@ -349,6 +349,35 @@ class Exodus(Files):
         result = run("--displacement-array", "disp_", path, path, self.folder / "out2.exo")
         self.assertEqual(result.returncode, 1)
 
+    def test_displacements_of_any_step(self):
+        """By the file as boundary, and by the file as field, which moves another mesh too."""
+        model, path = self.write("classic")
+        out, count = self.folder / "out.exo", len(model.order)
+        for step in (0, 1):
+            self.morph(path, out, "--displacement-array", "displ_", "--time-step", str(step),
+                       "--validity", "None", path)
+            written = self.still(out)
+            for i, node in enumerate(model.order):
+                shift = 1e-3 + 1e-5 * (step * count + i)
+                self.assertAlmostEqual(written[3 * i], model.points[node][0] + shift, delta=1e-14)
+            again = self.folder / "again.exo"
+            self.morph(path, again, "--moving", "everything", "--field", path, "--field-array",
+                       "displ_", "--time-step", str(step), "--validity", "None")
+            moved, rest = self.still(again), self.still(path)
+            wall = {node for _, _, nodes in model.wall for node in nodes}
+            for i, node in enumerate(model.order):
+                if node in wall:
+                    self.assertAlmostEqual(moved[3 * i] - rest[3 * i], written[3 * i] - rest[3 * i],
+                                           delta=1e-12)
+        take = ("--displacement-array", "displ_", "--time-step")
+        self.refuse("displacements of 2 time steps, which count from 0; --time-step is 2", *take,
+                    "2", path, path, out)
+        self.refuse("--time-step is of files of Exodus II and CGNS", *take, "0", path,
+                    self.folder / "x.vtu", out)
+        _, still = self.write("classic", nodal=("a", "b", "c"))
+        self.refuse("no displacements of which --time-step could be one", *take, "0", still, still,
+                    out)
+
     def test_damaged_files_are_refused(self):
         _, path = self.write("classic")
         whole = path.read_bytes()
@@ -494,6 +523,20 @@ class Cgns(Files):
         self.assertEqual(len(found), 6)
         for line in found:
             self.assertRegex(line, "/GridCoordinates/Coordinate[XYZ] : data values differ")
+
+    def test_displacements_of_any_step(self):
+        """Solutions at vertices are the steps; the coordinates of both zones take one."""
+        path, out = self.folder / "steps.cgns", self.folder / "out.cgns"
+        rest = self.still(path)
+        for step, words in ((1, ()), (0, ("--time-step", "0"))):
+            self.morph(path, out, "--displacement-array", "Displacement", *words, "--validity",
+                       "None", path)
+            moved = self.still(out)
+            for i in range(0, len(rest), 3):
+                self.assertEqual(moved[i:i + 3], (rest[i] + 0.125 + step, rest[i + 1],
+                                                  1.25 * rest[i + 2]))
+        self.refuse("displacements of 2 time steps", "--displacement-array", "Displacement",
+                    "--time-step", "2", path, path, out)
 
     def test_names(self):
         found = self.surfaces(self.folder / "cube.cgns")

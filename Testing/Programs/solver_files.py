@@ -370,75 +370,6 @@ class SolverFiles(unittest.TestCase):
                     if form != "free":
                         self.assertEqual([len(line) for line in new], [len(line) for line in old])
 
-    def cdb(self, corners, elements, ints=9, real=(21, 13, 3), rest=""):
-        """An archive by the layout that CDWRITE documents. Elements: type, nodes."""
-        width, digits, exponent = real
-        def number(x):
-            mantissa, power = f"{x:.{digits}E}".split("E")
-            return f"{mantissa}E{int(power):+0{exponent + 1}d}".rjust(width)
-        integer = lambda values: "".join(f"{v:{ints}d}" for v in values)
-        text = ("/COM, typed by the published layout\n/PREP7\nET,1,185\nET,2,SOLID186\n"
-                f"ET,        3,181\nET,4,170\nNBLOCK,6,SOLID,{len(corners)},{len(corners)}\n"
-                f"(3i{ints},6e{width}.{digits}e{exponent})\n")
-        for i, corner in enumerate(corners):  # zeros at the end are left out
-            while corner and corner[-1] == 0:
-                corner = corner[:-1]
-            text += integer((i + 1, 0, 0)) + "".join(map(number, corner)) + "\n"
-        text += (f"N,R5.3,LOC,       -1,\nEBLOCK,19,SOLID,{len(elements)},{len(elements)}\n"
-                 f"(19i{ints})\n")
-        for i, (kind, nodes) in enumerate(elements):
-            head = (kind, kind, 1, 1, 0, 0, 0, 0, len(nodes), 0, i + 11)
-            text += integer((*head, *nodes[:8])) + "\n"
-            text += integer(nodes[8:]) + "\n" if nodes[8:] else ""
-        return text + f"{-1:{ints}d}\n{rest}MPDATA,EX,1,1, 2.1E11\nFINISH\n"
-
-    def test_archives_of_ansys(self):
-        """Two widths of fields, components with ranges, elements that are left out; text stays."""
-        path, out = self.folder / "m.cdb", self.folder / "out.cdb"
-        brick, lid = (1, 2, 4, 3, 5, 6, 8, 7), (5, 6, 8, 7)
-        rest = ("CMBLOCK,TOP     ,NODE,       2  ! users node component definition\n(8i10)\n"
-                "         5        -8\nCMBLOCK,LID,ELEM,       1\n(8i10)\n        12\n")
-        for options in ({}, {"ints": 8, "real": (16, 9, 2)}):
-            with self.subTest(**options):
-                path.write_text(self.cdb(self.CORNERS, ((1, brick), (3, lid), (4, lid)), rest=rest,
-                                         **options))
-                listed = run("--list-surfaces", path)
-                self.assertIn("Elements of the type 170 are left out", listed.stderr)
-                for name, faces in (("Material 1", 6), ("TOP", 1), ("LID", 1)):
-                    self.assertRegex(listed.stdout, f"(?m)^{name} +{faces} ")
-                for name, move, rounding in (("LID", "0,0,0.25", 1e-13), ("TOP", "0.1,0,0", 1e-9)):
-                    self.check_by_reading(path, out, "--move", name, "--translate", move,
-                                          delta=rounding)
-                    old, new = (file.read_text().splitlines() for file in (path, out))
-                    self.assertEqual([i for i in range(len(old)) if old[i] != new[i]],
-                                     [12, 13, 14, 15])
-
-    def test_collapsed_hexahedra_of_ansys(self):
-        """With their middle nodes, each halfway between two of its corners."""
-        edges = ((0, 1), (1, 2), (2, 3), (3, 0), (4, 5), (5, 6), (6, 7), (7, 4), (0, 4), (1, 5),
-                 (2, 6), (3, 7))
-        path = self.folder / "m.cdb"
-        for nodes, faces in (((1, 2, 3, 3, 5, 5, 5, 5), 4), ((1, 2, 4, 3, 5, 5, 5, 5), 5),
-                             ((1, 2, 3, 3, 5, 6, 7, 7), 5), ((1, 2, 4, 3, 5, 6, 8, 7), 6)):
-            corners, places = list(self.CORNERS), {}
-            for a, b in edges:
-                ends = sorted((nodes[a], nodes[b]))
-                if ends[0] != ends[1] and tuple(ends) not in places:
-                    x, y = (self.CORNERS[n - 1] for n in ends)
-                    corners.append(tuple((p + q) / 2 for p, q in zip(x, y)))
-                    places[tuple(ends)] = len(corners)
-            middles = tuple(places.get(tuple(sorted((nodes[a], nodes[b]))), nodes[a])
-                            for a, b in edges)
-            for kind, given in ((1, nodes), (2, nodes + middles)):
-                path.write_text(self.cdb(corners, ((kind, given),)))
-                still = run("--move", f"Material {kind}", "--translate", "1,0,0", path,
-                            self.folder / "out.cdb")
-                self.assertEqual(still.returncode, 0, still.stderr)
-                self.assertRegex(still.stdout, r"inverted cells +0 +0\n")
-                self.assertRegex(still.stdout, r"collapsed cells +0 +0\n")
-                if kind == 1:
-                    self.assertRegex(run("--list-surfaces", path).stdout, f"Material 1 +{faces} ")
-
     def test_collapsed_hexahedra_of_ls_dyna(self):
         """Tetrahedra, pyramids and wedges are hexahedra with equal nodes, or have own cards."""
         nodes = "".join(f"{i + 1},{x},{y},{z}\n" for i, (x, y, z) in enumerate(self.CORNERS))
@@ -482,7 +413,8 @@ class SolverFiles(unittest.TestCase):
                 path, out = self.folder / ("box" + extension), self.folder / ("out" + extension)
                 subprocess.run(["gmsh", "-3", box, "-o", path], check=True, capture_output=True,
                                timeout=120)
-                self.morph(path, out, "--move", wall, "--translate", "0,0,0")
+                said = self.morph(path, out, "--move", wall, "--translate", "0,0,0")
+                self.assertIn("\n0 coordinates of %s changed, all else kept" % out, said)
                 self.assertEqual(out.read_bytes(), path.read_bytes())
                 self.check_by_reading(path, out, "--move", wall, "--translate", "-0.25,0,0",
                                       delta=1e-6)
@@ -493,6 +425,36 @@ class SolverFiles(unittest.TestCase):
         subprocess.run(["gmsh", unv, "-save", "-o", msh], check=True, capture_output=True,
                        timeout=120)
         self.assertRegex(run("--list-surfaces", msh).stdout, "(?m)^wall +[1-9]")
+        med, fluent = self.folder / "box.med", self.folder / "fluent.msh"
+        med.write_bytes(b"\x89HDF")
+        self.refuse("Gmsh converts it: gmsh .*box.med -save -o model.msh", "list", med)
+        fluent.write_text('(0 "GAMBIT to Fluent File")\n(2 3)\n')
+        self.refuse("of Fluent, .*meshio convert --input-format ansys .*fluent.msh model.vtu",
+                    "list", fluent)
+
+    def test_meshes_that_gmsh_writes(self):
+        """With parameters of nodes, and of several partitions, whose interfaces are no surfaces."""
+        box = self.folder / "box.geo"
+        box.write_text('SetFactory("OpenCASCADE"); Box(1) = {0, 0, 0, 1, 1, 1};\n'
+                       'Physical Volume("body") = {1}; Physical Surface("wall") = {1};\n'
+                       "Mesh.MeshSizeMax = 0.5;\n")
+        path, out = self.folder / "box.msh", self.folder / "out.msh"
+        parametric = ("-setnumber", "Mesh.SaveParametric", "1")
+        ghosts = ("-part", "3", "-setnumber", "Mesh.PartitionCreateGhostCells", "1")
+        rows = set()
+        for words in (parametric, ("-part", "2"), ghosts):
+            for form in ("msh22", "msh41"):
+                for code in ((), ("-bin",)):
+                    with self.subTest(words=words, form=form, code=code):
+                        subprocess.run(["gmsh", "-3", box, "-format", form, *words, *code, "-o",
+                                        path], check=True, capture_output=True, timeout=120)
+                        rows.add(tuple(re.findall(r"(?m)^((?!Surface).*) +\d", run(
+                            "list", path).stdout)))
+                        self.assertEqual(len(rows), 1, rows)
+                        self.morph(path, out, "--move", "wall", "--translate", "0,0,0")
+                        self.assertEqual(out.read_bytes(), path.read_bytes())
+                        self.check_by_reading(path, out, "--move", "wall", "--translate",
+                                              "-0.25,0,0", delta=1e-12)
 
     def test_planar_elements_beside_volumes_are_faces(self):
         """Mesh generators name faces by types of planar models."""
@@ -628,8 +590,6 @@ class SolverFiles(unittest.TestCase):
         grids = "BEGIN BULK\n" + "".join(f"GRID,{i + 1},,{x}\n" for i, x in enumerate(
             ("0.,0.,0.", "1.,0.,0.", "0.,1.,0.", "0.,0.,1.")))
         tetra = "CTETRA,1,7,1,2,3,4\n"
-        cdb = self.cdb([(1., 0., 0.), (2., 0., 0.), (1., 1., 0.), (1., 0., 1.)],
-                       [(1, (1, 2, 3, 4))])
         dyna = ("*KEYWORD\n*NODE\n1,0.,0.,0.\n2,1.,0.,0.\n3,0.,1.,0.\n4,0.,0.,1.\n"
                 "*ELEMENT_SOLID\n1,7,1,2,3,4,4,4,4,4\n")
         su2 = "NDIME= 3\n" + points + "NELEM= 1\n10 0 1 2 3\n"
@@ -668,15 +628,6 @@ class SolverFiles(unittest.TestCase):
             ("m.bdf", grids + "CTRIA3,1,7,1,2,3\n", "m.bdf: None of .* is a volume cell"),
             ("m.inp", nodes + brick.replace("C3D8", "S4").replace(", 5, 6, 8, 7", ""),
              "m.inp: None of .* is a volume cell"),
-            ("m.cdb", cdb.replace("0E+000", "0E+xyz", 1), "line 9: .* is no number"),
-            ("m.cdb", cdb.replace("(3i9", "(3z9"), "line 8: the format of the block is missing"),
-            ("m.cdb", cdb.replace("        3        4\n", "        3       44\n"),
-             "element 11 has the node 44"),
-            ("m.cdb", cdb.replace("        3        4\n", "        3\n"),
-             "line 16: element 11 should have 4 nodes, and has 3"),
-            ("m.cdb", cdb[:cdb.index("       -1,") - 30], "line 12: .*is no|ends inside of NBLOCK"),
-            ("m.cdb", "N,1,0.,0.,0.\n", "line 1: .*Write a blocked archive"),
-            ("m.cdb", "/PREP7\n", "no nodes in NBLOCK"),
             ("m.k", dyna.replace("1.,0.,0.", "1.,x,0."), "line 4: 'x' is no number"),
             ("m.k", dyna.replace("4,4,4,4", "44,44,44,44"), "element 1 has the node 44"),
             ("m.k", dyna.replace("4,4,4,4", ""), "line 8: element 1 has 3 nodes"),
@@ -708,7 +659,8 @@ class SolverFiles(unittest.TestCase):
             ("m.msh", msh + "$Nodes\n0 0 0 0\n$EndNodes\n", "the section .Nodes twice"),
             ("m.msh", msh.replace("$Nodes", "$Modes").replace("$EndNodes", "$EndModes"),
              "no section .Nodes"),
-            ("m.msh", msh + "$PartitionedEntities\n$EndPartitionedEntities\n", "partitioned"))
+            ("m.msh", msh + "$PartitionedEntities\n2\n$EndPartitionedEntities\n",
+             "line 23: the section ends where a number should follow"))
         for name, content, message in cases:
             with self.subTest(message=message):
                 path = self.folder / name

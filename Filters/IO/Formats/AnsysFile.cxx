@@ -5,6 +5,7 @@
 #include "Formats/AbaqusKeyword.h"
 #include "Formats/SolidElements.h"
 #include "Formats/TextFile.h"
+#include "Text/NumberText.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -50,6 +51,8 @@ private:
   void readNodes(Lines& lines);
   void readElements(Lines& lines);
   void readComponent(Lines& lines, const std::vector<Span>& command);
+  void readNodeCommand(Span line);
+  void readElementCommand(Span line);
   void finish();
 
   std::vector<std::size_t> widths_; ///< of the fields of the block
@@ -57,7 +60,20 @@ private:
   std::map<Index, Index> types_;    ///< element type of each number of ET
   std::vector<Element> elements_;
   std::vector<Component> components_;
+  /// What commands have set for the elements and nodes after them.
+  ///@{
+  Index type_ = 1, material_ = 1, system_ = 0;
+  ///@}
+  std::size_t missing_ = 0; ///< nodes of the last element, which further commands give
 };
+
+/// Commands that make or change nodes or elements, or read other files.
+bool isRefused(const std::string& command)
+{
+  static const std::set<std::string> commands = { "NGEN", "NSYM", "NSCALE", "NMODIF", "FILL", "E",
+    "EGEN", "ENGEN", "ESYM", "ENSYM", "EMODIF", "TRANSFER", "CDREAD", "NREAD", "EREAD", "/INPUT" };
+  return commands.count(command) > 0;
+}
 
 /// Whether a type has volume elements (1), shells (2), or is left out (0).
 int kindOf(Index type)
@@ -225,13 +241,90 @@ void AnsysFile::readComponent(Lines& lines, const std::vector<Span>& command)
   this->components_.push_back(std::move(component));
 }
 
+/// "N,R5.3,LOC,number,,,x,y,z", as CDWRITE has it unblocked, or "N,number,x,y,z". A number of -1
+/// ends the nodes.
+void AnsysFile::readNodeCommand(Span line)
+{
+  const std::vector<NumberField> fields = freeFields(this->text(), line, 9);
+  const auto word = [&](std::size_t i) { return upperCase(fields[i].span.of(this->text())); };
+  const bool isCoded = !parseInteger(word(1)) && !word(2).empty();
+  if (isCoded && word(2) != "LOC")
+  {
+    return; // the angles of a node
+  }
+  const std::size_t at = isCoded ? 3 : 1, first = isCoded ? 6 : 2;
+  const Index number = this->integerAt(0, fields[at].span);
+  if (number == -1)
+  {
+    return;
+  }
+  if (!isCoded && this->system_ != 0)
+  {
+    this->failAt(0, line.begin,
+      "the node " + std::to_string(number) + " is in the coordinate system " +
+        std::to_string(this->system_) + " (CSYS). Write it in the global Cartesian one.");
+  }
+  NumberRules rules;
+  rules.longest = 32;
+  rules.separator = ',';
+  std::array<double, 3> x;
+  this->places_.push_back(this->nodePlace(0, fields.data() + first, rules, x));
+  this->mesh_.addNode(number, x[0], x[1], x[2]);
+}
+
+/// "EN,R5.5,ATTR,nodes,material,type,real,section,system,number" and "EN,R5.5,NODE,..." for each
+/// eight nodes, as CDWRITE has them unblocked; or "EN,number,..." and "EMORE,...".
+void AnsysFile::readElementCommand(Span line)
+{
+  const std::vector<NumberField> fields = freeFields(this->text(), line, 10);
+  const auto word = [&](std::size_t i) { return upperCase(fields[i].span.of(this->text())); };
+  const bool isMore = word(0) == "EMORE", isAttributes = word(2) == "ATTR";
+  const bool isCoded = isAttributes || word(2) == "NODE";
+  if (isAttributes)
+  {
+    const Index nodes = this->integerAt(0, fields[3].span);
+    if (nodes == -1)
+    {
+      return; // the end
+    }
+    if (nodes < 1 || nodes > 100)
+    {
+      this->failAt(0, line.begin, "an element has " + std::to_string(nodes) + " nodes.");
+    }
+    this->missing_ = static_cast<std::size_t>(nodes);
+    this->elements_.push_back({ this->integerAt(0, fields[9].span),
+      this->integerAt(0, fields[4].span), this->integerAt(0, fields[5].span), {}, line.begin });
+    return;
+  }
+  if (!isCoded && !isMore)
+  {
+    this->missing_ = 0;
+    this->elements_.push_back(
+      { this->integerAt(0, fields[1].span), this->material_, this->type_, {}, line.begin });
+  }
+  if (this->elements_.empty() || (isCoded && this->missing_ == 0))
+  {
+    this->failAt(0, line.begin, "nodes are given of no element.");
+  }
+  for (std::size_t i = isCoded ? 3 : isMore ? 1 : 2; i < fields.size(); ++i)
+  {
+    if (fields[i].span.size() > 0 && (!isCoded || this->missing_ > 0))
+    {
+      this->elements_.back().nodes.push_back(this->integerAt(0, fields[i].span));
+      this->missing_ -= isCoded ? 1 : 0;
+    }
+  }
+}
+
 void AnsysFile::parse()
 {
   Lines lines(this->text());
   std::vector<Span> fields;
   while (lines.next())
   {
-    splitAtCommas(this->text(), lines.span(), fields);
+    Span line = lines.span();
+    line.end = std::min(line.end, std::max(this->text().find('!', line.begin), line.begin));
+    splitAtCommas(this->text(), line, fields);
     const auto word = [&](std::size_t i)
     { return i < fields.size() ? upperCase(fields[i].of(this->text())) : std::string(); };
     const std::string command = word(0);
@@ -258,11 +351,26 @@ void AnsysFile::parse()
       const std::size_t digits = std::min(name.find_first_of("0123456789"), name.size());
       this->types_[std::atoi(word(1).c_str())] = std::atoi(name.c_str() + digits);
     }
-    else if (command == "N" || command == "EN")
+    else if (command == "N")
     {
-      this->failAt(0, lines.span().begin,
-        "its nodes or elements have a command each (" + command +
-          "). Write a blocked archive (CDWRITE with BLOCKED).");
+      this->readNodeCommand(line);
+    }
+    else if (command == "EN" || command == "EMORE")
+    {
+      this->readElementCommand(line);
+    }
+    else if (command == "TYPE" || command == "MAT" || command == "CSYS")
+    {
+      Index& value = command == "TYPE"  ? this->type_
+                     : command == "MAT" ? this->material_
+                                        : this->system_;
+      value = parseInteger(word(1)).value_or(0);
+    }
+    else if (isRefused(command))
+    {
+      this->failAt(0, line.begin,
+        "the command " + command +
+          " is not supported. Write an archive of all nodes and elements (CDWRITE).");
     }
   }
 }
@@ -271,7 +379,13 @@ void AnsysFile::finish()
 {
   if (this->mesh_.nodes() == 0)
   {
-    this->fail("it has no nodes in NBLOCK.");
+    this->fail("it has no nodes, in NBLOCK or in commands N.");
+  }
+  if (this->missing_ > 0)
+  {
+    this->failAt(0, this->elements_.back().at,
+      "element " + std::to_string(this->elements_.back().number) + " lacks " +
+        std::to_string(this->missing_) + " of its nodes.");
   }
   const auto positions = positionsOf(this->mesh_.nodeNumbers, "node", this->path());
   std::set<Index> unknown;

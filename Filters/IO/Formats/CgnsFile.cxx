@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <map>
 
@@ -39,6 +40,22 @@ public:
       this->fail("it has no volume elements: surfaces alone are not morphed.");
     }
     this->nodeAt_.clear();
+    if (this->steps() > 0)
+    {
+      this->mesh_.displacementName = this->zones_.front().displacementName;
+      this->mesh_.displacements = this->displacementsAt(this->steps() - 1);
+    }
+  }
+
+  std::vector<double> displacementsAt(Index step) const override;
+  Index steps() const override
+  {
+    std::size_t steps = this->zones_.empty() ? 0 : this->zones_.front().solutions.size();
+    for (const Zone& zone : this->zones_)
+    {
+      steps = std::min(steps, zone.solutions.size());
+    }
+    return static_cast<Index>(steps);
   }
 
   std::vector<NewFile> withCoordinates(const std::vector<double>& coordinates,
@@ -50,6 +67,9 @@ private:
     std::string path;        ///< of its coordinates
     std::vector<Index> node; ///< the mesh's node of each of its nodes
     std::array<bool, 3> isSingle = { false, false, false };
+    /// The three arrays of displacements of each solution at vertices that has them.
+    std::vector<std::array<std::string, 3>> solutions;
+    std::string displacementName;
   };
 
   CgnsNode baseOf(const CgnsTree& tree) const;
@@ -57,6 +77,7 @@ private:
   void readNodes(const CgnsTree& tree, const CgnsNode& grid, Index count, const std::string& path);
   void readSection(const CgnsTree& tree, const CgnsNode& section);
   void addElement(const CgnsNode& section, Index type, const Index* nodes, Index number);
+  void readSolution(const CgnsTree& tree, const CgnsNode& solution, const std::string& path);
   void readConditions(const CgnsTree& tree, const CgnsNode& zone);
   void addCondition(const CgnsTree& tree, const CgnsNode& condition);
 
@@ -116,6 +137,11 @@ void CgnsFile::readZone(const CgnsTree& tree, const CgnsNode& base, const CgnsNo
     {
       this->readSection(tree, section);
     }
+    if (section.label == "FlowSolution_t")
+    {
+      this->readSolution(
+        tree, section, "/" + base.name + "/" + node.name + "/" + section.name + "/");
+    }
   }
   this->readConditions(tree, node);
   Index last = this->elementsBefore_;
@@ -167,6 +193,69 @@ void CgnsFile::readNodes(
   }
   this->nodeAt_.merge(added);
   this->zones_.push_back(std::move(zone));
+}
+
+/// Displacements are a vector whose name begins with "dis", as those of Exodus II.
+void CgnsFile::readSolution(const CgnsTree& tree, const CgnsNode& solution, const std::string& path)
+{
+  const CgnsNode location = tree.child(solution, "GridLocation_t");
+  if (location.id >= 0 && tree.text(location) != "Vertex")
+  {
+    return;
+  }
+  Zone& zone = this->zones_.back();
+  std::map<std::string, std::array<std::string, 3>> vectors; // by name without the axis
+  for (const CgnsNode& array : tree.children(solution))
+  {
+    const std::size_t axis =
+      array.name.empty()
+        ? 3
+        : std::string("XYZ").find(static_cast<char>(std::toupper(array.name.back())));
+    std::string stem = array.name.substr(0, std::max<std::size_t>(array.name.size(), 1) - 1);
+    std::string start = stem.substr(0, 3);
+    std::transform(start.begin(), start.end(), start.begin(),
+      [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    if (array.label == "DataArray_t" && axis < 3 && start == "dis" && !tree.isLink(array))
+    {
+      vectors[stem][axis] = path + array.name;
+    }
+  }
+  for (const auto& [name, arrays] : vectors)
+  {
+    if (std::none_of(arrays.begin(), arrays.end(), [](const auto& one) { return one.empty(); }))
+    {
+      zone.displacementName = name;
+      zone.solutions.push_back(arrays);
+      return;
+    }
+  }
+}
+
+std::vector<double> CgnsFile::displacementsAt(Index step) const
+{
+  if (step < 0 || step >= this->steps())
+  {
+    return {};
+  }
+  const CgnsTree tree(this->path(), this->path());
+  std::vector<double> result(this->mesh_.coordinates.size());
+  for (const Zone& zone : this->zones_)
+  {
+    for (std::size_t j = 0; j < 3; ++j)
+    {
+      const std::string& path = zone.solutions[static_cast<std::size_t>(step)][j];
+      const std::vector<double> values = tree.numbers(tree.at(path));
+      if (values.size() != zone.node.size())
+      {
+        this->fail(path + " does not have " + std::to_string(zone.node.size()) + " values.");
+      }
+      for (std::size_t i = values.size(); i-- > 0;) // of joined nodes the first
+      {
+        result[static_cast<std::size_t>(3 * zone.node[i]) + j] = values[i];
+      }
+    }
+  }
+  return result;
 }
 
 void CgnsFile::addElement(const CgnsNode& section, Index type, const Index* nodes, Index number)

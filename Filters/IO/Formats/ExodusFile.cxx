@@ -48,6 +48,7 @@ public:
   {
     return this->displacementsIn(NetCdf(this->path(), this->path()), step);
   }
+  Index steps() const override { return this->steps_; }
 
   std::vector<NewFile> withCoordinates(const std::vector<double>& coordinates,
     const std::string& out, double& largestRounding) const override;

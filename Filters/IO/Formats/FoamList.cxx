@@ -25,20 +25,107 @@ Value valueAt(const char* bytes)
 }
 }
 
-FoamList::FoamList(const std::string& path)
-  : path_(path)
+FoamBlocks::FoamBlocks(const std::string& path)
+  : path(path)
 {
   std::error_code error;
   if (!std::filesystem::exists(path, error) && std::filesystem::exists(path + ".gz", error))
   {
-    this->path_ += ".gz";
+    this->path += ".gz";
   }
-  this->content_ = readFile(this->path_);
-  if (this->content_.rfind("\x1f\x8b", 0) == 0)
+  this->content = readFile(this->path);
+  if (this->content.rfind("\x1f\x8b", 0) == 0)
   {
-    this->content_ = gunzip(this->content_, this->path_);
+    this->content = gunzip(this->content, this->path);
   }
+  const std::string_view text(this->content);
+  const std::size_t kind = text.find("decomposedBlockData");
+  std::size_t at = text.find('}');
+  if (kind == std::string_view::npos || kind > at)
+  {
+    return;
+  }
+  // "// Processor0", its length, and its bytes in parentheses; after the last only comments.
+  const auto fail = [&]
+  {
+    throw Error("Cannot read " + printable(this->path) + ": its block " +
+                std::to_string(this->blocks.size()) + " is damaged, or ends too soon.");
+  };
+  for (++at; (at = text.find("// Processor", at)) != std::string_view::npos;)
+  {
+    at = std::min(text.find('\n', at), text.size());
+    at = std::min(text.find_first_not_of(" \t\r\n", at), text.size());
+    Span length{ at, std::min(text.find_first_not_of("0123456789", at), text.size()) };
+    const auto size = parseInteger(length.of(text));
+    const std::size_t begin = text.find('(', length.end);
+    if (!size || *size < 0 || begin == std::string_view::npos ||
+        static_cast<std::size_t>(*size) >= text.size() - begin - 1 ||
+        text[begin + 1 + static_cast<std::size_t>(*size)] != ')')
+    {
+      fail();
+    }
+    at = begin + 1 + static_cast<std::size_t>(*size);
+    this->lengths.push_back(length);
+    this->blocks.push_back({ begin + 1, at });
+  }
+  if (this->blocks.empty())
+  {
+    fail();
+  }
+}
+
+std::string FoamBlocks::with(const std::vector<std::string>& others) const
+{
+  std::string result;
+  std::size_t at = 0;
+  for (std::size_t i = 0; i < this->blocks.size(); ++i)
+  {
+    const Span &length = this->lengths[i], &block = this->blocks[i];
+    result += this->content.substr(at, length.begin - at) + std::to_string(others[i].size()) +
+              this->content.substr(length.end, block.begin - length.end) + others[i];
+    at = block.end;
+  }
+  return result + this->content.substr(at);
+}
+
+FoamList::FoamList(const std::string& path)
+{
+  FoamBlocks file(path);
+  this->path_ = std::move(file.path);
+  this->content_ = std::move(file.content);
   this->readHeader();
+  if (!file.blocks.empty())
+  {
+    this->fail("it holds the pieces of a decomposed case. Give the case.");
+  }
+}
+
+std::vector<FoamList> FoamList::all(const std::string& path)
+{
+  FoamBlocks file(path);
+  std::vector<FoamList> lists;
+  const auto add = [&](std::string name, std::string content)
+  {
+    // The first block has the header of all.
+    FoamList list = lists.empty() ? FoamList() : lists.front();
+    list.path_ = std::move(name);
+    list.content_ = std::move(content);
+    list.at_ = 0;
+    if (lists.empty())
+    {
+      list.readHeader();
+    }
+    lists.push_back(std::move(list));
+  };
+  for (std::size_t i = 0; i < file.blocks.size(); ++i)
+  {
+    add(file.path + ", block " + std::to_string(i), std::string(file.blocks[i].of(file.content)));
+  }
+  if (lists.empty())
+  {
+    add(file.path, std::move(file.content));
+  }
+  return lists;
 }
 
 void FoamList::fail(const std::string& reason) const

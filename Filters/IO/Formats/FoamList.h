@@ -10,6 +10,21 @@
 
 namespace morph::io
 {
+/// A collated file of a decomposed case: a file of OpenFOAM for each piece, one after the other.
+struct FoamBlocks
+{
+  std::string path;    ///< with ".gz" where it has that
+  std::string content; ///< unpacked
+  /// Of each block its length, as a number, and its bytes; none where the file is not collated.
+  std::vector<Span> lengths, blocks;
+
+  /// Reads `path` or, where there is no such file, `path` with ".gz". Throws Error where neither
+  /// can be read, or where a collated file is damaged.
+  explicit FoamBlocks(const std::string& path);
+  /// The content with other blocks, as many as it has.
+  std::string with(const std::vector<std::string>& others) const;
+};
+
 /// A file of OpenFOAM, unpacked: its header, and the lists that follow. See "Basic input/output
 /// file format" in OpenFOAM's User Guide.
 class FoamList
@@ -18,6 +33,8 @@ public:
   /// Reads `path` or, where there is no such file, `path` with ".gz". Throws Error where neither
   /// can be read, or where it has no header FoamFile.
   explicit FoamList(const std::string& path);
+  /// The files that a collated file holds, or the one file that it is.
+  static std::vector<FoamList> all(const std::string& path);
 
   const std::string& path() const { return this->path_; } ///< with ".gz" where it has that
   const std::string& content() const { return this->content_; }
@@ -66,6 +83,7 @@ public:
   const std::string& dimensions() const { return this->dimensions_; } ///< read by boundaryField()
 
 private:
+  FoamList() = default;
   void readHeader();
   /// Goes through a dictionary, from its '{' to behind its '}'. `take`: reads what follows a key,
   /// or returns false to have it skipped.

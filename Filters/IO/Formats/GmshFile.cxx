@@ -41,8 +41,9 @@ private:
   const std::string& content() const { return this->parts_[0].text; }
   void parse();
   void readNames(GmshCursor cursor);
-  void readEntities(GmshCursor cursor);
-  void readNodes2(const GmshSections& sections, const GmshSections::Section& section);
+  void readEntities(GmshCursor cursor, bool arePartitioned);
+  void readNodes2(
+    const GmshSections& sections, const GmshSections::Section& section, bool areParametric);
   void readNodes4(GmshCursor cursor);
   void readElements2(const GmshSections& sections, const GmshSections::Section& section);
   void readElements4(GmshCursor cursor);
@@ -81,8 +82,17 @@ void GmshFile::readNames(GmshCursor cursor)
   }
 }
 
-void GmshFile::readEntities(GmshCursor cursor)
+void GmshFile::readEntities(GmshCursor cursor, bool arePartitioned)
 {
+  if (arePartitioned)
+  {
+    cursor.size(); // the number of partitions
+    for (Index i = cursor.count(true, 4); i > 0; --i)
+    {
+      cursor.integer(); // an entity of ghosts
+      cursor.integer(); // its partition
+    }
+  }
   std::array<Index, 4> counts;
   for (Index& count : counts)
   {
@@ -93,6 +103,16 @@ void GmshFile::readEntities(GmshCursor cursor)
     for (Index i = counts[static_cast<std::size_t>(dimension)]; i > 0; --i)
     {
       const Index tag = cursor.integer();
+      bool isInterface = false; // of partitions: it has the groups of what it cuts
+      if (arePartitioned)
+      {
+        isInterface = cursor.integer() != dimension; // that of the entity it is a part of
+        cursor.integer();                            // which has this tag
+        for (Index j = cursor.count(true, 4); j > 0; --j)
+        {
+          cursor.integer(); // a partition
+        }
+      }
       for (int j = dimension == 0 ? 3 : 6; j > 0; --j)
       {
         cursor.number(); // a point, or a bounding box
@@ -100,7 +120,11 @@ void GmshFile::readEntities(GmshCursor cursor)
       auto& groups = this->groupsOf_[{ dimension, tag }];
       for (Index j = cursor.count(true, 4); j > 0; --j)
       {
-        groups.push_back({ dimension, std::abs(cursor.integer()) });
+        const Group group(dimension, std::abs(cursor.integer()));
+        if (!isInterface)
+        {
+          groups.push_back(group);
+        }
       }
       for (Index j = dimension == 0 ? 0 : cursor.count(true, 4); j > 0; --j)
       {
@@ -127,7 +151,8 @@ void GmshFile::addNode(GmshCursor& cursor, Index number)
   this->places_.push_back(place);
 }
 
-void GmshFile::readNodes2(const GmshSections& sections, const GmshSections::Section& section)
+void GmshFile::readNodes2(
+  const GmshSections& sections, const GmshSections::Section& section, bool areParametric)
 {
   Index count = 0;
   GmshCursor cursor = sections.listCursor(section, 28, count);
@@ -135,6 +160,15 @@ void GmshFile::readNodes2(const GmshSections& sections, const GmshSections::Sect
   {
     const Index number = cursor.integer();
     this->addNode(cursor, number);
+    const Index dimension = areParametric ? cursor.integer() : 0; // of the entity it is on
+    if (areParametric)
+    {
+      cursor.integer(); // the entity's tag
+    }
+    for (Index j = dimension == 1 || dimension == 2 ? dimension : 0; j > 0; --j)
+    {
+      cursor.number();
+    }
   }
 }
 
@@ -302,27 +336,29 @@ void GmshFile::parse()
   const GmshSections sections(this->content(), this->path());
   this->isBinary_ = sections.isBinary;
   this->isVersion4_ = sections.isVersion4;
-  const auto* nodes = sections.find("Nodes");
+  const auto* parametric = sections.isVersion4 ? nullptr : sections.find("ParametricNodes");
+  const auto* nodes = parametric ? parametric : sections.find("Nodes");
   const auto* elements = sections.find("Elements");
   if (!nodes || !elements)
   {
     this->fail(std::string("it has no section ") + (nodes ? "$Elements." : "$Nodes."));
-  }
-  if (sections.find("PartitionedEntities"))
-  {
-    this->fail("it is partitioned. Let Gmsh write it without partitions.");
   }
   if (const auto* names = sections.find("PhysicalNames"))
   {
     this->readNames(GmshCursor(this->content(), this->path(), names->begin, names->end, false));
   }
   const auto* entities = sections.find("Entities");
+  const auto* partitioned = sections.find("PartitionedEntities");
   if (sections.isVersion4 && entities)
   {
-    this->readEntities(sections.cursor(*entities));
+    this->readEntities(sections.cursor(*entities), false);
+  }
+  if (sections.isVersion4 && partitioned)
+  {
+    this->readEntities(sections.cursor(*partitioned), true);
   }
   sections.isVersion4 ? this->readNodes4(sections.cursor(*nodes))
-                      : this->readNodes2(sections, *nodes);
+                      : this->readNodes2(sections, *nodes, parametric != nullptr);
   this->positions_ = positionsOf(this->mesh_.nodeNumbers, "node", this->path());
   sections.isVersion4 ? this->readElements4(sections.cursor(*elements))
                       : this->readElements2(sections, *elements);

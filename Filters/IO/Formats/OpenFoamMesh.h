@@ -7,16 +7,20 @@ namespace morph::io
 {
 /// Whether a path is a mesh of OpenFOAM: the folder of a case, a .foam file in one, a folder
 /// polyMesh (of a region or a time too), or a file points or points.gz. A case whose regions or
-/// pieces have the meshes is one, too.
+/// pieces have the meshes is one, too; see FoamFolders.
 bool isOpenFoamMesh(const std::string& path);
 
-/// Reads points, faces, owner, neighbour and boundary, text or binary, packed (.gz) or not; nodes
-/// and cells are numbered from 0. A time's folder may have its points alone. Patches and zones are
-/// sets of faces, cells or points. Cells of other shapes are polyhedra. Throws Error for a case of
-/// several regions, which names them, and for a decomposed case or a piece of it.
+/// Reads points, faces, owner, neighbour and boundary, text or binary, packed (.gz) or not,
+/// collated or not; nodes and cells are numbered from 0. A time's folder may have its points alone.
+/// Patches and zones are sets of faces, cells or points. Cells of other shapes are polyhedra.
+///
+/// Several regions are one mesh: nodes of two at the very same position are one, and the faces of
+/// their interface are one sheet inside. Sets are "fluid/inlet", and the cells of each region are a
+/// set of its name. So are the pieces of a decomposed case, whose nodes are one, and have their
+/// numbers, by pointProcAddressing, or else by position. Throws Error for a piece alone, and for
+/// pieces whose cuts do not fit.
 std::unique_ptr<SolverFile> readOpenFoamMesh(const std::string& path);
 
-/// The file of points that `out` means: itself, where it is called points or points.gz; or that of
-/// a case's folder or of a folder polyMesh. Throws Error for another name.
-std::string openFoamTarget(const std::string& original, const std::string& out);
+/// The files of points that `out` means; see foamTargets().
+std::vector<std::string> openFoamTargets(const std::string& original, const std::string& out);
 }

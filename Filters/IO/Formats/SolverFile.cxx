@@ -26,14 +26,14 @@ struct Format
   const char* name;
   bool (*matches)(const std::string& path);
   std::unique_ptr<SolverFile> (*read)(const std::string& path);
-  /// The file that is meant by the path of a copy. Throws Error for another format.
-  std::string (*target)(const std::string& original, const std::string& out);
+  /// The files that are meant by the path of a copy. Throws Error for another format.
+  std::vector<std::string> (*targets)(const std::string& original, const std::string& out);
   bool makesFolder = false; ///< where the copy's folder is missing
   bool isBuilt = true;      ///< its library was there
 };
 
 /// The copy has the extension of the original.
-std::string sameExtension(const std::string& original, const std::string& out)
+std::vector<std::string> sameExtension(const std::string& original, const std::string& out)
 {
   const std::string extension = extensionOf(original);
   if (extensionOf(out) != extension)
@@ -41,7 +41,7 @@ std::string sameExtension(const std::string& original, const std::string& out)
     throw Error("Cannot write " + out + ": a copy of " + original + " with other coordinates is " +
                 extension + " too.");
   }
-  return out;
+  return { out };
 }
 
 #ifdef MESHMORPHING_HAS_NETCDF
@@ -63,7 +63,7 @@ constexpr Format Formats[] = {
   { "Gmsh", isGmshFile, readGmshFile, sameExtension },
   { "LS-DYNA", isLsDynaFile, readLsDynaFile, sameExtension },
   { "Nastran", isNastranFile, readNastranFile, sameExtension },
-  { "OpenFOAM", isOpenFoamMesh, readOpenFoamMesh, openFoamTarget, true },
+  { "OpenFOAM", isOpenFoamMesh, readOpenFoamMesh, openFoamTargets, true },
   { "SU2", isSu2File, readSu2File, sameExtension },
 };
 
@@ -85,7 +85,8 @@ const Format& requireFormat(const std::string& path)
   if (!format)
   {
     readFile(path); // says where there is none
-    throw Error("Cannot read " + path + ": it is no file of a solver that is known here.");
+    throw Error("Cannot read " + path + ": it is no file of a solver that is known here." +
+                converterOf(path));
   }
   return *format;
 }
@@ -144,10 +145,37 @@ void SolverFile::fail(const std::string& reason) const
   throw Error(printable("Cannot read " + this->path() + ": " + reason));
 }
 
+void SolverFile::takeStep(Index step)
+{
+  this->mesh_.displacements = this->displacementsAt(step);
+  if (this->mesh_.displacements.empty())
+  {
+    this->fail(this->steps() == 0 ? "it has no displacements of which `TimeStep` could be one."
+                                  : "it has displacements of " + std::to_string(this->steps()) +
+                                      " time steps, which count from 0; `TimeStep` is " +
+                                      std::to_string(step) + ".");
+  }
+}
+
 std::string solverFormat(const std::string& path)
 {
   const Format* format = formatOf(path);
   return format && format->isBuilt ? format->name : "";
+}
+
+std::string converterOf(const std::string& path)
+{
+  const std::string extension = extensionOf(path);
+  if (extension == ".unv" || extension == ".med")
+  {
+    return " Gmsh converts it: gmsh " + path + " -save -o model.msh";
+  }
+  if (extension == ".msh" && readHead(path, 1) == "(")
+  {
+    return " It is of Fluent, and meshio converts it: meshio convert --input-format ansys " + path +
+           " model.vtu";
+  }
+  return {};
 }
 
 std::unique_ptr<SolverFile> readSolverFile(const std::string& path)
@@ -155,16 +183,20 @@ std::unique_ptr<SolverFile> readSolverFile(const std::string& path)
   return requireFormat(path).read(path);
 }
 
-double writeSolverFile(const std::string& original, const std::vector<Index>& numbers,
+Copied writeSolverFile(const std::string& original, const std::vector<Index>& numbers,
   const std::vector<double>& coordinates, const std::string& out, Signals signals)
 {
   const Format& format = requireFormat(original);
-  const std::string target = format.target(original, out);
+  format.targets(original, out); // throws
   const std::unique_ptr<SolverFile> file = format.read(original);
-  double largestRounding = 0;
-  replaceFiles(
-    file->withCoordinates(inOrder(*file, numbers, coordinates), target, largestRounding), signals);
-  return largestRounding;
+  const std::vector<double> all = inOrder(*file, numbers, coordinates);
+  Copied copied;
+  replaceFiles(file->withCoordinates(all, out, copied.largestRounding), signals);
+  for (std::size_t i = 0; i < all.size(); ++i)
+  {
+    copied.changed += all[i] != file->mesh().coordinates[i];
+  }
+  return copied;
 }
 
 std::vector<double> requireOwnCoordinates(const std::string& original,
@@ -232,6 +264,9 @@ void requireWritable(const std::string& original, const std::string& out)
   {
     format.read(original); // says what is missing
   }
-  requireReplaceable(format.target(original, out), format.makesFolder);
+  for (const std::string& target : format.targets(original, out))
+  {
+    requireReplaceable(target, format.makesFolder);
+  }
 }
 }

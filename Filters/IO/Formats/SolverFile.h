@@ -20,6 +20,10 @@ public:
   const std::string& path() const { return this->path_; }
   /// The displacements of a time step, from 0 on, as those of mesh(); none where it is not there.
   virtual std::vector<double> displacementsAt(Index) const { return {}; }
+  /// The number of time steps that have displacements.
+  virtual Index steps() const { return 0; }
+  /// Gives mesh() the displacements of a time step. Throws Error where it is not there.
+  void takeStep(Index step);
 
   /// The files to write so that `out` is a copy with these coordinates (3 x #nodes, in the order of
   /// mesh()), the one of `out` last. Nothing else differs. Sets the largest difference between a
@@ -44,14 +48,25 @@ private:
 /// Empty where it is none of these formats (README.md of this folder), or where VTK reads it.
 std::string solverFormat(const std::string& path);
 
+/// The command that converts a file of another format: " Gmsh converts it: gmsh m.unv -save -o
+/// model.msh". Empty where none is known.
+std::string converterOf(const std::string& path);
+
 /// Reads a file. Throws Error naming what is missing, wrong or not supported, with file and line.
 std::unique_ptr<SolverFile> readSolverFile(const std::string& path);
 
+/// What a copy of a file with other coordinates is.
+struct Copied
+{
+  double largestRounding = 0; ///< between a coordinate and what is written
+  Index changed = 0;          ///< coordinates that are not those of the original
+};
+
 /// Writes `out`, a copy of `original` with other coordinates, as replaceFiles() does. `numbers`:
-/// the node numbers of the file, in any order; `coordinates`: 3 for each. Returns the largest
-/// difference between a coordinate and what is written. Throws Error, and writes nothing, where
-/// they are not all nodes of the file, or a coordinate is not finite, or does not fit.
-double writeSolverFile(const std::string& original, const std::vector<Index>& numbers,
+/// the node numbers of the file, in any order; `coordinates`: 3 for each. Throws Error, and writes
+/// nothing, where they are not all nodes of the file, or a coordinate is not finite, or does not
+/// fit.
+Copied writeSolverFile(const std::string& original, const std::vector<Index>& numbers,
   const std::vector<double>& coordinates, const std::string& out, Signals signals = Signals::Leave);
 
 /// Throws Error where `original` has displacements, and `coordinates`, which another reader gave,

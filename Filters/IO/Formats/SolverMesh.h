@@ -35,7 +35,8 @@ struct SolverMesh
   std::vector<Index> cellNumbers; ///< -1: a face that is no element of the file, but of a set
   std::vector<NamedSet> sets;
   /// The name of the displacements that other readers add to the coordinates, as ParaView does with
-  /// those of Exodus II; empty: there are none. 3 x #nodes, of the last time step.
+  /// those of Exodus II; empty: there are none. 3 x #nodes, of the last time step or of that of
+  /// SolverFile::takeStep().
   std::string displacementName;
   std::vector<double> displacements;
   std::vector<std::string> warnings; ///< of what was left out

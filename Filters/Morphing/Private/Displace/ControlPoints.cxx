@@ -28,7 +28,7 @@ using morph::Points;
 
 /// An array of so many tuples and components; null where it is optional and there is none.
 vtkDataArray* arrayOf(vtkFieldData* data, const std::string& name, int components, vtkIdType tuples,
-  bool isOptional = false)
+  const std::string& whose, bool isOptional = false)
 {
   vtkAbstractArray* any = data->GetAbstractArray(name.c_str());
   if (!any && isOptional)
@@ -36,7 +36,7 @@ vtkDataArray* arrayOf(vtkFieldData* data, const std::string& name, int component
     return nullptr;
   }
   auto* array = vtkDataArray::SafeDownCast(any);
-  const std::string subject = "The control points' array '" + name + "'";
+  const std::string subject = whose + " array '" + name + "'";
   if (!array)
   {
     throw Error(subject + (any ? " is not numeric." : " is missing."));
@@ -57,14 +57,14 @@ vtkDataArray* arrayOf(vtkFieldData* data, const std::string& name, int component
 /// The rows of a table in columns of these names. A last name after a '?' is optional, else 0.
 template <std::size_t Columns>
 std::vector<std::array<double, Columns>> rowsOf(
-  vtkTable* table, const std::array<const char*, Columns>& names)
+  vtkTable* table, const std::array<const char*, Columns>& names, const std::string& whose)
 {
   std::vector<std::array<double, Columns>> rows(table->GetNumberOfRows());
   for (std::size_t c = 0; c < Columns; ++c)
   {
     const bool isOptional = names[c][0] == '?';
     vtkDataArray* column = arrayOf(table->GetRowData(), names[c] + (isOptional ? 1 : 0), 1,
-      table->GetNumberOfRows(), isOptional);
+      table->GetNumberOfRows(), whose, isOptional);
     for (std::size_t r = 0; r < rows.size(); ++r)
     {
       rows[r][c] = column ? column->GetComponent(static_cast<vtkIdType>(r), 0) : 0;
@@ -143,7 +143,8 @@ bool AreNone(vtkDataObject* given)
          (points && points->GetNumberOfPoints() == 0);
 }
 
-std::vector<Handle> Handles(vtkDataObject* given, const std::vector<std::array<double, 7>>& listed)
+std::vector<Handle> Handles(
+  vtkDataObject* given, const std::vector<std::array<double, 7>>& listed, const std::string& whose)
 {
   std::vector<Handle> result;
   std::transform(listed.begin(), listed.end(), std::back_inserter(result), handleOf);
@@ -153,7 +154,7 @@ std::vector<Handle> Handles(vtkDataObject* given, const std::vector<std::array<d
   }
   if (auto* table = vtkTable::SafeDownCast(given))
   {
-    for (const auto& row : rowsOf<7>(table, { "x", "y", "z", "dx", "dy", "dz", "?radius" }))
+    for (const auto& row : rowsOf<7>(table, { "x", "y", "z", "dx", "dy", "dz", "?radius" }, whose))
     {
       result.push_back(handleOf(row));
     }
@@ -161,8 +162,8 @@ std::vector<Handle> Handles(vtkDataObject* given, const std::vector<std::array<d
   }
   vtkPointSet* points = pointsOf(given);
   const vtkIdType count = points->GetNumberOfPoints();
-  vtkDataArray* vectors = arrayOf(points->GetPointData(), "Displacement", 3, count);
-  vtkDataArray* radii = arrayOf(points->GetPointData(), "Radius", 1, count, true);
+  vtkDataArray* vectors = arrayOf(points->GetPointData(), "Displacement", 3, count, whose);
+  vtkDataArray* radii = arrayOf(points->GetPointData(), "Radius", 1, count, whose, true);
   for (vtkIdType i = 0; i < count; ++i)
   {
     Handle handle;
@@ -186,7 +187,7 @@ Points Lattice(vtkDataObject* given, const std::vector<std::array<double, 6>>& l
   auto* table = vtkTable::SafeDownCast(given);
   if (table && !AreNone(given))
   {
-    for (const auto& row : rowsOf<6>(table, { "i", "j", "k", "dx", "dy", "dz" }))
+    for (const auto& row : rowsOf<6>(table, { "i", "j", "k", "dx", "dy", "dz" }, Whose))
     {
       addTo(result, row, size);
     }
@@ -201,7 +202,7 @@ Points Lattice(vtkDataObject* given, const std::vector<std::array<double, 6>>& l
                   "`LatticeSize`, and " +
                   std::to_string(points->GetNumberOfPoints()) + " are given.");
     }
-    vtkDataArray* vectors = arrayOf(points->GetPointData(), "Displacement", 3, count);
+    vtkDataArray* vectors = arrayOf(points->GetPointData(), "Displacement", 3, count, Whose);
     for (Index i = 0; i < count; ++i)
     {
       Eigen::RowVector3d vector;
@@ -219,9 +220,9 @@ Points Lattice(vtkDataObject* given, const std::vector<std::array<double, 6>>& l
   return result;
 }
 
-vtkSmartPointer<vtkPolyData> AsHandles(vtkDataObject* given)
+vtkSmartPointer<vtkPolyData> AsHandles(vtkDataObject* given, const std::string& whose)
 {
-  return asPoints(Handles(given, {}));
+  return asPoints(Handles(given, {}, whose));
 }
 
 vtkSmartPointer<vtkPolyData> AsLattice(vtkDataObject* given, const std::array<int, 3>& size)

@@ -7,6 +7,7 @@
 #include <vtkSmartPointer.h>
 
 #include <array>
+#include <string>
 #include <vector>
 
 class vtkDataObject;
@@ -16,12 +17,15 @@ class vtkPolyData;
 /// a vtkTable, may be null; see vtkDisplacementAlgorithm::SetControlPointsData().
 namespace morph::filters::ControlPoints
 {
+inline constexpr const char* Whose = "The control points'"; ///< arrays are, in messages
+
 /// Whether nothing is given. A reader leaves such data on an MPI process that has no part of them.
 bool AreNone(vtkDataObject* given);
 
 /// The handles of both. `listed`: place, displacement, radius. Throws morph::Error for data of
 /// another type, and for arrays or columns that are missing, not numeric or too short.
-std::vector<Handle> Handles(vtkDataObject* given, const std::vector<std::array<double, 7>>& listed);
+std::vector<Handle> Handles(vtkDataObject* given, const std::vector<std::array<double, 7>>& listed,
+  const std::string& whose = Whose);
 
 /// The displacements of all control points of a lattice, as LatticeMotion has them. `listed`: i, j,
 /// k, displacement. Throws as above and for ids that are no whole number or not in the lattice,
@@ -30,7 +34,7 @@ morph::Points Lattice(vtkDataObject* given, const std::vector<std::array<double,
   const std::array<int, 3>& size);
 
 /// What Handles() or Lattice() read of `given`, as points that they read again: to be gathered from
-/// MPI processes. Empty for null.
-vtkSmartPointer<vtkPolyData> AsHandles(vtkDataObject* given);
+/// MPI processes. Empty for null. `whose`: as Whose.
+vtkSmartPointer<vtkPolyData> AsHandles(vtkDataObject* given, const std::string& whose = Whose);
 vtkSmartPointer<vtkPolyData> AsLattice(vtkDataObject* given, const std::array<int, 3>& size);
 }

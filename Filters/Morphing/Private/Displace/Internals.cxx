@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Private/Displace/Internals.h"
 
-#include "BoundaryMorphing/LatticeMotion.h"
-#include "BoundaryMover/FitToTarget.h"
 #include "BoundaryMover/Patches.h"
 #include "Private/Data/AffineArrays.h"
 #include "Private/Data/Output.h"
@@ -63,27 +61,6 @@ void writeGaps(
   gaps->InsertNextTuple2(after.least, after.most);
   data->AddArray(gaps);
 }
-
-/// The direction of a projection along one; zero: the normals.
-Eigen::RowVector3d directionOf(int projectAlong, const std::array<double, 3>& vector)
-{
-  if (projectAlong == vtkDisplacementAlgorithm::PROJECT_ALONG_NORMAL)
-  {
-    return Eigen::RowVector3d::Zero();
-  }
-  if (projectAlong != vtkDisplacementAlgorithm::PROJECT_ALONG_VECTOR)
-  {
-    return Eigen::RowVector3d::Unit(projectAlong - vtkDisplacementAlgorithm::PROJECT_ALONG_X);
-  }
-  // Of any size, without overflow.
-  const Eigen::RowVector3d direction(vector[0], vector[1], vector[2]);
-  if (direction.isZero(0))
-  {
-    throw morph::Error("`ProjectVector` has no length. Give the direction in which nodes are to go "
-                       "to the target.");
-  }
-  return direction / direction.cwiseAbs().maxCoeff();
-}
 }
 
 void vtkDisplacementAlgorithm::vtkInternals::ResetResults()
@@ -132,7 +109,8 @@ vtkDisplacementAlgorithm::vtkInternals::Inputs vtkDisplacementAlgorithm::vtkInte
   vtkInformationVector** inputVector)
 {
   return { vtkSelection::GetData(inputVector[1]), vtkDataObject::GetData(inputVector[2]),
-    vtkSelection::GetData(inputVector[3]), vtkDataObject::GetData(inputVector[4]) };
+    vtkSelection::GetData(inputVector[3]), vtkDataObject::GetData(inputVector[4]),
+    vtkDataObject::GetData(inputVector[5]) };
 }
 
 bool vtkDisplacementAlgorithm::vtkInternals::IsTeller() const
@@ -250,98 +228,6 @@ void vtkDisplacementAlgorithm::vtkInternals::Choose(
   }
 }
 
-morph::Points vtkDisplacementAlgorithm::vtkInternals::Fitted(const Options& options,
-  vtkPointSet* input, vtkSelection* selection, vtkPolyData* target,
-  const std::vector<morph::Index>& sliding, morph::Monitor& monitor)
-{
-  morph::Target::Options place;
-  place.featureAngle = options.FeatureAngle;
-  place.normalAngle = options.TargetAngle;
-  place.reach = options.TargetReach * this->Model.size;
-  morph::FitOptions how;
-  if (options.ProjectAlong != PROJECT_ALONG_CLOSEST_POINT)
-  {
-    how.project = morph::FitOptions::Project::Along;
-    how.direction = directionOf(options.ProjectAlong, options.ProjectVector);
-  }
-  if (options.Moving == MOVING_SURFACES && options.Surfaces.empty())
-  {
-    this->Fit.Update(target, this->Model, nullptr, options.AlignTarget, place, monitor);
-    this->Choose(options, input, selection);
-  }
-  else
-  {
-    this->Choose(options, input, selection);
-    this->Fit.Update(target, this->Model, &this->Choice, options.AlignTarget, place, monitor);
-  }
-  if (!this->Fit.GetWarning().empty())
-  {
-    monitor.warn(this->Fit.GetWarning());
-  }
-  return morph::fittedTo(
-    *this->Fit.Get(), this->Model, this->Choice, sliding, how, this->Mover.surroundings(), monitor);
-}
-
-std::vector<morph::Handle> vtkDisplacementAlgorithm::vtkInternals::SelectedHandles(
-  const Options& options, vtkPointSet* input, vtkSelection* selection)
-{
-  std::vector<std::uint8_t> isSelected = this->IsSelected;
-  if (!this->Whole)
-  {
-    selection = this->Selected.OfGrid(this->Blocks, selection, this->Extractor);
-    isSelected = filters::Selection::Points(input, selection, this->Extractor);
-  }
-  std::vector<morph::Handle> handles;
-  for (const morph::Index node : this->Model.faces.nodes)
-  {
-    if (isSelected[node])
-    {
-      const auto& v = options.Vector;
-      handles.push_back(
-        { this->Model.points().row(node), { v[0], v[1], v[2] }, options.HandleRadius });
-    }
-  }
-  return handles;
-}
-
-morph::Points vtkDisplacementAlgorithm::vtkInternals::ByControlPoints(const Options& options,
-  vtkPointSet* input, vtkSelection* selection, vtkDataObject* points, morph::Monitor& monitor)
-{
-  const morph::Points from = this->Model.points()(this->Choice.moving, morph::allColumns);
-  if (options.Displacement == DISPLACEMENT_HANDLES)
-  {
-    std::vector<morph::Handle> handles = filters::ControlPoints::Handles(points, this->Handles);
-    if (options.SelectedHandles)
-    {
-      const std::vector<morph::Handle> more = this->SelectedHandles(options, input, selection);
-      handles.insert(handles.end(), more.begin(), more.end());
-    }
-    return from + morph::HandleMotion(handles).displacements(from, monitor);
-  }
-  morph::LatticeMotion lattice;
-  lattice.basis = static_cast<morph::LatticeMotion::Basis>(options.LatticeBasis);
-  lattice.size = options.LatticeSize;
-  if (options.AutoLattice && from.rows() > 0)
-  {
-    lattice.low = from.colwise().minCoeff();
-    lattice.high = from.colwise().maxCoeff();
-  }
-  else
-  {
-    const auto& b = options.LatticeBounds;
-    lattice.low << b[0], b[2], b[4];
-    lattice.high << b[1], b[3], b[5];
-    if ((lattice.high.array() < lattice.low.array()).any())
-    {
-      throw morph::Error("`LatticeBounds` have a minimum above its maximum. Give xmin, xmax, ymin, "
-                         "ymax, zmin, zmax.");
-    }
-  }
-  lattice.controlDisplacements =
-    filters::ControlPoints::Lattice(points, this->LatticeDisplacements, lattice.size);
-  return from + lattice.displacements(from, monitor);
-}
-
 void vtkDisplacementAlgorithm::vtkInternals::WriteDistances(
   const Surroundings::Result& result, vtkPolyData* output)
 {
@@ -359,7 +245,7 @@ void vtkDisplacementAlgorithm::vtkInternals::WriteDistances(
     this->Model.points()(nodes, morph::allColumns), result.moved(nodes, morph::allColumns), output);
 }
 
-bool vtkDisplacementAlgorithm::vtkInternals::Prepare(const Options& options, vtkPointSet* input,
+bool vtkDisplacementAlgorithm::vtkInternals::FindMoving(const Options& options, vtkPointSet* input,
   const Inputs& inputs, vtkPolyData* target, Moves& moves, morph::Monitor& monitor)
 {
   try
@@ -392,20 +278,33 @@ bool vtkDisplacementAlgorithm::vtkInternals::Prepare(const Options& options, vtk
   {
     this->Choose(options, input, inputs.Selection);
   }
-  const bool byPoints =
-    options.Displacement == DISPLACEMENT_HANDLES || options.Displacement == DISPLACEMENT_LATTICE;
-  if (byPoints && !this->Choice.moving.empty())
+  return true;
+}
+
+void vtkDisplacementAlgorithm::vtkInternals::Prepare(const Options& options, vtkPointSet* input,
+  const Inputs& inputs, morph::Points field, Moves& moves, morph::Monitor& monitor)
+{
+  Surroundings::Options& rest = moves.Rest;
+  filters::Motion::Options& motion = moves.Motion;
+  motion = { options, this->Transform, &moves.Given };
+  moves.Choice = this->Choice;
+  const bool movesAny = !moves.Choice.moving.empty();
+  const bool byArray = options.Displacement == DISPLACEMENT_ARRAY;
+  if (movesAny && (options.Displacement == DISPLACEMENT_HANDLES ||
+                    options.Displacement == DISPLACEMENT_LATTICE))
   {
     moves.Given =
       this->ByControlPoints(options, input, inputs.Selection, inputs.ControlPoints, monitor);
   }
+  else if (movesAny && (byArray || options.Displacement == DISPLACEMENT_FIELD))
+  {
+    morph::Points by =
+      byArray ? filters::Motion::OfArray(input, motion, moves.Choice) : std::move(field);
+    rest.freeNodes = filters::Motion::TakeMissing(by, motion, moves.Choice, monitor);
+    moves.Given = this->Model.points()(moves.Choice.moving, morph::allColumns) + by;
+  }
   monitor.check();
-
-  filters::Motion::Options& motion = moves.Motion;
-  motion = { options, this->Transform, &moves.Given };
-  moves.Choice = this->Choice;
-  moves.Rest.freeNodes = filters::Motion::TakeMissing(input, motion, moves.Choice, monitor);
-  moves.Targets = filters::Motion::Targets(input, this->Model, moves.Choice, motion);
+  moves.Targets = filters::Motion::Targets(this->Model, moves.Choice, motion);
   if (motion.Displacement == DISPLACEMENT_ALONG_NORMALS)
   {
     // In a plane of symmetry the facets on its other side count, too.
@@ -438,7 +337,6 @@ bool vtkDisplacementAlgorithm::vtkInternals::Prepare(const Options& options, vtk
   }
   std::sort(rest.free.begin(), rest.free.end());
   rest.radius = options.FalloffRadius * this->Model.size;
-  return true;
 }
 
 void vtkDisplacementAlgorithm::vtkInternals::Displace(const Options& options, vtkPointSet* input,
@@ -452,16 +350,22 @@ void vtkDisplacementAlgorithm::vtkInternals::Displace(const Options& options, vt
   Moves moves;
   bool hasBoundary = false;
   filters::Zones::Options zones;
-  alike(
-    [&]
-    {
-      hasBoundary = this->Prepare(options, input, inputs, target, moves, monitor);
-      zones = this->ZoneOptions(options, inputs.Zone);
-    });
+  alike([&] { hasBoundary = this->FindMoving(options, input, inputs, target, moves, monitor); });
   if (!hasBoundary)
   {
     return;
   }
+  morph::Points field;
+  if (options.Displacement == DISPLACEMENT_FIELD && !this->Choice.moving.empty())
+  {
+    field = this->ByField(options, inputs.Field, monitor);
+  }
+  alike(
+    [&]
+    {
+      this->Prepare(options, input, inputs, std::move(field), moves, monitor);
+      zones = this->ZoneOptions(options, inputs.Zone);
+    });
   morph::BoundaryMover::Options mover;
   mover.rest = moves.Rest;
   if (options.Moving != MOVING_NOTHING)
@@ -634,5 +538,5 @@ void vtkDisplacementAlgorithm::vtkInternals::DisplaceOnRanks(const Options& opti
     control = this->Whole->Gather(control);
   }
   this->Displace(options, this->Whole->Grid(), piece,
-    { inputs.Selection, nullptr, inputs.Zone, control }, whole, output, monitor);
+    { inputs.Selection, nullptr, inputs.Zone, control, inputs.Field }, whole, output, monitor);
 }

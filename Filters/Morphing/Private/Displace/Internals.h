@@ -35,6 +35,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <tuple>
 #include <vector>
 
 struct vtkDisplacementAlgorithm::vtkInternals
@@ -88,6 +89,7 @@ struct vtkDisplacementAlgorithm::vtkInternals
     vtkDataObject* Target;        ///< of DISPLACEMENT_TARGET
     vtkSelection* Zone;           ///< of a zone
     vtkDataObject* ControlPoints; ///< of DISPLACEMENT_HANDLES and DISPLACEMENT_LATTICE
+    vtkDataObject* Field;         ///< of DISPLACEMENT_FIELD
   };
   static Inputs InputsOf(vtkInformationVector** inputVector);
 
@@ -116,6 +118,12 @@ private:
   morph::Choice Choice;
   morph::filters::BoundaryFields Fields;
   std::vector<std::uint8_t> IsSelected; ///< #nodes of Whole, of MOVING_SELECTION
+  /// The displacements of DISPLACEMENT_FIELD, and what they depend on: the field, its time and
+  /// array, the reach, the version of Model, and ChooseCount. Unused with Whole.
+  ///@{
+  std::tuple<const vtkDataObject*, vtkMTimeType, std::string, double, vtkIdType, int> FieldOrigin;
+  morph::Points FieldValues;
+  ///@}
 
   /// What moves, and how the rest of the boundary does.
   struct Moves
@@ -135,8 +143,11 @@ private:
   void DisplaceOnRanks(const Options& options, vtkPointSet* input, const Inputs& inputs,
     vtkPolyData* target, vtkPolyData* output, morph::Monitor& monitor);
   /// Finds what moves. Returns false where there is no boundary.
-  bool Prepare(const Options& options, vtkPointSet* input, const Inputs& inputs,
+  bool FindMoving(const Options& options, vtkPointSet* input, const Inputs& inputs,
     vtkPolyData* target, Moves& moves, morph::Monitor& monitor);
+  /// Finds where it moves. `field`: the displacements of DISPLACEMENT_FIELD, #moving x 3.
+  void Prepare(const Options& options, vtkPointSet* input, const Inputs& inputs,
+    morph::Points field, Moves& moves, morph::Monitor& monitor);
   void Choose(const Options& options, vtkPointSet* input, vtkSelection* selection);
   /// The positions of what moves, on the target. Chooses what moves, too.
   morph::Points Fitted(const Options& options, vtkPointSet* input, vtkSelection* selection,
@@ -144,6 +155,8 @@ private:
   /// The positions of what moves, by handles or by a lattice.
   morph::Points ByControlPoints(const Options& options, vtkPointSet* input, vtkSelection* selection,
     vtkDataObject* points, morph::Monitor& monitor);
+  /// The displacements of what moves by DISPLACEMENT_FIELD; NaN for none. With Whole, collective.
+  morph::Points ByField(const Options& options, vtkDataObject* field, morph::Monitor& monitor);
   std::vector<morph::Handle> SelectedHandles(
     const Options& options, vtkPointSet* input, vtkSelection* selection);
   void SelectOnRanks(vtkUnstructuredGrid* piece, vtkSelection* selection);

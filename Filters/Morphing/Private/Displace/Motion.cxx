@@ -15,6 +15,7 @@
 #include <vtkPointSet.h>
 
 #include <algorithm>
+#include <limits>
 
 namespace morph::filters
 {
@@ -147,8 +148,8 @@ std::optional<morph::AffineMotion> affineMotion(const Motion::Options& options)
   return motion;
 }
 
-Points wholeMotion(vtkPointSet* input, const BoundaryModel& model, const Choice& choice,
-  const Motion::Options& options, const Points& from)
+Points wholeMotion(const BoundaryModel& model, const Choice& choice, const Motion::Options& options,
+  const Points& from)
 {
   switch (options.Displacement)
   {
@@ -157,8 +158,6 @@ Points wholeMotion(vtkPointSet* input, const BoundaryModel& model, const Choice&
              Eigen::RowVector3d(options.Vector[0], options.Vector[1], options.Vector[2]);
     case vtkDisplacementAlgorithm::DISPLACEMENT_ALONG_NORMALS:
       return morph::movedAlongNormals(model, choice, options.Distance);
-    case vtkDisplacementAlgorithm::DISPLACEMENT_ARRAY:
-      return from + arrayRows(input, Input::ArrayName(options.DisplacementArray), choice.moving);
     case vtkDisplacementAlgorithm::DISPLACEMENT_TRANSLATE_ROTATE_SCALE:
     {
       const Eigen::RowVector3d center = turningPoint(model, choice, options);
@@ -169,6 +168,8 @@ Points wholeMotion(vtkPointSet* input, const BoundaryModel& model, const Choice&
     }
     case vtkDisplacementAlgorithm::DISPLACEMENT_RADIUS:
       return morph::movedByRadius(model, choice, options.RadiusChange);
+    case vtkDisplacementAlgorithm::DISPLACEMENT_ARRAY:
+    case vtkDisplacementAlgorithm::DISPLACEMENT_FIELD:
     case vtkDisplacementAlgorithm::DISPLACEMENT_TARGET:
     case vtkDisplacementAlgorithm::DISPLACEMENT_HANDLES:
     case vtkDisplacementAlgorithm::DISPLACEMENT_LATTICE:
@@ -205,17 +206,16 @@ void requireModerate(const Points& targets, const std::vector<Index>& nodes, con
 
 namespace Motion
 {
-Points Targets(
-  vtkPointSet* input, const BoundaryModel& model, const Choice& choice, const Options& options)
+Points Targets(const BoundaryModel& model, const Choice& choice, const Options& options)
 {
   const Points from = positions(model, choice.moving);
   if (choice.moving.empty())
   {
     return from;
   }
-  Points targets = wholeMotion(input, model, choice, options, from);
+  Points targets = wholeMotion(model, choice, options, from);
   const char* names[] = { "Transform", "Vector", "Distance", "DisplacementArray", "Scale",
-    "RadiusChange", "Target", "Handles", "Lattice" };
+    "RadiusChange", "Target", "Handles", "Lattice", "FieldArray" };
   requireModerate(targets, choice.moving, names[options.Displacement]);
   if (options.ScaleFactor == 0)
   {
@@ -229,37 +229,62 @@ Points Targets(
   return targets;
 }
 
-std::vector<Index> TakeMissing(
-  vtkPointSet* input, const Options& options, Choice& choice, morph::Monitor& monitor)
+Points OfArray(vtkPointSet* input, const Options& options, const Choice& choice)
 {
-  if (options.Displacement != vtkDisplacementAlgorithm::DISPLACEMENT_ARRAY || choice.moving.empty())
+  Points rows = arrayRows(input, Input::ArrayName(options.DisplacementArray), choice.moving);
+  vtkDataArray* mask = input->GetPointData()->GetArray(DataCheck::MaskName);
+  for (Index i = 0; i < rows.rows(); ++i)
+  {
+    if (DataCheck::IsMissing(rows.row(i), mask, choice.moving[i]))
+    {
+      rows.row(i).setConstant(std::numeric_limits<double>::quiet_NaN());
+    }
+  }
+  return rows;
+}
+
+std::vector<Index> TakeMissing(
+  Points& displacements, const Options& options, Choice& choice, morph::Monitor& monitor)
+{
+  std::vector<Index> missing, moving, rows;
+  for (Index i = 0; i < displacements.rows(); ++i)
+  {
+    const bool isMissing = displacements.row(i).hasNaN();
+    (isMissing ? missing : moving).push_back(choice.moving[i]);
+    if (!isMissing)
+    {
+      rows.push_back(i);
+    }
+  }
+  if (missing.empty())
   {
     return {};
   }
-  const Points rows = arrayRows(input, Input::ArrayName(options.DisplacementArray), choice.moving);
-  vtkDataArray* mask = input->GetPointData()->GetArray(DataCheck::MaskName);
-  std::vector<Index> missing, moving;
-  for (Index i = 0; i < rows.rows(); ++i)
-  {
-    const Index node = choice.moving[i];
-    (DataCheck::IsMissing(rows.row(i), mask, node) ? missing : moving).push_back(node);
-  }
-  const std::string where =
-    "'" + Input::ArrayName(options.DisplacementArray) + "' is NaN, or vtkValidPointMask 0, ";
+  const bool byField = options.Displacement == vtkDisplacementAlgorithm::DISPLACEMENT_FIELD;
+  const std::string property = byField ? "`Field`" : "`DisplacementArray`";
+  const std::string why = byField ? "they are farther than `FieldReach` from the field, or it"
+                                  : "'" + Input::ArrayName(options.DisplacementArray) + "'";
   if (moving.empty())
   {
-    throw Error("`DisplacementArray` has no value where the boundary is to move: " + where +
-                "at all of its points. Give values there, or move another part.");
+    throw Error(property + " has no value where the boundary is to move: at all of its nodes " +
+                why + " is NaN, or vtkValidPointMask 0. Give values there, or move another part.");
   }
-  if (!missing.empty())
-  {
-    monitor.warn(std::to_string(missing.size()) + " of the " + std::to_string(rows.rows()) +
-                 " nodes that are to move have no displacement (" + where +
-                 "there), and are free: they are solved with the interior. Point ids " +
-                 morph::listIds(missing) + " of the input.");
-  }
+  const bool stay = options.MissingValues == vtkDisplacementAlgorithm::MISSING_VALUES_STAY;
+  monitor.warn(std::to_string(missing.size()) + " of the " + std::to_string(displacements.rows()) +
+               " nodes that are to move have no displacement (" + why +
+               " is NaN, or vtkValidPointMask 0, there), and " +
+               (stay ? "stay" : "are free: they are solved with the interior") + ". Point ids " +
+               morph::listIds(missing) + " of the input.");
+  displacements = Points(displacements(rows, morph::allColumns));
   choice.moving = std::move(moving);
-  return missing;
+  if (!stay)
+  {
+    return missing;
+  }
+  const auto old = static_cast<std::ptrdiff_t>(choice.held.size());
+  choice.held.insert(choice.held.end(), missing.begin(), missing.end());
+  std::inplace_merge(choice.held.begin(), choice.held.begin() + old, choice.held.end());
+  return {};
 }
 
 std::optional<morph::AffineMotion> Affine(const BoundaryModel& model, const Choice& choice,

@@ -15,24 +15,27 @@ namespace morph::filters::Motion
 struct Options : DisplacementOptions
 {
   vtkAbstractTransform* Transform = nullptr; ///< null: the identity
-  /// Of a target, handles and a lattice: the positions, #Moving x 3.
+  /// Of an array, a field, a target, handles and a lattice: the positions, #Moving x 3.
   const morph::Points* Given = nullptr;
 };
 
 /// The new positions of choice.moving: #Moving x 3, none beyond 1e50. A ScaleFactor of 0 gives the
 /// current positions and 1 those of the motion, bit for bit. Normals are area-weighted over the
 /// faces that move or, at nodes without such a face, over all faces. Throws morph::Error for
-/// positions that are not finite or beyond 1e50, naming nodes. Throws it too for arrays that are
-/// missing, not numeric or of the wrong length or number of components, and as morph::nodeNormals()
-/// does. Cost: one pass.
-morph::Points Targets(
-  vtkPointSet* input, const BoundaryModel& model, const Choice& choice, const Options& options);
+/// positions that are not finite or beyond 1e50, naming nodes, and as morph::nodeNormals() does.
+/// Cost: one pass.
+morph::Points Targets(const BoundaryModel& model, const Choice& choice, const Options& options);
 
-/// Takes the nodes out of choice.moving for which the array has no displacement: NaN, or 0 in
-/// vtkValidPointMask. Returns them, and warns; throws morph::Error where none is left, and as
-/// Targets() does for the array.
+/// The displacements of choice.moving by `DisplacementArray`: NaN where vtkValidPointMask is 0.
+/// Throws morph::Error for an array that is missing, not numeric, or of the wrong length or number
+/// of components.
+morph::Points OfArray(vtkPointSet* input, const Options& options, const Choice& choice);
+
+/// Takes the nodes whose displacement is NaN out of choice.moving and `displacements`, and warns.
+/// With MISSING_VALUES_STAY they are held; else it returns them, which are free. Throws
+/// morph::Error where none is left.
 std::vector<morph::Index> TakeMissing(
-  vtkPointSet* input, const Options& options, Choice& choice, morph::Monitor& monitor);
+  morph::Points& displacements, const Options& options, Choice& choice, morph::Monitor& monitor);
 
 /// The displacement of what moves as w c + A (x - center), with w = 1, or nothing where it is not
 /// affine. `center`: of choice.moving.

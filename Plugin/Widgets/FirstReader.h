@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef FirstReader_h
+#define FirstReader_h
+
+#include <QObject>
+
+/// Makes Solver File Reader the first one, and selected, where ParaView asks for a reader: it is in
+/// the list only if the file's content is that of a solver. ParaView would select the first by the
+/// alphabet, which for an Abaqus file is AVS UCD, and shows an empty mesh.
+class FirstReader : public QObject
+{
+  Q_OBJECT
+
+public:
+  FirstReader() = default;
+  ~FirstReader() override = default;
+
+  void startup();
+  void shutdown() {}
+  bool eventFilter(QObject* watched, QEvent* event) override;
+};
+
+#endif
