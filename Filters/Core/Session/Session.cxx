@@ -2,6 +2,7 @@
 #include "Session/Session.h"
 
 #include "Mesh/Extent.h"
+#include "Mesh/PlaneLayer.h"
 #include "Mesh/Polyhedra.h"
 #include "Morpher/PolyhedralMorpher.h"
 #include "Quality/BoundaryDetermined.h"
@@ -247,6 +248,7 @@ StepResult Session::morphStep(const Mesh& from, const BoundaryTargets& boundary,
   {
     result.valid = { "Unmeasured", std::numeric_limits<double>::quiet_NaN() };
   }
+  keepInPlane(rest, partition.free, result.moved); // after smoothing and repairs
   this->attached_.apply(result.moved);
   result.attached = static_cast<Index>(this->attached_.nodes().size());
   result.loose = this->attached_.loose();
@@ -263,7 +265,8 @@ StepResult Session::morphStep(const Mesh& from, const BoundaryTargets& boundary,
         .size());
   }
   result.iterations = report.iterations;
-  result.prescribed = static_cast<Index>(boundary.ids.size());
+  result.prescribed = std::count_if(boundary.ids.begin(), boundary.ids.end(),
+    [&](Index node) { return rest.layer.frontOf(node) == node; });
   result.unmatched = boundary.unmatched;
   return result;
 }

@@ -248,9 +248,9 @@ void ExodusFile::readBlocks(const NetCdf& file)
                std::to_string(elements) + " of num_elem.");
   }
   if (std::none_of(this->mesh_.cellTypes.begin(), this->mesh_.cellTypes.end(),
-        [](std::uint8_t type) { return dimensionOf(type) == 3; }))
+        [](std::uint8_t type) { return dimensionOf(type) >= 2; }))
   {
-    this->fail("it has no volume elements: planar models and shells alone are not morphed.");
+    this->fail("it has no volume or surface elements.");
   }
 }
 

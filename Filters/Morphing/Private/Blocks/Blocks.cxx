@@ -124,9 +124,12 @@ vtkDataObject* Blocks::Gather(
   {
     this->Forget(); // what was made together with other processes
   }
+  // Plane cells are measured as they are.
+  const bool isMorphed = unknown == GridMesh::UnknownCells::Refuse;
+  const auto solid = [&](vtkDataObject* mesh) { return isMorphed ? this->Plane.Thicken(mesh) : mesh; };
   if (!this->Input)
   {
-    return input;
+    return solid(input);
   }
   Key key = KeyOf(this->Input, coincident, unknown, false);
   if (!this->Kept.Grid || key != this->MadeFrom)
@@ -135,7 +138,7 @@ vtkDataObject* Blocks::Gather(
     this->Kept = MergedBlocks::Make(this->Input, OptionsOf(coincident, unknown));
     this->MadeFrom = std::move(key);
   }
-  return this->Tell(monitor);
+  return solid(this->Tell(monitor));
 }
 
 bool Blocks::IsKept(vtkDataObject* input, int coincident, GridMesh::UnknownCells unknown)
@@ -191,6 +194,10 @@ vtkUnstructuredGrid* Blocks::Output(vtkInformationVector* outputVector)
 void Blocks::Scatter(vtkInformationVector* outputVector)
 {
   vtkDataObjectTree* output = treeOf(outputVector);
+  if (vtkUnstructuredGrid* grid = this->Output(outputVector))
+  {
+    this->Plane.Flatten(grid);
+  }
   const vtkSmartPointer<vtkUnstructuredGrid> result = this->Scratch;
   this->Scratch = nullptr;
   std::vector<std::vector<double>> behind;
