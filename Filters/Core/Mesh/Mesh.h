@@ -14,7 +14,7 @@ namespace morph
 /// plane, both images of one alike.
 struct PlaneLayer
 {
-  Index nodes = 0;                                               ///< of the front; 0: no layer
+  Index nodes = 0;                                        ///< of the front; 0: no layer
   Eigen::RowVector3d normal = Eigen::RowVector3d::Zero(); ///< of length 1, from front to back
 
   /// The node of the front that a node, of front or back, is an image of.

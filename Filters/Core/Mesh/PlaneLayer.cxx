@@ -260,6 +260,13 @@ Mesh thicken(const Mesh& plane)
   return mesh;
 }
 
+double thickness(const Mesh& mesh)
+{
+  return mesh.layer.nodes == 0
+           ? 1
+           : (mesh.points.row(mesh.layer.nodes) - mesh.points.row(0)).dot(mesh.layer.normal);
+}
+
 std::vector<std::pair<Index, Index>> imagesAmong(
   const PlaneLayer& layer, const std::vector<Index>& ids)
 {
@@ -274,6 +281,11 @@ std::vector<std::pair<Index, Index>> imagesAmong(
     }
   }
   return images;
+}
+
+void markImages(const PlaneLayer& layer, std::vector<std::uint8_t>& marks)
+{
+  std::copy_n(marks.begin(), layer.nodes, marks.begin() + layer.nodes);
 }
 
 void keepInPlane(const Mesh& rest, const std::vector<Index>& ids, Points& moved)

@@ -3,6 +3,7 @@
 
 #include "Mesh/Mesh.h"
 
+#include <cstdint>
 #include <utility>
 #include <vector>
 
@@ -24,10 +25,16 @@ bool isSurfaceMesh(const Mesh& mesh);
 /// the mesh.
 Mesh thicken(const Mesh& plane);
 
+/// How thick the layer is; 1 for a mesh that is none.
+double thickness(const Mesh& mesh);
+
 /// The images of the nodes of a layer among `ids`, ascending: their places in `ids`, front first.
 /// Nodes whose image is not among them are left out.
 std::vector<std::pair<Index, Index>> imagesAmong(
   const PlaneLayer& layer, const std::vector<Index>& ids);
+
+/// Marks the images of nodes as these, #nodes of the mesh; other nodes keep their mark.
+void markImages(const PlaneLayer& layer, std::vector<std::uint8_t>& marks);
 
 /// Moves the nodes `ids`, ascending, of a layer into their plane, and both images of a node alike.
 /// `moved`: #nodes x 3. Nothing happens without a layer.

@@ -308,8 +308,7 @@ bool isFrontOrBack(const Mesh& mesh, const Place& place)
   Index corners[4];
   const int size = faceNodes(mesh, place.cell, shape, place.side, corners);
   return std::all_of(corners, corners + size,
-    [&](Index node)
-    { return (node < mesh.layer.nodes) == (corners[0] < mesh.layer.nodes); });
+    [&](Index node) { return (node < mesh.layer.nodes) == (corners[0] < mesh.layer.nodes); });
 }
 }
 

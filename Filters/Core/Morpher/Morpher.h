@@ -112,7 +112,7 @@ private:
   std::shared_ptr<const Points> rest_ = std::make_shared<Points>();
   std::shared_ptr<const NodePartition> partition_ = std::make_shared<NodePartition>();
   std::vector<Index> outside_;
-  Eigen::RowVector3d normal_; ///< of a layer, or zero
+  Eigen::RowVector3d normal_;                   ///< of a layer, or zero
   std::vector<std::pair<Index, Index>> images_; ///< of a layer, among the free nodes
 };
 

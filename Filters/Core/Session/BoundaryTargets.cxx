@@ -90,6 +90,7 @@ void keepInPlane(const NamedPoints& named, const Mesh& rest, double size,
   }
   if (!leaving.empty())
   {
+    std::sort(leaving.begin(), leaving.end());
     leaving.erase(std::unique(leaving.begin(), leaving.end()), leaving.end());
     throw Error("The boundary of a plane mesh leaves its plane, at node ids " +
                 listNodes(leaving, globalIds) +
@@ -179,7 +180,8 @@ void holdUnnamed(const BoundaryFaces& outer, const Mesh& rest, double size, cons
   {
     const Index node = outer.nodes[i], k = static_cast<Index>(i);
     const bool isBetween = rest.layer.nodes > 0 && node >= 2 * rest.layer.nodes;
-    if (row[node] == Unnamed && !isBetween && std::none_of(outer.between.begin(k), outer.between.end(k), moves))
+    if (row[node] == Unnamed && !isBetween &&
+        std::none_of(outer.between.begin(k), outer.between.end(k), moves))
     {
       row[node] = Held;
     }

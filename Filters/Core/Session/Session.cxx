@@ -266,7 +266,7 @@ StepResult Session::morphStep(const Mesh& from, const BoundaryTargets& boundary,
   }
   result.iterations = report.iterations;
   result.prescribed = std::count_if(boundary.ids.begin(), boundary.ids.end(),
-    [&](Index node) { return rest.layer.frontOf(node) == node; });
+    [&](Index node) { return rest.layer.nodes == 0 || node < rest.layer.nodes; });
   result.unmatched = boundary.unmatched;
   return result;
 }
@@ -351,6 +351,10 @@ Points Session::transpose(
     throw Error(options.method +
                 " is not a linear method, so it has no adjoint that is the same for all "
                 "motions. Use one that is, FEMWARP for instance.");
+  }
+  if (const Index front = this->mesh_->mesh().layer.nodes; front > 0)
+  {
+    gradient.bottomRows(gradient.rows() - front).setZero(); // a plane mesh is the front
   }
   Points own, prescribed = Points::Zero(static_cast<Index>(ids.size()), 3);
   this->attached_.applyTranspose(gradient);

@@ -33,8 +33,8 @@ public:
     {
       this->fail(file.dimension("num_dim") == 0
                    ? "it is no file of Exodus II: it has no dimension num_dim."
-                   : "planar models are not morphed: it has " +
-                       std::to_string(file.dimension("num_dim")) + " coordinates a node.");
+                   : "its nodes have " + std::to_string(file.dimension("num_dim")) +
+                       " coordinates, and three are needed.");
     }
     this->readNodes(file);
     this->readBlocks(file);

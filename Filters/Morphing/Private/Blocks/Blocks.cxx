@@ -124,12 +124,9 @@ vtkDataObject* Blocks::Gather(
   {
     this->Forget(); // what was made together with other processes
   }
-  // Plane cells are measured as they are.
-  const bool isMorphed = unknown == GridMesh::UnknownCells::Refuse;
-  const auto solid = [&](vtkDataObject* mesh) { return isMorphed ? this->Plane.Thicken(mesh) : mesh; };
   if (!this->Input)
   {
-    return solid(input);
+    return input;
   }
   Key key = KeyOf(this->Input, coincident, unknown, false);
   if (!this->Kept.Grid || key != this->MadeFrom)
@@ -138,7 +135,7 @@ vtkDataObject* Blocks::Gather(
     this->Kept = MergedBlocks::Make(this->Input, OptionsOf(coincident, unknown));
     this->MadeFrom = std::move(key);
   }
-  return solid(this->Tell(monitor));
+  return this->Tell(monitor);
 }
 
 bool Blocks::IsKept(vtkDataObject* input, int coincident, GridMesh::UnknownCells unknown)
@@ -197,6 +194,10 @@ void Blocks::Scatter(vtkInformationVector* outputVector)
   if (vtkUnstructuredGrid* grid = this->Output(outputVector))
   {
     this->Plane.Flatten(grid);
+  }
+  if (outputVector->GetNumberOfInformationObjects() > 1)
+  {
+    this->Plane.FlattenCells(vtkUnstructuredGrid::GetData(outputVector, 1));
   }
   const vtkSmartPointer<vtkUnstructuredGrid> result = this->Scratch;
   this->Scratch = nullptr;

@@ -26,8 +26,8 @@ namespace morph::filters
 /// The mesh on port 0 of a filter, which may come as composite data, and the output of its type.
 ///
 /// Gather() merges the blocks into one grid, the filter writes into Output(), and Scatter() gives
-/// the result to the blocks. With data that are not composite all three do nothing, unless they are
-/// a plane mesh, whose solid Gather() returns; see PlaneGrid.
+/// the result to the blocks. With data that are not composite all three do nothing. Thicken() makes
+/// a solid of a plane mesh, and Scatter() a plane mesh of the result.
 ///
 /// The blocks with cells of the highest dimension are the mesh. Its nodes are numbered by their
 /// global ids where all blocks have them, else in the order of the blocks; so are its cells. Cells
@@ -66,8 +66,8 @@ public:
   /// Warns, and returns the merged blocks.
   vtkDataObject* Tell(morph::Monitor& monitor) const;
   ///@}
-  /// Whether the last mesh is a plane one, given as a solid.
-  bool IsPlane() const { return this->Plane.IsActive(); }
+  /// What Gather() has returned or, if it is a plane mesh, the solid to morph; see PlaneGrid.
+  vtkDataObject* Thicken(vtkDataObject* mesh) { return this->Plane.Thicken(mesh); }
 
   /// The blocks of the last input; null where it was not composite.
   const MergedBlocks* Merged() const;

@@ -5,6 +5,7 @@
 #include "Mesh/PlaneLayer.h"
 #include "Private/Blocks/BlockCells.h"
 #include "Private/Data/GridMesh.h"
+#include "Private/Data/SubGrid.h"
 #include "Private/Data/Surface.h"
 
 #include <vtkCellArray.h>
@@ -18,12 +19,24 @@
 #include <vtkUnsignedCharArray.h>
 #include <vtkUnstructuredGrid.h>
 
-#include <string>
+#include <numeric>
+#include <vector>
 
 namespace morph::filters
 {
 namespace
 {
+void insertCells(const morph::Mesh& mesh, vtkUnstructuredGrid* grid)
+{
+  grid->AllocateExact(mesh.numberOfCells(), static_cast<vtkIdType>(mesh.connectivity.size()));
+  std::vector<vtkIdType> corners;
+  for (morph::Index c = 0; c < mesh.numberOfCells(); ++c)
+  {
+    corners.assign(mesh.cell(c), mesh.cell(c) + mesh.cellSize(c));
+    grid->InsertNextCell(mesh.types[c], mesh.cellSize(c), corners.data());
+  }
+}
+
 /// `mesh` with all arrays of `from`, whose points are mesh.layer's and whose cells are the mesh's.
 vtkSmartPointer<vtkUnstructuredGrid> solidOf(const morph::Mesh& mesh, vtkUnstructuredGrid* from)
 {
@@ -37,13 +50,7 @@ vtkSmartPointer<vtkUnstructuredGrid> solidOf(const morph::Mesh& mesh, vtkUnstruc
     points->SetPoint(i, mesh.points.row(i).data());
   }
   grid->SetPoints(points);
-  grid->AllocateExact(mesh.numberOfCells(), static_cast<vtkIdType>(mesh.connectivity.size()));
-  std::vector<vtkIdType> corners;
-  for (morph::Index c = 0; c < mesh.numberOfCells(); ++c)
-  {
-    corners.assign(mesh.cell(c), mesh.cell(c) + mesh.cellSize(c));
-    grid->InsertNextCell(mesh.types[c], mesh.cellSize(c), corners.data());
-  }
+  insertCells(mesh, grid);
   std::vector<vtkIdType> image(nodes);
   for (vtkIdType i = 0; i < 2 * front; ++i)
   {
@@ -56,8 +63,7 @@ vtkSmartPointer<vtkUnstructuredGrid> solidOf(const morph::Mesh& mesh, vtkUnstruc
     const bool hasMiddles = shape.dimension == 3 && mesh.cellSize(c) > shape.numberOfCorners;
     for (int k = 1; hasMiddles && 2 * k <= shape.numberOfCorners; ++k)
     {
-      image[mesh.cell(c)[mesh.cellSize(c) - k]] =
-        mesh.cell(c)[shape.numberOfCorners / 2 - k];
+      image[mesh.cell(c)[mesh.cellSize(c) - k]] = mesh.cell(c)[shape.numberOfCorners / 2 - k];
     }
   }
   vtkPointData* arrays = grid->GetPointData();
@@ -79,17 +85,30 @@ vtkSmartPointer<vtkUnstructuredGrid> gridOf(vtkPolyData* surface)
   const morph::Mesh mesh = BlockCells::Read(surface, "The input", GridMesh::UnknownCells::Refuse);
   auto grid = vtkSmartPointer<vtkUnstructuredGrid>::New();
   grid->SetPoints(surface->GetPoints());
-  grid->AllocateExact(mesh.numberOfCells(), static_cast<vtkIdType>(mesh.connectivity.size()));
-  std::vector<vtkIdType> corners;
-  for (morph::Index c = 0; c < mesh.numberOfCells(); ++c)
-  {
-    corners.assign(mesh.cell(c), mesh.cell(c) + mesh.cellSize(c));
-    grid->InsertNextCell(mesh.types[c], mesh.cellSize(c), corners.data());
-  }
+  insertCells(mesh, grid);
   grid->GetPointData()->ShallowCopy(surface->GetPointData());
   grid->GetCellData()->ShallowCopy(surface->GetCellData());
   grid->GetFieldData()->ShallowCopy(surface->GetFieldData());
   return grid;
+}
+
+/// Gives `to` these points of `from`, and their arrays.
+void copyPoints(
+  vtkUnstructuredGrid* from, const std::vector<vtkIdType>& ids, vtkUnstructuredGrid* to)
+{
+  const auto count = static_cast<vtkIdType>(ids.size());
+  vtkNew<vtkPoints> points;
+  points->SetDataType(from->GetPoints()->GetDataType());
+  points->SetNumberOfPoints(count);
+  vtkPointData* arrays = to->GetPointData();
+  arrays->Initialize();
+  arrays->CopyAllocate(from->GetPointData(), count);
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    points->SetPoint(i, from->GetPoint(ids[i]));
+    arrays->CopyData(from->GetPointData(), ids[i], i);
+  }
+  to->SetPoints(points);
 }
 
 /// A boundary that a filter of this module made has its nodes' ids.
@@ -99,18 +118,24 @@ bool isExtracted(vtkPolyData* surface)
 }
 }
 
+bool PlaneGrid::IsPlane(vtkDataObject* input)
+{
+  auto* surface = vtkPolyData::SafeDownCast(input);
+  const bool isMesh = surface ? !isExtracted(surface) : vtkUnstructuredGrid::SafeDownCast(input);
+  return isMesh && BlockCells::Dimension(vtkDataSet::SafeDownCast(input)) == 2;
+}
+
 vtkDataObject* PlaneGrid::Thicken(vtkDataObject* input)
 {
   auto* grid = vtkUnstructuredGrid::SafeDownCast(input);
   auto* surface = vtkPolyData::SafeDownCast(input);
-  if (this->Thick && (grid ? this->Seen.Is(grid)
-                           : input == this->Input && input->GetMTime() == this->InputTime))
+  if (this->Thick &&
+      (grid ? this->Seen.Is(grid) : input == this->Input && input->GetMTime() == this->InputTime))
   {
     return this->Thick;
   }
   *this = PlaneGrid();
-  auto* block = static_cast<vtkDataSet*>(grid ? static_cast<vtkDataSet*>(grid) : surface);
-  if (!block || (surface && isExtracted(surface)) || BlockCells::Dimension(block) != 2)
+  if (!IsPlane(input))
   {
     return input;
   }
@@ -119,8 +144,7 @@ vtkDataObject* PlaneGrid::Thicken(vtkDataObject* input)
   {
     flat = gridOf(surface);
   }
-  const morph::Mesh plane =
-    BlockCells::Read(flat, "The input", GridMesh::UnknownCells::Refuse);
+  const morph::Mesh plane = BlockCells::Read(flat, "The input", GridMesh::UnknownCells::Refuse);
   this->Thick = solidOf(morph::thicken(plane), flat);
   this->Flat = flat;
   if (grid)
@@ -140,30 +164,49 @@ void PlaneGrid::Flatten(vtkUnstructuredGrid* output) const
   {
     return;
   }
-  const vtkIdType count = this->Flat->GetNumberOfPoints();
+  std::vector<vtkIdType> front(this->Flat->GetNumberOfPoints());
+  std::iota(front.begin(), front.end(), vtkIdType(0));
   vtkNew<vtkUnstructuredGrid> flat;
   flat->ShallowCopy(this->Flat); // its cells
-  vtkNew<vtkPoints> points;
-  points->SetDataType(output->GetPoints()->GetDataType());
-  points->SetNumberOfPoints(count);
-  for (vtkIdType i = 0; i < count; ++i)
-  {
-    points->SetPoint(i, output->GetPoint(i));
-  }
-  flat->SetPoints(points);
-  vtkPointData* arrays = flat->GetPointData();
-  arrays->Initialize();
-  arrays->CopyAllocate(output->GetPointData(), count);
-  for (vtkIdType i = 0; i < count; ++i)
-  {
-    arrays->CopyData(output->GetPointData(), i, i);
-  }
+  copyPoints(output, front, flat);
   if (vtkDataArray* ids = this->Flat->GetPointData()->GetGlobalIds())
   {
-    arrays->SetGlobalIds(ids);
+    flat->GetPointData()->SetGlobalIds(ids);
   }
   flat->GetCellData()->ShallowCopy(output->GetCellData());
   flat->GetFieldData()->ShallowCopy(output->GetFieldData());
   output->ShallowCopy(flat);
+}
+
+void PlaneGrid::FlattenCells(vtkUnstructuredGrid* cells) const
+{
+  vtkDataArray* nodes = cells ? cells->GetPointData()->GetArray("MorphPointId") : nullptr;
+  vtkDataArray* ids = cells ? cells->GetCellData()->GetArray("MorphCellId") : nullptr;
+  if (!this->Thick || !nodes || !ids)
+  {
+    return;
+  }
+  std::vector<vtkIdType> front, number(this->Flat->GetNumberOfPoints());
+  for (vtkIdType i = 0; i < cells->GetNumberOfPoints(); ++i)
+  {
+    const auto node = static_cast<vtkIdType>(nodes->GetComponent(i, 0));
+    if (node < this->Flat->GetNumberOfPoints())
+    {
+      number[node] = static_cast<vtkIdType>(front.size());
+      front.push_back(i);
+    }
+  }
+  vtkNew<vtkUnstructuredGrid> flat;
+  flat->AllocateExact(cells->GetNumberOfCells(), 4 * cells->GetNumberOfCells());
+  for (vtkIdType c = 0; c < cells->GetNumberOfCells(); ++c)
+  {
+    SubGrid::InsertCell(
+      this->Flat, static_cast<vtkIdType>(ids->GetComponent(c, 0)),
+      [&number](vtkIdType node) { return number[node]; }, flat);
+  }
+  copyPoints(cells, front, flat);
+  flat->GetCellData()->ShallowCopy(cells->GetCellData());
+  flat->GetFieldData()->ShallowCopy(cells->GetFieldData());
+  cells->ShallowCopy(flat);
 }
 }

@@ -21,10 +21,12 @@ public:
   /// from Extract Morph Boundary. Throws morph::Error for meshes that are not plane, and as
   /// DataCheck::Require() and GridMesh::FromGrid(). Cost: passes over the grid.
   vtkDataObject* Thicken(vtkDataObject* input);
-  /// Whether the last input was such a mesh.
-  bool IsActive() const { return this->Thick; }
+  /// Whether Thicken() would make a solid of it.
+  static bool IsPlane(vtkDataObject* input);
   /// Makes a result on the solid one on the mesh; others stay as they are.
   void Flatten(vtkUnstructuredGrid* output) const;
+  /// Makes some cells of the solid, as SubGrid::Extract() has them, those of the mesh.
+  void FlattenCells(vtkUnstructuredGrid* cells) const;
 
 private:
   vtkSmartPointer<vtkUnstructuredGrid> Flat, Thick;

@@ -234,10 +234,28 @@ Mesh TakeMesh(vtkDataObject* input, Blocks& blocks, int coincidentPoints, Use us
       " MPI ranks, and this plugin was built without MPI or hypre: " + filter +
       " needs the mesh on one rank. Build with MESHMORPHING_USE_MPI, or run on one rank.");
   }
-  if (ranks > 1 && Ranks::Count(blocks.IsPlane()) > 0)
+  // Plane cells are measured as they are. A process may have only faces of a solid that is elsewhere.
+  const bool isPlane = use != Use::ToMeasure && PlaneGrid::IsPlane(mesh.Data);
+  if (Ranks::Count(isPlane) > 0 && Ranks::Count(hasCells && !isPlane) == 0)
   {
-    throw morph::Error("The mesh is plane, and distributed over " + std::to_string(ranks) +
-                       " MPI ranks. Plane meshes are morphed on one: bring the mesh to one rank.");
+    if (ranks > 1)
+    {
+      throw morph::Error(
+        "The mesh has triangles and quadrilaterals alone, and is distributed over " +
+        std::to_string(ranks) + " MPI ranks. Plane meshes are morphed on one: bring it there.");
+    }
+    try
+    {
+      mesh.Data = blocks.Thicken(mesh.Data);
+    }
+    catch (...)
+    {
+      problem = std::current_exception();
+    }
+  }
+  else
+  {
+    blocks.Thicken(nullptr); // forgets an earlier one
   }
   mesh.IsDistributed = ranks > 1;
   mesh.IsElsewhere = ranks > 0 && !hasCells;

@@ -192,8 +192,7 @@ int Ports::RequestData(
     vtkDataObject* boundary = vtkDataObject::GetData(inputVector[1]);
     const char* name = this->Filter->GetClassName();
     Input::Mesh mesh = Input::TakeMesh(input, this->Mesh, task.CoincidentPoints,
-      task.WorkOnRanks ? Input::Use::ToMorphOnRanks : Input::Use::ToMorph, name, monitor,
-      boundary);
+      task.WorkOnRanks ? Input::Use::ToMorphOnRanks : Input::Use::ToMorph, name, monitor, boundary);
     input = mesh.Data;
     if (!mesh.IsDistributed && Ranks::Count(mesh.IsElsewhere && hasPoints(boundary)) > 0)
     {
