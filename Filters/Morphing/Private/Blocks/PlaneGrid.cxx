@@ -121,8 +121,9 @@ bool isExtracted(vtkPolyData* surface)
 bool PlaneGrid::IsPlane(vtkDataObject* input)
 {
   auto* surface = vtkPolyData::SafeDownCast(input);
-  const bool isMesh = surface ? !isExtracted(surface) : vtkUnstructuredGrid::SafeDownCast(input);
-  return isMesh && BlockCells::Dimension(vtkDataSet::SafeDownCast(input)) == 2;
+  const bool isGrid = vtkUnstructuredGrid::SafeDownCast(input);
+  return (isGrid || (surface && !isExtracted(surface))) &&
+         BlockCells::Dimension(vtkDataSet::SafeDownCast(input)) == 2;
 }
 
 vtkDataObject* PlaneGrid::Thicken(vtkDataObject* input)
