@@ -196,6 +196,26 @@ TEST_P(PlaneMeshes, AHoleThatTurnsLeavesAValidMeshInThePlane)
   }
 }
 
+TEST(PlaneMeshes, AGrowingHoleMovesThePlateHarmonically)
+{
+  // Each coordinate of the displacement is harmonic: 0.1 (a r + b / r) times the direction.
+  constexpr double b = 1 / (1 / 0.5 - 0.5 / 4), a = -b / 4;
+  auto grid = plate();
+  auto line = hole(grid, [](const Row& x) -> Row { return 1.2 * x; });
+  vtkNew<vtkFEMWarpMorph> filter;
+  filter->SetInputData(grid);
+  filter->SetBoundaryData(line);
+  filter->SetDisplacementArray("Motion");
+  filter->Update();
+  const Points rest = grids::points(grid), moved = grids::points(filter->GetOutput());
+  for (Index n = 0; n < rest.rows(); ++n)
+  {
+    const double r = rest.row(n).norm();
+    const Row expected = 0.1 * (a + b / (r * r)) * rest.row(n);
+    EXPECT_LT((moved.row(n) - rest.row(n) - expected).norm(), 0.003) << n;
+  }
+}
+
 TEST(PlaneMeshes, EveryFilterTakesThem)
 {
   const auto turn = inPlane([](const Row& x) { return turnedBy(x, 0.02); });

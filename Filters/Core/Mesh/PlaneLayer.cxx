@@ -114,7 +114,7 @@ Plane planeOf(const Mesh& mesh)
             "are up to "
          << most - least
          << " apart across its mean plane. Plane meshes and volume meshes are morphed. Give the "
-            "solid, or move the nodes into a plane.";
+            "volume mesh itself, or its boundary from Extract Morph Boundary or Classify Boundary.";
     throw Error(text.str());
   }
   return plane;

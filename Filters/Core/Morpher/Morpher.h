@@ -97,8 +97,9 @@ protected:
 
 private:
   friend class LinearMorpher;
-  /// On a layer, makes displacements of free nodes, or a gradient of them, those of a plane mesh: in
-  /// the plane, and for both images of a node their mean. It is its own transpose. `free`: #free x 3.
+  /// On a layer, makes displacements of free nodes, or a gradient of them, those of a plane mesh.
+  /// They are in the plane, and for both images of a node their mean. It is its own transpose.
+  /// `free`: #free x 3.
   void keepInPlane(Points& free) const;
 
   void prepareFor(const Mesh& rest, std::shared_ptr<const Points> points,

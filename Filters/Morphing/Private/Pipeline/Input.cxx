@@ -234,7 +234,7 @@ Mesh TakeMesh(vtkDataObject* input, Blocks& blocks, int coincidentPoints, Use us
       " MPI ranks, and this plugin was built without MPI or hypre: " + filter +
       " needs the mesh on one rank. Build with MESHMORPHING_USE_MPI, or run on one rank.");
   }
-  // Plane cells are measured as they are. A process may have only faces of a solid that is elsewhere.
+  // Plane cells are measured as they are. A process may have only faces of another one's solid.
   const bool isPlane = use != Use::ToMeasure && PlaneGrid::IsPlane(mesh.Data);
   if (Ranks::Count(isPlane) > 0 && Ranks::Count(hasCells && !isPlane) == 0)
   {
