@@ -216,6 +216,21 @@ TEST(PlaneMeshes, AGrowingHoleMovesThePlateHarmonically)
   }
 }
 
+TEST(PlaneMeshes, SolidsMayComeBeforeAndAfterThem)
+{
+  vtkNew<vtkMorphMesh> filter;
+  filter->SetMovingToEverything();
+  for (const auto& grid : { grids::hexes(2), plate(), plate(true), grids::hexes(3), plate() })
+  {
+    filter->SetInputData(grid);
+    grids::Listener listener(filter);
+    filter->Update();
+    EXPECT_EQ(firstError(listener), "");
+    EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), grid->GetNumberOfPoints());
+    EXPECT_EQ(filter->GetOutput()->GetCellType(0), grid->GetCellType(0));
+  }
+}
+
 TEST(PlaneMeshes, EveryFilterTakesThem)
 {
   const auto turn = inPlane([](const Row& x) { return turnedBy(x, 0.02); });

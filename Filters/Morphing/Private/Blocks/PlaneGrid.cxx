@@ -130,8 +130,10 @@ vtkDataObject* PlaneGrid::Thicken(vtkDataObject* input)
 {
   auto* grid = vtkUnstructuredGrid::SafeDownCast(input);
   auto* surface = vtkPolyData::SafeDownCast(input);
-  if (this->Thick &&
-      (grid ? this->Seen.Is(grid) : input == this->Input && input->GetMTime() == this->InputTime))
+  const bool isKept =
+    grid ? this->Seen.Is(grid)
+         : surface && surface == this->Input && surface->GetMTime() == this->InputTime;
+  if (this->Thick && isKept)
   {
     return this->Thick;
   }
