@@ -324,6 +324,22 @@ TEST(PlaneMeshes, PolygonalDataAndBlocksAreMorphedAlike)
   }
 }
 
+TEST(PlaneMeshes, BlocksShowTheirEdgesWhereNothingMovesYet)
+{
+  auto blocks = blocks::multiBlock(blocks::quarters(plate(), true));
+  vtkNew<vtkMorphMesh> filter;
+  filter->SetInputData(blocks);
+  filter->Update();
+  vtkIdType edges = 0;
+  for (const auto& leaf : blocks::leaves(filter->GetOutputDataObject(0)))
+  {
+    auto* grid = vtkUnstructuredGrid::SafeDownCast(leaf);
+    edges += grid->GetNumberOfCells();
+    EXPECT_EQ(grid->GetCellType(0), VTK_LINE);
+  }
+  EXPECT_EQ(edges, 2 * Around);
+}
+
 TEST(PlaneMeshes, StepsZonesAndLayersAreAsForSolids)
 {
   auto grid = plate();

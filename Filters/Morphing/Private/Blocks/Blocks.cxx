@@ -193,7 +193,7 @@ void Blocks::Scatter(vtkInformationVector* outputVector)
   vtkDataObjectTree* output = treeOf(outputVector);
   if (vtkUnstructuredGrid* grid = this->Output(outputVector))
   {
-    this->Plane.Flatten(grid);
+    this->Plane.Flatten(grid, output != nullptr);
   }
   if (outputVector->GetNumberOfInformationObjects() > 1)
   {

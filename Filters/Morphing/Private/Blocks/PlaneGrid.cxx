@@ -10,8 +10,10 @@
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
+#include <vtkCellType.h>
 #include <vtkDoubleArray.h>
 #include <vtkFieldData.h>
+#include <vtkIdList.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
@@ -92,6 +94,26 @@ vtkSmartPointer<vtkUnstructuredGrid> gridOf(vtkPolyData* surface)
   return grid;
 }
 
+/// Appends what the faces of a solid have of its `front`, in their order.
+void insertEdges(vtkUnstructuredGrid* faces, vtkIdType front, vtkUnstructuredGrid* to)
+{
+  to->Allocate(faces->GetNumberOfCells());
+  vtkNew<vtkIdList> corners, ends;
+  for (vtkIdType face = 0; face < faces->GetNumberOfCells(); ++face)
+  {
+    faces->GetCellPoints(face, corners);
+    ends->Reset();
+    for (vtkIdType i = 0; i < corners->GetNumberOfIds(); ++i)
+    {
+      if (corners->GetId(i) < front)
+      {
+        ends->InsertNextId(corners->GetId(i));
+      }
+    }
+    to->InsertNextCell(ends->GetNumberOfIds() == 2 ? VTK_LINE : VTK_POLY_VERTEX, ends);
+  }
+}
+
 /// Gives `to` these points of `from`, and their arrays.
 void copyPoints(
   vtkUnstructuredGrid* from, const std::vector<vtkIdType>& ids, vtkUnstructuredGrid* to)
@@ -159,18 +181,21 @@ vtkDataObject* PlaneGrid::Thicken(vtkDataObject* input)
   return this->Thick;
 }
 
-void PlaneGrid::Flatten(vtkUnstructuredGrid* output) const
+void PlaneGrid::Flatten(vtkUnstructuredGrid* output, bool withFaces) const
 {
   GridMesh::MarkLayer({}, output);
-  if (!this->Thick || output->GetNumberOfPoints() != this->Thick->GetNumberOfPoints() ||
-      output->GetCells() != this->Thick->GetCells())
+  const bool isOnSolid =
+    this->Thick && output->GetNumberOfPoints() == this->Thick->GetNumberOfPoints();
+  const bool areFaces = isOnSolid && output->GetCells() != this->Thick->GetCells();
+  if (!isOnSolid || (areFaces && !withFaces))
   {
     return;
   }
   std::vector<vtkIdType> front(this->Flat->GetNumberOfPoints());
   std::iota(front.begin(), front.end(), vtkIdType(0));
   vtkNew<vtkUnstructuredGrid> flat;
-  flat->ShallowCopy(this->Flat); // its cells
+  areFaces ? insertEdges(output, this->Flat->GetNumberOfPoints(), flat)
+           : flat->ShallowCopy(this->Flat); // its cells
   copyPoints(output, front, flat);
   if (vtkDataArray* ids = this->Flat->GetPointData()->GetGlobalIds())
   {

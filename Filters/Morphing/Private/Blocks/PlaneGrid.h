@@ -23,8 +23,9 @@ public:
   vtkDataObject* Thicken(vtkDataObject* input);
   /// Whether Thicken() would make a solid of it.
   static bool IsPlane(vtkDataObject* input);
-  /// Makes a result on the solid one on the mesh; others stay as they are.
-  void Flatten(vtkUnstructuredGrid* output) const;
+  /// Makes a result on the solid one on the mesh; others stay as they are. `withFaces`: also one
+  /// whose cells are faces of the solid, which become their edges in the mesh.
+  void Flatten(vtkUnstructuredGrid* output, bool withFaces) const;
   /// Makes some cells of the solid, as SubGrid::Extract() has them, those of the mesh.
   void FlattenCells(vtkUnstructuredGrid* cells) const;
 
