@@ -224,21 +224,6 @@ private:
 };
 }
 
-bool isSurfaceMesh(const Mesh& mesh)
-{
-  bool isSurface = false;
-  for (const std::uint8_t type : mesh.types)
-  {
-    const CellShape* shape = cellShape(type);
-    if (shape && shape->dimension == 3)
-    {
-      return false;
-    }
-    isSurface |= shape && shape->dimension == 2;
-  }
-  return isSurface;
-}
-
 Mesh thicken(const Mesh& plane)
 {
   const Plane geometry = planeOf(plane);

@@ -9,9 +9,6 @@
 
 namespace morph
 {
-/// Whether a mesh has cells of dimension 2, and none of dimension 3. Unknown types count as neither.
-bool isSurfaceMesh(const Mesh& mesh);
-
 /// Returns a plane mesh as a solid one layer thick, so that all that morphs and measures solids
 /// works for it: triangles become wedges and quadrilaterals hexahedra, of the same scaled Jacobian
 /// as the layer is orthogonal. Lines become the faces of its sides. Cells keep their ids, and nodes
