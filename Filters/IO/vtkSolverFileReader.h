@@ -21,7 +21,7 @@
  *
  * Cost: the file is read into memory as a whole; time and memory are linear in its size.
  *
- * Errors (a file that is missing or damaged, a planar mesh, what a format's page refuses) are
+ * Errors (a file that is missing or damaged, what a format's page refuses) are
  * reported with file and line. The output is then empty.
  *
  * @sa vtkSolverFileWriter

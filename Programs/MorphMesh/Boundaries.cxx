@@ -248,17 +248,27 @@ Displacements displacementsOfField(vtkUnstructuredGrid* grid, const std::string&
 struct SurfaceSums
 {
   vtkIdType Faces = 0;
-  bool IsInner = true; ///< all of them
-  double Area = 0;
+  bool IsInner = true;            ///< all of them
+  double Area = 0;                ///< of a plane mesh: length
   double Center[3] = { 0, 0, 0 }; ///< times Area
 };
 
-/// Adds a polygon, as the triangles about its first point.
+/// Adds a polygon, as the triangles about its first point, or an edge, whose length counts.
 void addPolygon(vtkPolyData* boundary, vtkIdList* corners, SurfaceSums& sums)
 {
   ++sums.Faces;
   double a[3], b[3], c[3], ab[3], ac[3], normal[3];
   boundary->GetPoint(corners->GetId(0), a);
+  if (corners->GetNumberOfIds() == 2)
+  {
+    boundary->GetPoint(corners->GetId(1), b);
+    const double length = std::sqrt(vtkMath::Distance2BetweenPoints(a, b));
+    sums.Area += length;
+    for (int j = 0; j < 3; ++j)
+    {
+      sums.Center[j] += length * (a[j] + b[j]) / 2;
+    }
+  }
   for (vtkIdType i = 2; i < corners->GetNumberOfIds(); ++i)
   {
     boundary->GetPoint(corners->GetId(i - 1), b);
@@ -446,6 +456,15 @@ void printSurfaces(vtkUnstructuredGrid* grid, const std::string& path, int threa
   vtkPolyData* boundary = filter->GetOutput();
   vtkDataArray* surfaces = boundary->GetCellData()->GetArray("GeometryId");
   vtkDataArray* inner = boundary->GetCellData()->GetArray("Inner");
+  // The edges of a plane mesh come as ribbons: one side of them is the mesh's, with its ids.
+  vtkDataArray* ids = boundary->GetPointData()->GetArray("MorphPointId");
+  const auto isImage = [&](vtkIdType point)
+  { return static_cast<vtkIdType>(ids->GetComponent(point, 0)) >= grid->GetNumberOfPoints(); };
+  bool isPlane = false;
+  for (vtkIdType i = 0; i < boundary->GetNumberOfPoints(); ++i)
+  {
+    isPlane = isPlane || isImage(i);
+  }
   auto* names =
     vtkStringArray::SafeDownCast(boundary->GetFieldData()->GetAbstractArray("SurfaceNames"));
   std::vector<std::pair<std::string, SurfaceSums>> named;
@@ -458,6 +477,17 @@ void printSurfaces(vtkUnstructuredGrid* grid, const std::string& path, int threa
   for (vtkIdType face = 0; face < boundary->GetNumberOfCells(); ++face)
   {
     boundary->GetCellPoints(face, corners);
+    for (vtkIdType i = corners->GetNumberOfIds() - 1; isPlane && i >= 0; --i)
+    {
+      if (isImage(corners->GetId(i)))
+      {
+        corners->DeleteId(corners->GetId(i));
+      }
+    }
+    if (isPlane && corners->GetNumberOfIds() != 2)
+    {
+      continue; // of a quadratic edge, between its halves
+    }
     const auto add = [&](SurfaceSums& sum)
     {
       addPolygon(boundary, corners, sum);
@@ -477,8 +507,7 @@ void printSurfaces(vtkUnstructuredGrid* grid, const std::string& path, int threa
     named.push_back({ "Surface " + std::to_string(id), sum });
   }
   std::cout << std::left << std::setw(14) << "name" << std::right << std::setw(10) << "faces"
-            << std::setw(14) << "area"
-            << "  center\n";
+            << std::setw(14) << (isPlane ? "length" : "area") << "  center\n";
   for (const auto& [name, sum] : named)
   {
     const double area = sum.Area > 0 ? sum.Area : 1;

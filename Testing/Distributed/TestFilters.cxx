@@ -84,6 +84,28 @@ TEST(DistributedFilters, ShellsFollowTheVolumeAcrossRanks)
     1e-9);
 }
 
+TEST(DistributedFilters, APlaneMeshOnSeveralRanksIsOneError)
+{
+  const Ranks ranks = pieces::world();
+  morph::Mesh square;
+  square.offsets = { 0 };
+  square.points.resize(4, 3);
+  square.points << 0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0;
+  square.points.col(0).array() += ranks.rank();
+  meshes::add(square, VTK_QUAD, { 0, 1, 2, 3 });
+  const auto grid = grids::make(square);
+  vtkNew<vtkFEMWarpMorph> filter;
+  filter->SetInputData(grid);
+  filter->SetBoundaryData(grids::cloud(square.points));
+  grids::Listener listener(filter);
+  filter->Update();
+  EXPECT_EQ(ranks.sum(static_cast<morph::Index>(listener.Errors.size())), ranks.count() > 1);
+  for (const std::string& error : listener.Errors)
+  {
+    EXPECT_NE(error.find("triangles and quadrilaterals alone"), std::string::npos) << error;
+  }
+}
+
 TEST(DistributedFilters, AnAbortOnOneRankEndsAllWithoutAMessage)
 {
   const Ranks ranks = pieces::world();

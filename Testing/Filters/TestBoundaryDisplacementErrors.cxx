@@ -216,14 +216,13 @@ TEST(BoundaryDisplacementErrors, TheInput)
   vtkNew<vtkImageData> image;
   image->SetDimensions(3, 3, 3);
   vtkNew<vtkMultiBlockDataSet> blocks;
-  vtkNew<vtkUnstructuredGrid> flat;
+  vtkNew<vtkUnstructuredGrid> line;
   vtkNew<vtkPoints> points;
   points->InsertNextPoint(0, 0, 0);
   points->InsertNextPoint(1, 0, 0);
-  points->InsertNextPoint(0, 1, 0);
-  flat->SetPoints(points);
-  const vtkIdType corners[] = { 0, 1, 2 };
-  flat->InsertNextCell(VTK_TRIANGLE, 3, corners);
+  line->SetPoints(points);
+  const vtkIdType ends[] = { 0, 1 };
+  line->InsertNextCell(VTK_LINE, 2, ends);
   vtkNew<vtkSphereSource> sphere;
   sphere->Update();
   vtkNew<vtkClassifyBoundary> classify;
@@ -237,10 +236,10 @@ TEST(BoundaryDisplacementErrors, TheInput)
     { "is a vtkImageData", image.Get() },
     { "no cells", blocks.Get() },
     { "no cells", vtkSmartPointer<vtkUnstructuredGrid>::New() },
-    { "is a volume cell", flat.Get() },
+    { "is a volume cell", line.Get() },
     { "without polygons", vtkSmartPointer<vtkPolyData>::New() },
     { "without polygons", classify->GetCurves() },
-    { "without the point array MorphPointId", sphere->GetOutput() },
+    { "Extract Morph Boundary", sphere->GetOutput() },
     { "not finite", moved },
     { "not finite", broken },
   };

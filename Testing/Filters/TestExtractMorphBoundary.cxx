@@ -236,15 +236,15 @@ TEST(ExtractMorphBoundary, LowerDimensionAndUnusedPointsAreLeftOut)
 TEST(ExtractMorphBoundary, OneErrorAndNoOutput)
 {
   vtkNew<vtkUnstructuredGrid> empty;
-  morph::Mesh flat;
-  flat.points.resize(3, 3);
-  flat.points << 0, 0, 0, 1, 0, 0, 0, 1, 0;
-  flat.offsets = { 0 };
-  meshes::add(flat, VTK_TRIANGLE, { 0, 1, 2 });
+  morph::Mesh line;
+  line.points.resize(3, 3);
+  line.points << 0, 0, 0, 1, 0, 0, 0, 1, 0;
+  line.offsets = { 0 };
+  meshes::add(line, VTK_LINE, { 0, 1 });
   vtkNew<vtkMultiBlockDataSet> blocks;
   const std::vector<std::pair<vtkSmartPointer<vtkDataObject>, std::string>> cases = {
-    { empty.Get(), "no cells" }, { grids::make(flat), "volume cell" }, { blocks.Get(), "no cells" },
-    { grids::cloud(flat.points), "vtkPolyData" }
+    { empty.Get(), "no cells" }, { grids::make(line), "volume cell" }, { blocks.Get(), "no cells" },
+    { grids::cloud(line.points), "vtkPolyData" }
   };
   for (const auto& [input, telling] : cases)
   {

@@ -133,14 +133,14 @@ TEST_F(MorphErrors, EmptyGrid)
   this->ExpectGridError(vtkNew<vtkUnstructuredGrid>(), { "no cells" });
 }
 
-TEST_F(MorphErrors, SurfaceCellsOnly)
+TEST_F(MorphErrors, LinesOnly)
 {
   morph::Mesh mesh;
   mesh.points.resize(4, 3);
   mesh.points << 0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0;
   mesh.offsets = { 0 };
-  meshes::add(mesh, VTK_QUAD, { 0, 1, 2, 3 });
-  this->ExpectGridError(grids::make(mesh), { "1 cells", "volume cell", "quad" });
+  meshes::add(mesh, VTK_LINE, { 0, 1 });
+  this->ExpectGridError(grids::make(mesh), { "1 cells", "volume cell", "line" });
 }
 
 TEST_F(MorphErrors, CoordinatesThatAreNotFinite)

@@ -37,7 +37,6 @@ class WrongInputs(unittest.TestCase):
     def setUpClass(cls):
         cls.grid = hexes(4)
         cls.boundary = ExtractMorphBoundary(Input=cls.grid)
-        cls.flat = AppendDatasets(Input=[Plane()])
 
     def assertMessage(self, proxy, *parts, undeformed=0):
         """`undeformed`: the number of points of the mesh that a morph filter gives back."""
@@ -99,8 +98,9 @@ class WrongInputs(unittest.TestCase):
             self.assertRefused(parts, Input=self.grid, Boundary=surface)
 
     def test_inputs_of_other_types(self):
-        self.assertRefused(["The input is a vtkPolyData", "Append Datasets"], Input=Cone(),
+        self.assertRefused(["The input is a vtkPolyData", "Append Datasets"], Input=Line(),
                            Boundary=self.boundary)
+        self.assertRefused(["The input is a curved shell"], Input=Cone(), Boundary=self.boundary)
         self.assertRefused(["The input is a vtkImageData", "Append Datasets"], Input=Wavelet(),
                            Boundary=self.boundary)
         self.assertRefused(["The boundary is a vtkImageData", "polygonal data"], Input=self.grid,
@@ -110,9 +110,10 @@ class WrongInputs(unittest.TestCase):
                            "The target is composite data", "Merge Blocks")
 
     def test_meshes_without_volume_cells(self):
-        parts = "None of the input's 1 cells is a volume cell", "quad"
-        self.assertRefused(parts, Input=self.flat, Boundary=Plane())
-        self.assertMessage(ExtractMorphBoundary(Input=self.flat), *parts)
+        line = AppendDatasets(Input=[Line()])
+        parts = "None of the input's 1 cells is a volume cell", "poly-line"
+        self.assertRefused(parts, Input=line, Boundary=Plane())
+        self.assertMessage(ExtractMorphBoundary(Input=line), *parts)
 
     def test_inputs_the_wrong_way_round(self):
         parts = "Input and Boundary are swapped", "volume mesh as Input"

@@ -388,7 +388,7 @@ class Exodus(Files):
             self.refuse("Cannot read .*it is damaged, or ends too soon", *MOVE, path, path)
         for change, message in (
                 (lambda s: s.replace("num_dim = 3", "num_dim = 2").replace("coordz", "other"),
-                 "planar models are not morphed"),
+                 "nodes have 2 coordinates"),
                 (lambda s: s.replace("num_dim", "other"), "no file of Exodus II"),
                 (lambda s: re.sub(r"connect1 = \d+", "connect1 = 9999", s), "position 9999"),
                 (lambda s: re.sub(r"elem_ss1 = \d+", "elem_ss1 = 9999", s), "position 9999"),
@@ -552,7 +552,7 @@ class Cgns(Files):
 
     def test_what_is_refused(self):
         self.refuse("zone block is structured", "--list-surfaces", self.folder / "structured.cgns")
-        self.refuse("base Plane is not three-dimensional: planar meshes", "--list-surfaces",
+        self.refuse("base Plane is not three-dimensional", "--list-surfaces",
                     self.folder / "planar.cgns")
         for name in ("cube.cgns", "cube_adf.cgns"):
             path = self.folder / name

@@ -609,9 +609,7 @@ class SolverFiles(unittest.TestCase):
             ("m.inp", nodes.replace("*NODE", "*NODE, SYSTEM=S") + brick,
              "line 1: .*spherical coordinates"),
             ("m.inp", "*SYSTEM\n1,2,3,1,2,3\n" + nodes + brick, "line 3: .*on a line"),
-            ("m.inp", nodes + "*ELEMENT, TYPE=CPE4\n1, 1, 2, 4, 3\n",
-             "line 10: .*CPE4 make a planar model"),
-            ("m.inp", "*NODE\n1, 0., 0.\n2, 1., 0.\n", "planar models are not morphed"),
+            ("m.inp", "*NODE\n1, 0., 0.\n2, 1., 0.\n", "no cells"),
             ("m.inp", "*INCLUDE, INPUT=none.inp\n", "none.inp: there is no such file"),
             ("m.inp", "*INCLUDE, INPUT=m.inp\n", "20 levels deep"),
             ("m.inp", "*STEP\n", "has no .NODE"),
@@ -624,17 +622,16 @@ class SolverFiles(unittest.TestCase):
             ("m.bdf", grids + "GRID           5\t\t1.0\n" + tetra, "line 6: .*tabs"),
             ("m.bdf", grids + "GRID*                  5\n" + tetra, "line 6: .*continuation line"),
             ("m.bdf", "BEGIN BULK\nINCLUDE 'none.bdf'\n", "none.bdf: there is no such file"),
-            # Shells alone may be a target, so that they are read, and refused as a mesh.
-            ("m.bdf", grids + "CTRIA3,1,7,1,2,3\n", "m.bdf: None of .* is a volume cell"),
-            ("m.inp", nodes + brick.replace("C3D8", "S4").replace(", 5, 6, 8, 7", ""),
-             "m.inp: None of .* is a volume cell"),
+            ("m.inp", nodes.replace("3, 0., 1., 0.", "3, 0., 1., .5") +
+             brick.replace("C3D8", "S4").replace(", 5, 6, 8, 7", ""),
+             "m.inp: The input is a curved shell"),
             ("m.k", dyna.replace("1.,0.,0.", "1.,x,0."), "line 4: 'x' is no number"),
             ("m.k", dyna.replace("4,4,4,4", "44,44,44,44"), "element 1 has the node 44"),
             ("m.k", dyna.replace("4,4,4,4", ""), "line 8: element 1 has 3 nodes"),
             ("m.k", "*PARAMETER\nR X, 1.\n" + dyna, "line 1: it has .PARAMETER"),
             ("m.k", "*INCLUDE_TRANSFORM\na.k\n" + dyna, "line 1: it has .INCLUDE_TRANSFORM"),
             ("m.k", "*INCLUDE\nm.k\n", "20 levels deep"), ("m.k", "*KEYWORD\n", "no .NODE"),
-            ("m.su2", su2.replace("3\nNPOIN", "2\nNPOIN", 1), "line 1: .*two-dimensional"),
+            ("m.su2", su2.replace("3\nNPOIN", "4\nNPOIN", 1), "line 1: .*two or three dimens"),
             ("m.su2", "NZONE= 2\n" + su2, "line 1: .*several zones"),
             ("m.su2", su2.replace("1 0 0", "1 inf 0"), "line 4: 'inf' is no number"),
             ("m.su2", su2.replace("1 0 0", "1 0"), "line 4: a point needs three"),
@@ -654,7 +651,7 @@ class SolverFiles(unittest.TestCase):
             ("m.msh", msh.replace("\n4\n", "\n3\n"), "more than one node .* 3"),
             ("m.msh", msh.replace("9 1 2 3 4", "9 1 2 3 44"), "element 9 has the node 44"),
             ("m.msh", msh.replace("3 1 4 1", "3 1 29 1"), "line 18: the element type 29"),
-            ("m.msh", msh.replace("3 1 4 1", "2 1 2 1"), "no volume elements"),
+            ("m.msh", msh.replace("3 1 4 1", "1 1 1 1"), "no volume or surface elements"),
             ("m.msh", msh.replace("$EndElements\n", ""), "section .Elements has no end"),
             ("m.msh", msh + "$Nodes\n0 0 0 0\n$EndNodes\n", "the section .Nodes twice"),
             ("m.msh", msh.replace("$Nodes", "$Modes").replace("$EndNodes", "$EndModes"),
@@ -677,52 +674,47 @@ class SolverFiles(unittest.TestCase):
             self.refuse(f"{name}: it includes more than 1000 files", "--list-surfaces", path)
 
     def test_planar_files_of_each_format(self):
-        """CGNS and Exodus II: library_files.py. OpenFOAM has no planar mesh: its two-dimensional
-        cases are one cell thick."""
-        places = ("0.,0.,0.", "1.,0.,0.", "1.,1.,0.", "0.,1.,0.")
+        """Exodus II and CGNS need three coordinates: library_files.py. OpenFOAM has no planar mesh:
+        its two-dimensional cases are one cell thick."""
+        places = [f"{x}.,{y}.,0." for y in range(4) for x in range(4)]
+        quads = [[4 * y + x, 4 * y + x + 1, 4 * y + x + 5, 4 * y + x + 4]
+                 for y in range(3) for x in range(3)]
+        rows = [" ".join(map(str, quad)) for quad in quads]
+        from_one = [" ".join(str(node + 1) for node in quad) for quad in quads]
         numbered = "".join(f"{i + 1},{x}\n" for i, x in enumerate(places))
         points = "".join(x.replace(",", " ") + "\n" for x in places)
-        msh = ("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n4\n" +
-               numbered.replace(",", " ") + "$EndNodes\n$Elements\n1\n1 3 2 1 1 1 2 3 4\n"
+        msh = ("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n16\n" +
+               numbered.replace(",", " ") + "$EndNodes\n$Elements\n9\n" +
+               "".join(f"{i + 1} 3 2 1 1 {row}\n" for i, row in enumerate(from_one)) +
                "$EndElements\n")
-        msh4 = ("$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n1 4 1 4\n2 1 0 4\n1\n2\n3\n4\n" +
-                points + "$EndNodes\n$Elements\n1 1 1 1\n2 1 3 1\n1 1 2 3 4\n$EndElements\n")
         vtk = ("# vtk DataFile Version 3.0\nplanar\nASCII\nDATASET UNSTRUCTURED_GRID\n"
-               "POINTS 4 double\n" + points + "CELLS 1 5\n4 0 1 2 3\nCELL_TYPES 1\n9\n")
-        array = ('<DataArray type="{}" Name="{}" NumberOfComponents="{}" format="ascii">{}'
-                 '</DataArray>')
-        vtu = ('<VTKFile type="UnstructuredGrid"><UnstructuredGrid>'
-               '<Piece NumberOfPoints="4" NumberOfCells="1"><Points>' +
-               array.format("Float64", "Points", 3, points) + "</Points><Cells>" +
-               array.format("Int64", "connectivity", 1, "0 1 2 3") +
-               array.format("Int64", "offsets", 1, "4") + array.format("UInt8", "types", 1, "9") +
-               "</Cells></Piece></UnstructuredGrid></VTKFile>")
-        (self.folder / "m_0.vtu").write_text(vtu)
-        pieces = ('<VTKFile type="PUnstructuredGrid"><PUnstructuredGrid><PPoints>'
-                  '<PDataArray type="Float64" NumberOfComponents="3"/></PPoints>'
-                  '<Piece Source="m_0.vtu"/></PUnstructuredGrid></VTKFile>')
-        blocks = ('<VTKFile type="vtkMultiBlockDataSet" version="1.0"><vtkMultiBlockDataSet>'
-                  '<DataSet index="0" file="m_0.vtu"/></vtkMultiBlockDataSet></VTKFile>')
-        inp = "*NODE\n" + numbered + "*ELEMENT, TYPE={}\n1, 1, 2, 3, 4\n"
+               "POINTS 16 double\n" + points + "CELLS 9 45\n" +
+               "".join(f"4 {row}\n" for row in rows) + "CELL_TYPES 9\n" + 9 * "9\n")
+        inp = ("*NODE\n{}*ELEMENT, TYPE={}\n" +
+               "".join(f"{i + 1}, {row.replace(' ', ', ')}\n" for i, row in enumerate(from_one)))
         bdf = "".join(f"GRID,{i + 1},,{x}\n" for i, x in enumerate(places))
-        none = "is a volume cell"
-        for name, content, message in (
-                ("m.inp", inp.format("CPS4"), "CPS4 make a planar model"),
-                ("m.inp", inp.format("S4"), none),
-                ("m.bdf", bdf + "CQUAD4,1,7,1,2,3,4\n", none),
-                ("m.su2", "NDIME= 2\nNELEM= 1\n9 0 1 2 3 0\nNPOIN= 4\n0 0 0\n1 0 1\n1 1 2\n"
-                 "0 1 3\nNMARK= 0\n", "two-dimensional mesh: planar meshes are not morphed"),
-                ("m.msh", msh, "no volume elements: planar meshes"),
-                ("m.msh", msh4, "no volume elements: planar meshes"),
-                ("m.vtk", vtk, none), ("m.vtu", vtu, none), ("m.pvtu", pieces, none),
-                ("m.vtm", blocks, none)):
-            with self.subTest(name=name, message=message):
-                path = self.folder / name
+        quad4 = "".join(f"CQUAD4,{i + 1},7,{row.replace(' ', ',')}\n"
+                        for i, row in enumerate(from_one))
+        su2 = ("NDIME= 2\nNELEM= 9\n" + "".join(f"9 {row} {i}\n" for i, row in enumerate(rows)) +
+               "NPOIN= 16\n" + "".join(f"{x.replace(',', ' ')[:-3]} {i}\n"
+                                       for i, x in enumerate(places)) +
+               "NMARK= 1\nMARKER_TAG= low\nMARKER_ELEMS= 3\n3 0 1\n3 1 2\n3 2 3\n")
+        for name, content, surface in (
+                ("m.inp", inp.format(numbered.replace(",0.\n", "\n"), "CPS4"), "Surface 0"),
+                ("m.inp", inp.format(numbered, "S4"), "Surface 0"),
+                ("m.bdf", bdf + quad4, "Surface 0"), ("m.su2", su2, "low"),
+                ("m.msh", msh, "Surface 0"), ("m.vtk", vtk, "Surface 0")):
+            with self.subTest(name=name, content=content):
+                path, out = self.folder / name, self.folder / ("out" + Path(name).suffix)
                 path.write_text(content)
-                self.refuse(name + ".*" + message, "--list-surfaces", path)
-                self.refuse(name + ".*" + message, "--move", "Surface 0", "--translate", "1,0,0",
-                            path, self.folder / ("out" + path.suffix))
-                self.assertFalse((self.folder / ("out" + path.suffix)).exists())
+                # The lower side goes down by a half, and what is between it and the upper follows.
+                self.morph(path, out, "--move", surface, "--translate", "0,-.5,0")
+                if name != "m.vtk":
+                    old, new = content.splitlines(), out.read_text().splitlines()
+                    self.assertEqual(len(old), len(new))
+                    changed = [line for line, was in zip(new, old) if line != was]
+                    self.assertEqual(len(changed), 12)  # the upper nodes stay
+                    self.assertTrue(all("-.5" in line or "-0.5" in line for line in changed[:4]))
 
 
 def forget_tests_of_superclass(case):

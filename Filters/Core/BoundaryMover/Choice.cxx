@@ -3,6 +3,7 @@
 
 #include "BoundaryMover/Patches.h"
 
+#include "Mesh/PlaneLayer.h"
 #include <algorithm>
 #include <utility>
 
@@ -74,6 +75,7 @@ Choice choosePatches(const BoundaryModel& model, const std::set<std::string>& mo
 Choice chooseNodes(
   const BoundaryModel& model, std::vector<std::uint8_t> isMoving, const std::set<std::string>& held)
 {
+  markImages(model.mesh.layer, isMoving);
   const std::vector<std::uint8_t> isOnSheet = model.nodesOnlyOn(model.sheets());
   for (std::size_t n = 0; n < isOnSheet.size(); ++n)
   {

@@ -5,6 +5,7 @@
 #include "Geometry/AffineFit.h"
 #include "Geometry/RigidFit.h"
 #include "LinearMethods/FemWarp.h"
+#include "Mesh/PlaneLayer.h"
 #include "Mesh/Polyhedra.h"
 #include "Morpher/PolyhedralMorpher.h"
 #include "Support/Error.h"
@@ -83,6 +84,7 @@ InnerPieces::~InnerPieces() = default;
 
 void takeNodes(const Mesh& mesh, std::vector<std::uint8_t> isNode, Zone& zone)
 {
+  markImages(mesh.layer, isNode);
   zone.isNode = std::move(isNode);
   zone.isCell.assign(mesh.numberOfCells(), 0);
   for (Index c = 0; c < mesh.numberOfCells(); ++c)

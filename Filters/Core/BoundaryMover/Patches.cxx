@@ -2,6 +2,7 @@
 #include "BoundaryMover/Patches.h"
 
 #include "Boundary/FaceAreas.h"
+#include "Mesh/PlaneLayer.h"
 #include "Support/Error.h"
 
 #include <algorithm>
@@ -107,7 +108,10 @@ std::vector<std::string> patchNames(const BoundaryModel& model)
     names.push_back(set.name);
   }
   addNames(geometry.surfaces, surfaceName, names);
-  addNames(geometry.curves, curveName, names);
+  if (model.mesh.layer.nodes == 0) // those of a layer are corners, and its surfaces twice
+  {
+    addNames(geometry.curves, curveName, names);
+  }
   return names;
 }
 
@@ -116,11 +120,17 @@ std::vector<PatchSize> patchSizes(const BoundaryModel& model)
   const Classification& geometry = model.geometry;
   const Points& points = model.rest();
   const Points areas = faceAreas(points, model.faces);
+  // The sides of a layer are the edges of a plane mesh.
+  const PlaneLayer& layer = model.mesh.layer;
+  const double perArea = 1 / thickness(model.mesh);
   const auto addNodes = [&](const std::vector<Index>& nodes, PatchSize& size)
   {
     for (const Index node : nodes)
     {
-      size.box.extend(points.row(node).transpose());
+      if (layer.nodes == 0 || node < layer.nodes)
+      {
+        size.box.extend(points.row(node).transpose());
+      }
     }
   };
   const auto addFaces = [&](const std::vector<Index>& faces, PatchSize& size)
@@ -129,7 +139,7 @@ std::vector<PatchSize> patchSizes(const BoundaryModel& model)
     size.count += static_cast<Index>(faces.size());
     for (const Index face : faces)
     {
-      size.measure += areas.row(face).norm();
+      size.measure += perArea * areas.row(face).norm();
     }
   };
   std::map<std::string, PatchSize> sizes;

@@ -91,7 +91,7 @@ MeshEnergy::MeshEnergy(
   : free_(unknownOrdering(mesh, free))
   , batches_(mesh, this->free_)
 {
-  this->share(communicator, this->free_);
+  this->share(communicator, this->free_, mesh.layer.normal);
 }
 
 EnergyState MeshEnergy::evaluate(const Points& points, Monitor& monitor) const

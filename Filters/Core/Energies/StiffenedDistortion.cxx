@@ -279,7 +279,7 @@ StiffenedDistortion::StiffenedDistortion(const Mesh& mesh,
   : free_(unknownOrdering(mesh, free))
   , batches_(mesh, this->free_, cells)
 {
-  this->share(communicator, this->free_);
+  this->share(communicator, this->free_, mesh.layer.normal);
   for (Index batch = 0; batch < this->batches_.size(); ++batch)
   {
     const Shape shape = this->batches_.shape(batch);

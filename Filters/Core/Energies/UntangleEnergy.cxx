@@ -124,7 +124,7 @@ UntangleEnergy::UntangleEnergy(const Mesh& mesh, const std::vector<Index>& free,
   , batches_(mesh, this->free_)
   , tetrahedra_(tetrahedraOf(this->batches_, targets, margin))
 {
-  this->share(communicator, this->free_);
+  this->share(communicator, this->free_, mesh.layer.normal);
   this->tetrahedra_.count = std::max<Index>(1, communicator.sum(this->tetrahedra_.count));
 }
 

@@ -9,6 +9,21 @@
 
 namespace morph
 {
+/// Of a plane mesh as a solid one layer thick, see thicken(). Node n < `nodes` of the front has its
+/// image n + `nodes` behind it. The faces of front and back are no boundary, and nodes move in the
+/// plane, both images of one alike.
+struct PlaneLayer
+{
+  Index nodes = 0;                                        ///< of the front; 0: no layer
+  Eigen::RowVector3d normal = Eigen::RowVector3d::Zero(); ///< of length 1, from front to back
+
+  /// The node of the front that a node, of front or back, is an image of.
+  Index frontOf(Index node) const
+  {
+    return this->nodes > 0 && node >= this->nodes ? node - this->nodes : node;
+  }
+};
+
 /// A mesh in VTK's numbering of cell types and of the nodes in a cell.
 struct Mesh
 {
@@ -20,6 +35,7 @@ struct Mesh
   std::vector<Index> faceOffsets;
   /// each face of a polyhedron: its number of nodes, then their ids, outward (see Polyhedra.h)
   std::vector<Index> faces;
+  PlaneLayer layer;
 
   Index numberOfNodes() const { return static_cast<Index>(this->points.rows()); }
   Index numberOfCells() const { return static_cast<Index>(this->types.size()); }

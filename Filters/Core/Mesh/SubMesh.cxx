@@ -25,6 +25,7 @@ SubMesh::SubMesh(const Mesh& whole, const std::vector<Index>& cells)
     }
   }
   this->mesh.points = whole.points(this->nodes, allColumns);
+  this->mesh.layer.normal = whole.layer.normal;
   for (const Index c : cells)
   {
     this->mesh.types.push_back(whole.types[c]);

@@ -299,6 +299,19 @@ BoundaryFaces describeFaces(const Mesh& mesh, const std::vector<Place>& faces)
 }
 }
 
+namespace
+{
+/// Whether all corners of a face of a layer are on one side of it.
+bool isFrontOrBack(const Mesh& mesh, const Place& place)
+{
+  const CellShape& shape = *volumeShape(mesh, place.cell);
+  Index corners[4];
+  const int size = faceNodes(mesh, place.cell, shape, place.side, corners);
+  return std::all_of(corners, corners + size,
+    [&](Index node) { return (node < mesh.layer.nodes) == (corners[0] < mesh.layer.nodes); });
+}
+}
+
 BoundaryFaces boundaryFaces(const Mesh& mesh, Monitor& monitor)
 {
   HangingNodes hanging;
@@ -307,8 +320,14 @@ BoundaryFaces boundaryFaces(const Mesh& mesh, Monitor& monitor)
 
 BoundaryFaces boundaryFaces(const Mesh& mesh, HangingNodes& hanging, Monitor& monitor)
 {
-  const std::vector<Place> places =
+  std::vector<Place> places =
     hasPolyhedra(mesh) ? outerFacesAmongAll(mesh, monitor) : outerFaces(mesh, monitor);
+  if (mesh.layer.nodes > 0)
+  {
+    places.erase(std::remove_if(places.begin(), places.end(),
+                   [&](const Place& place) { return isFrontOrBack(mesh, place); }),
+      places.end());
+  }
   BoundaryFaces faces = describeFaces(mesh, places);
   const std::vector<std::uint8_t> isInside = hanging.find(mesh, faces, monitor);
   if (isInside.empty())

@@ -2,6 +2,7 @@
 #include "Morpher/Morpher.h"
 
 #include "Mesh/IndexLimits.h"
+#include "Mesh/PlaneLayer.h"
 #include "Support/Error.h"
 #include "Support/Parallel.h"
 #include "Support/ProgressRange.h"
@@ -119,6 +120,8 @@ void Morpher::prepareFor(const Mesh& rest, std::shared_ptr<const Points> points,
   this->partition_ = std::move(partition);
   this->outside_ = outside(this->partition(), rest.points.rows());
   this->higherOrderNodes_.prepare(rest, this->partition());
+  this->normal_ = rest.layer.normal;
+  this->images_ = imagesAmong(rest.layer, this->partition().free);
   monitor.check();
   if (!this->partition().free.empty())
   {
@@ -179,6 +182,17 @@ Points Morpher::displacementOf(const ConstPoints& prescribed, Monitor& monitor) 
   return displacement;
 }
 
+void Morpher::keepInPlane(Points& free) const
+{
+  for (const auto& [front, back] : this->images_)
+  {
+    Eigen::RowVector3d mean = (free.row(front) + free.row(back)) / 2;
+    mean -= mean.dot(this->normal_) * this->normal_;
+    free.row(front) = mean;
+    free.row(back) = mean;
+  }
+}
+
 template <typename Displacement>
 void Morpher::place(Index node, const Displacement& displacement, Points& result) const
 {
@@ -206,6 +220,7 @@ EvaluateReport Morpher::evaluate(
   {
     this->warnOf(displacement, monitor);
     report = this->displace(displacement, freeDisplacement, whole);
+    this->keepInPlane(freeDisplacement);
   }
   if (reproducibleSum(freeDisplacement.rows(), monitor, Index(0),
         [&](Index i) { return Index(!freeDisplacement.row(i).allFinite()); }) > 0)
@@ -270,7 +285,9 @@ EvaluateReport LinearMorpher::applyTranspose(
   if (!this->partition().free.empty())
   {
     ProgressRange whole(monitor, 0, 1);
-    report = this->displaceTranspose(all(this->partition().free, allColumns), result, whole);
+    Points free = all(this->partition().free, allColumns);
+    this->keepInPlane(free);
+    report = this->displaceTranspose(free, result, whole);
   }
   monitor.check(); // a method whose product takes milliseconds need not ask
   prescribed.swap(result);
@@ -287,6 +304,7 @@ Points LinearMorpher::mode(
   if (free.rows() > 0)
   {
     report = this->displace(displacement, free, monitor);
+    this->keepInPlane(free);
   }
   requireFound(free, partition);
   Points all = Points::Zero(this->restPoints().rows(), 3);
@@ -328,6 +346,10 @@ FourFields LinearMorpher::fields(
   {
     ProgressRange whole(monitor, 0, 1);
     found = this->displaceFields(prescribed, free, whole);
+    for (const auto& [front, back] : this->images_)
+    {
+      free.row(front) = free.row(back) = ((free.row(front) + free.row(back)) / 2).eval();
+    }
   }
   requireFound(free, partition);
   FourFields all = FourFields::Zero(this->restPoints().rows(), 4);

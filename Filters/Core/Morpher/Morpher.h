@@ -8,6 +8,7 @@
 
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace morph
@@ -113,6 +114,12 @@ protected:
   void requirePrepared() const;
 
 private:
+  friend class LinearMorpher;
+  /// On a layer, makes displacements of free nodes, or a gradient of them, those of a plane mesh.
+  /// They are in the plane, and for both images of a node their mean. It is its own transpose.
+  /// `free`: #free x 3.
+  void keepInPlane(Points& free) const;
+
   void prepareFor(const Mesh& rest, std::shared_ptr<const Points> points,
     std::shared_ptr<const NodePartition> partition, Monitor& monitor);
   /// Returns #prescribed x 3; throws Error where it is not finite.
@@ -124,6 +131,8 @@ private:
   std::shared_ptr<const Points> rest_ = std::make_shared<Points>();
   std::shared_ptr<const NodePartition> partition_ = std::make_shared<NodePartition>();
   std::vector<Index> outside_;
+  Eigen::RowVector3d normal_;                   ///< of a layer, or zero
+  std::vector<std::pair<Index, Index>> images_; ///< of a layer, among the free nodes
 };
 
 /// A method with a fixed matrix from prescribed to free displacements: u_free = M u_prescribed.

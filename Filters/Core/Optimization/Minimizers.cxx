@@ -38,6 +38,37 @@ private:
 
 Objective::~Objective() = default;
 
+void Objective::keepInPlane(Points& gradient) const
+{
+  if (!this->normal_.isZero(0))
+  {
+    gradient -= (gradient * this->normal_.transpose()).eval() * this->normal_;
+  }
+}
+
+void Objective::keepInPlane(BlockCsr3f& hessian) const
+{
+  if (this->normal_.isZero(0))
+  {
+    return;
+  }
+  const Eigen::Matrix3f normal = (this->normal_.transpose() * this->normal_).cast<float>();
+  const Eigen::Matrix3f inPlane = Eigen::Matrix3f::Identity() - normal;
+  for (Index row = 0; row < hessian.rows(); ++row)
+  {
+    for (Index k = 0; k < hessian.numberOfBlocks(row); ++k)
+    {
+      Eigen::Map<Eigen::Matrix3f> block(hessian.blocks(row) + 9 * k);
+      const float mean = block.trace() / 3;
+      block = (inPlane * block * inPlane).eval();
+      if (k == 0) // of the diagonal
+      {
+        block += mean * normal;
+      }
+    }
+  }
+}
+
 Objective::Value Objective::valueAndGradient(
   const Points& points, Points& result, Monitor& monitor) const
 {
@@ -62,12 +93,14 @@ Objective::Value newton(const SecondOrderObjective& objective, Points& points,
   {
     monitor.check();
     objective.gradient(points, gradient, monitor);
+    objective.keepInPlane(gradient);
     const double norm = std::sqrt(objective.rows().dot(gradient, gradient, monitor));
     if (!(norm > 0 && std::isfinite(norm)))
     {
       break;
     }
     objective.hessian(points, matrix, monitor);
+    objective.keepInPlane(matrix);
     // The diagonal blocks alone need the tolerance: looser steps miss what is smooth.
     effort.linearIterations += matrix.solve(gradient, direction, LinearTolerance,
       MostLinearIterations, monitor, objective.rows(), limits.preconditioner, forcing.next(norm));

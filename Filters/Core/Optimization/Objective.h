@@ -35,20 +35,31 @@ public:
   /// the value is not finite.
   virtual Value valueAndGradient(const Points& points, Points& result, Monitor& monitor) const;
 
+  /// Lets the free nodes of a plane mesh move in their plane alone: takes the normal part from a
+  /// gradient, and from second derivatives, whose diagonal gets another one.
+  ///@{
+  void keepInPlane(Points& gradient) const;
+  void keepInPlane(BlockCsr3f& hessian) const;
+  ///@}
+
   /// The processes that have parts of the mesh, and the copies of the gradient's rows.
   const Communicator& communicator() const { return *this->communicator_; }
   const CopiedRows& rows() const { return *this->rows_; }
 
 protected:
-  /// Call it once free() is known. `communicator` has to outlive this object.
-  void share(const Communicator& communicator, const std::vector<Index>& free)
+  /// Call it once free() is known. `communicator` has to outlive this object. `normal`: that of the
+  /// mesh's layer.
+  void share(const Communicator& communicator, const std::vector<Index>& free,
+    const Eigen::RowVector3d& normal)
   {
+    this->normal_ = normal;
     this->communicator_ = &communicator;
     this->rows_ = communicator.rows(free);
   }
 
 private:
   const Communicator* communicator_ = &Communicator::alone();
+  Eigen::RowVector3d normal_ = Eigen::RowVector3d::Zero();
   std::shared_ptr<const CopiedRows> rows_ = std::make_shared<CopiedRows>();
 };
 

@@ -5,6 +5,7 @@
 #include "Support/Error.h"
 
 #include <algorithm>
+#include <cmath>
 #include <sstream>
 #include <utility>
 
@@ -49,6 +50,54 @@ void verifyRestPositions(const NamedPoints& named, const Mesh& rest, double tole
   }
 }
 
+/// Makes a boundary of a layer that of the plane mesh: points stand for nodes of the front, and for
+/// their images. Nodes between them are in the middle of edges, and follow these.
+void nameImages(const PlaneLayer& layer, NamedPoints& named)
+{
+  auto& pairs = named.pairs;
+  pairs.erase(std::remove_if(pairs.begin(), pairs.end(),
+                [&](const auto& pair) { return pair.second >= layer.nodes; }),
+    pairs.end());
+  const std::size_t front = pairs.size();
+  for (std::size_t k = 0; k < front; ++k)
+  {
+    pairs.emplace_back(pairs[k].first, pairs[k].second + layer.nodes);
+  }
+}
+
+/// Keeps the targets of a layer's nodes in their plane. `targets`: of named.pairs, those of images
+/// being the front's.
+void keepInPlane(const NamedPoints& named, const Mesh& rest, double size,
+  const std::vector<std::int64_t>* globalIds, Points& targets)
+{
+  const Eigen::RowVector3d& normal = rest.layer.normal;
+  std::vector<Index> leaving;
+  for (std::size_t k = 0; k < named.pairs.size(); ++k)
+  {
+    const Index node = named.pairs[k].second;
+    const Index front = rest.layer.frontOf(node);
+    auto to = targets.row(static_cast<Index>(k));
+    const double height = (to - rest.points.row(front)).dot(normal);
+    if (std::abs(height) > 1e-6 * size)
+    {
+      leaving.push_back(front);
+    }
+    to -= height * normal;
+    if (node != front)
+    {
+      to = rest.points.row(node) + (to - rest.points.row(front));
+    }
+  }
+  if (!leaving.empty())
+  {
+    std::sort(leaving.begin(), leaving.end());
+    leaving.erase(std::unique(leaving.begin(), leaving.end()), leaving.end());
+    throw Error("The boundary of a plane mesh leaves its plane, at node ids " +
+                listNodes(leaving, globalIds) +
+                ". Move it in the plane; surfaces in space are not morphed.");
+  }
+}
+
 /// The positions asked for, the scale factor not yet applied.
 Points targetPositions(
   const NamedPoints& named, const Mesh& rest, const std::vector<std::int64_t>* globalIds)
@@ -58,7 +107,7 @@ Points targetPositions(
   for (std::size_t k = 0; k < named.pairs.size(); ++k)
   {
     const auto [point, node] = named.pairs[k];
-    const auto from = rest.points.row(node);
+    const auto from = rest.points.row(rest.layer.frontOf(node));
     auto to = targets.row(static_cast<Index>(k));
     to = named.positions.row(point);
     if (named.displacements.rows() > 0)
@@ -130,7 +179,9 @@ void holdUnnamed(const BoundaryFaces& outer, const Mesh& rest, double size, cons
   for (std::size_t i = 0; i < outer.nodes.size(); ++i)
   {
     const Index node = outer.nodes[i], k = static_cast<Index>(i);
-    if (row[node] == Unnamed && std::none_of(outer.between.begin(k), outer.between.end(k), moves))
+    const bool isBetween = rest.layer.nodes > 0 && node >= 2 * rest.layer.nodes;
+    if (row[node] == Unnamed && !isBetween &&
+        std::none_of(outer.between.begin(k), outer.between.end(k), moves))
     {
       row[node] = Held;
     }
@@ -147,10 +198,19 @@ BoundaryTargets findTargets(NamedPoints named, const Mesh& rest, const BoundaryF
   result.unmatched = named.unmatched;
   result.valueless = named.valueless;
   verifyRestPositions(named, rest, tolerance, globalIds);
+  const bool isLayer = rest.layer.nodes > 0;
+  if (isLayer)
+  {
+    nameImages(rest.layer, named);
+  }
   std::vector<Index> row(rest.numberOfNodes(), Unnamed);
   result.freed = takeFree(named, row);
   result.following = static_cast<Index>(named.pairs.size());
-  const Points targets = targetPositions(named, rest, globalIds);
+  Points targets = targetPositions(named, rest, globalIds);
+  if (isLayer)
+  {
+    keepInPlane(named, rest, size, globalIds, targets);
+  }
   const auto& pairs = named.pairs;
 
   std::vector<Index> torn;

@@ -2,6 +2,7 @@
 #include "Session/Session.h"
 
 #include "Mesh/Extent.h"
+#include "Mesh/PlaneLayer.h"
 #include "Morpher/PolyhedralMorpher.h"
 #include "Quality/BoundaryDetermined.h"
 #include "Quality/ScaledJacobian.h"
@@ -268,6 +269,7 @@ StepResult Session::morphStep(const Mesh& from, const BoundaryTargets& boundary,
   {
     result.valid = { "Unmeasured", std::numeric_limits<double>::quiet_NaN() };
   }
+  keepInPlane(rest, partition.free, result.moved); // after smoothing and repairs
   this->attached_.apply(result.moved);
   result.attached = static_cast<Index>(this->attached_.nodes().size());
   result.loose = this->attached_.loose();
@@ -284,7 +286,8 @@ StepResult Session::morphStep(const Mesh& from, const BoundaryTargets& boundary,
         .size());
   }
   result.iterations = report.iterations;
-  result.prescribed = static_cast<Index>(boundary.ids.size());
+  result.prescribed = std::count_if(boundary.ids.begin(), boundary.ids.end(),
+    [&](Index node) { return rest.layer.nodes == 0 || node < rest.layer.nodes; });
   result.unmatched = boundary.unmatched;
   return result;
 }
@@ -373,6 +376,10 @@ Points Session::transpose(
     throw Error(options.method +
                 " is not a linear method, so it has no adjoint that is the same for all "
                 "motions. Use one that is, FEMWARP for instance.");
+  }
+  if (const Index front = this->mesh_->mesh().layer.nodes; front > 0)
+  {
+    gradient.bottomRows(gradient.rows() - front).setZero(); // a plane mesh is the front
   }
   Points own, prescribed = Points::Zero(static_cast<Index>(ids.size()), 3);
   this->attached_.applyTranspose(gradient);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Session/Validity.h"
 
+#include "Mesh/PlaneLayer.h"
 #include "Mesh/Polyhedra.h"
 #include "Morpher/IncrementalMorph.h"
 #include "Morpher/PolyhedralMorpher.h"
@@ -107,7 +108,8 @@ std::string Validity::describe(
   std::ostringstream text;
   for (Index cell : worst)
   {
-    Eigen::RowVector3d center = Eigen::RowVector3d::Zero();
+    // Of a plane mesh's cell: that of its front.
+    Eigen::RowVector3d center = -thickness(this->mesh) / 2 * this->mesh.layer.normal;
     const Index corners = cornerCount(this->mesh, cell, *cellShape(this->mesh.types[cell]));
     for (Index k = 0; k < corners; ++k)
     {

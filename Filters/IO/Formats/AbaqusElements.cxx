@@ -59,21 +59,20 @@ struct Family
 {
   const char* start;
   AbaqusElement (*element)(int nodes);
-  bool isPlanar = false;
 };
 
 /// The first that fits is taken: SC8 and STRI3 are no S.
 constexpr Family Families[] = {
-  { "CPEG", surface, true },
-  { "CPE", surface, true },
-  { "CPS", surface, true },
-  { "CAX", surface, true },
-  { "CGAX", surface, true },
-  { "DC2D", surface, true },
-  { "DCAX", surface, true },
-  { "AC2D", surface, true },
-  { "ACAX", surface, true },
-  { "F2D", surface, true },
+  { "CPEG", surface },
+  { "CPE", surface },
+  { "CPS", surface },
+  { "CAX", surface },
+  { "CGAX", surface },
+  { "DC2D", surface },
+  { "DCAX", surface },
+  { "AC2D", surface },
+  { "ACAX", surface },
+  { "F2D", surface },
   { "C3D", volume },
   { "DC3D", volume },
   { "AC3D", volume },
@@ -100,9 +99,7 @@ AbaqusElement abaqusElement(const std::string& type)
   {
     if (type.rfind(family.start, 0) == 0)
     {
-      AbaqusElement element = family.element(std::atoi(type.c_str() + std::strlen(family.start)));
-      element.isPlanar = family.isPlanar;
-      return element;
+      return family.element(std::atoi(type.c_str() + std::strlen(family.start)));
     }
   }
   return {};

@@ -14,7 +14,6 @@ struct AbaqusElement
 {
   std::uint8_t cellType = 0; ///< 0: not known here
   int nodes = 0;
-  bool isPlanar = false; ///< of a two-dimensional model; beside volume elements a face
 };
 
 /// The element of a TYPE in upper case: C3D8R, S4, ...

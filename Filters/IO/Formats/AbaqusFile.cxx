@@ -71,7 +71,7 @@ private:
   void takeSet(std::size_t part);
   void takeSurface(std::size_t part);
   void include(std::size_t part, Span span, const std::string& name, int depth);
-  void beginElements(std::size_t part, Span span, const AbaqusKeyword& keyword);
+  void beginElements(const AbaqusKeyword& keyword);
   void beginSurface(const AbaqusKeyword& keyword);
   bool takeAssembly(std::size_t part, Span span, const AbaqusKeyword& keyword);
   void beginInstance(std::size_t part, Span span, const AbaqusKeyword& keyword);
@@ -105,12 +105,6 @@ private:
   CoordinateFrame system_;                  ///< of the nodes that follow
   std::size_t frame_ = 0;                   ///< of the block's nodes
   std::set<std::string> unknownTypes_;
-  struct
-  {
-    std::string type;
-    std::size_t part = 0, at = 0;
-  } planar_;              ///< the first keyword of elements of a planar model
-  bool hasDepth_ = false; ///< a node has a third coordinate
 };
 
 /// What these keywords do to nodes or elements is not in their lines.
@@ -202,7 +196,7 @@ void AbaqusFile::takeKeyword(std::size_t part, Span span, const AbaqusKeyword& k
   }
   else if (keyword.name == "ELEMENT")
   {
-    this->beginElements(part, span, keyword);
+    this->beginElements(keyword);
   }
   else if (keyword.name == "NSET" || keyword.name == "ELSET")
   {
@@ -227,14 +221,10 @@ void AbaqusFile::takeKeyword(std::size_t part, Span span, const AbaqusKeyword& k
   }
 }
 
-void AbaqusFile::beginElements(std::size_t part, Span span, const AbaqusKeyword& keyword)
+void AbaqusFile::beginElements(const AbaqusKeyword& keyword)
 {
   const std::string type = keyword.value("TYPE", true);
   this->element_ = abaqusElement(type);
-  if (this->element_.isPlanar && this->planar_.type.empty())
-  {
-    this->planar_ = { type, part, span.begin };
-  }
   // A set of elements that are left out exists, too.
   this->entries_ = this->model_->sets.elementSet(keyword.value("ELSET"));
   if (this->element_.cellType == 0)
@@ -504,7 +494,6 @@ void AbaqusFile::takeNode(std::size_t part)
     const Span field = this->fields_[j + 1];
     place.numbers[j] = placeOf(field);
     x[static_cast<Index>(j)] = field.size() == 0 ? 0 : this->numberAt(part, field);
-    this->hasDepth_ = this->hasDepth_ || (j == 2 && field.size() > 0);
   }
   x = place.frame == 0 ? x : this->frames_[place.frame].toBasic(x);
   this->model_->mesh.addNode(number, x[0], x[1], x[2]);
@@ -605,19 +594,6 @@ void AbaqusFile::finish()
   if (this->mesh_.nodes() == 0)
   {
     this->fail(this->models_.empty() ? "it has no *NODE." : "no *INSTANCE has a *NODE.");
-  }
-  if (!this->hasDepth_)
-  {
-    this->fail("its nodes have two coordinates: planar models are not morphed.");
-  }
-  // Beside volume elements they are faces: mesh generators have no other name for these.
-  const bool hasVolume = std::any_of(this->all_.elementTypes.begin(), this->all_.elementTypes.end(),
-    [](std::uint8_t type) { return dimensionOf(type) == 3; });
-  if (!this->planar_.type.empty() && !hasVolume)
-  {
-    this->failAt(this->planar_.part, this->planar_.at,
-      "its elements " + this->planar_.type +
-        " make a planar model; volume meshes alone are morphed.");
   }
   const auto positions = positionsOf(this->mesh_.nodeNumbers, "node", this->path());
   positionsOf(this->all_.elementNumbers, "element", this->path());

@@ -105,8 +105,7 @@ CgnsNode CgnsFile::baseOf(const CgnsTree& tree) const
   const std::vector<Index> dimensions = tree.integers(bases[0]);
   if (dimensions.size() != 2 || dimensions[0] != 3 || dimensions[1] != 3)
   {
-    this->fail("its base " + bases[0].name + " is not three-dimensional: planar meshes and " +
-               "surfaces are not morphed.");
+    this->fail("its base " + bases[0].name + " is not three-dimensional.");
   }
   return bases[0];
 }

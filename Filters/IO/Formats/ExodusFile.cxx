@@ -33,8 +33,8 @@ public:
     {
       this->fail(file.dimension("num_dim") == 0
                    ? "it is no file of Exodus II: it has no dimension num_dim."
-                   : "planar models are not morphed: it has " +
-                       std::to_string(file.dimension("num_dim")) + " coordinates a node.");
+                   : "its nodes have " + std::to_string(file.dimension("num_dim")) +
+                       " coordinates, and three are needed.");
     }
     this->readNodes(file);
     this->readBlocks(file);
@@ -249,9 +249,9 @@ void ExodusFile::readBlocks(const NetCdf& file)
                std::to_string(elements) + " of num_elem.");
   }
   if (std::none_of(this->mesh_.cellTypes.begin(), this->mesh_.cellTypes.end(),
-        [](std::uint8_t type) { return dimensionOf(type) == 3; }))
+        [](std::uint8_t type) { return dimensionOf(type) >= 2; }))
   {
-    this->fail("it has no volume elements: planar models and shells alone are not morphed.");
+    this->fail("it has no volume or surface elements.");
   }
 }
 

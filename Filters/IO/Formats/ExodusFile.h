@@ -10,7 +10,7 @@ bool isExodusFile(const std::string& path);
 
 /// Reads nodes, element blocks, node sets and side sets; time steps stay in the file. Coordinates
 /// are the file's own, without displacements. A block or set without a name is "block_7",
-/// "nodelist_7" or "surface_7". Planar models are refused by name, and so are all files where this
-/// was built without netCDF.
+/// "nodelist_7" or "surface_7". Nodes with two coordinates are refused by name, and so is each file
+/// where this was built without netCDF.
 std::unique_ptr<SolverFile> readExodusFile(const std::string& path);
 }

@@ -363,9 +363,9 @@ void GmshFile::parse()
   sections.isVersion4 ? this->readElements4(sections.cursor(*elements))
                       : this->readElements2(sections, *elements);
   if (std::none_of(this->mesh_.cellTypes.begin(), this->mesh_.cellTypes.end(),
-        [](std::uint8_t type) { return dimensionOf(type) == 3; }))
+        [](std::uint8_t type) { return dimensionOf(type) >= 2; }))
   {
-    this->fail("it has no volume elements: planar meshes and surfaces are not morphed.");
+    this->fail("it has no volume or surface elements.");
   }
   this->cellOf_.clear();
 }

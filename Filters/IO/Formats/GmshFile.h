@@ -9,7 +9,7 @@ namespace morph::io
 bool isGmshFile(const std::string& path);
 
 /// Reads nodes, elements and physical groups of a MSH file of version 2 or 4.1, text or binary.
-/// Groups are sets by their names; one without a name is "Physical Surface 7". Other versions,
-/// elements of third order and more, and planar meshes are refused by name.
+/// Groups are sets by their names; one without a name is "Physical Surface 7". Other versions
+/// and elements of third order and more are refused by name.
 std::unique_ptr<SolverFile> readGmshFile(const std::string& path);
 }

@@ -39,6 +39,7 @@ private:
   void parse();
 
   std::vector<Span> fields_;
+  std::size_t dimension_ = 3; ///< 2: the mesh is in the plane z = 0
 };
 
 /// The part of a line before a comment.
@@ -104,13 +105,15 @@ void Su2File::takePoints(Lines& lines, Index count)
   for (Index i = 0; i < count; ++i)
   {
     this->nextFields(lines, "a point");
-    if (this->fields_.size() < 3)
+    if (this->fields_.size() < this->dimension_)
     {
-      this->failAt(0, lines.span().begin, "a point needs three coordinates.");
+      this->failAt(0, lines.span().begin,
+        std::string("a point needs ") + (this->dimension_ == 2 ? "two" : "three") +
+          " coordinates.");
     }
-    NodePlace place;
-    std::array<double, 3> x;
-    for (std::size_t j = 0; j < 3; ++j)
+    NodePlace place; // none for the third coordinate of a plane mesh, which stays 0
+    std::array<double, 3> x = {};
+    for (std::size_t j = 0; j < this->dimension_; ++j)
     {
       place.numbers[j] = placeOf(this->fields_[j]);
       x[j] = this->numberAt(0, this->fields_[j]);
@@ -178,9 +181,14 @@ void Su2File::parse()
     }
     const std::string_view key = trimmed(span.of(this->text()).substr(0, equals));
     const Span value = trimmed(this->text(), { span.begin + equals + 1, span.end });
-    if (key == "NDIME" && this->countOf(value) != 3)
+    if (key == "NDIME")
     {
-      this->failAt(0, span.begin, "it is a two-dimensional mesh: planar meshes are not morphed.");
+      const Index dimension = this->countOf(value);
+      if (dimension != 2 && dimension != 3)
+      {
+        this->failAt(0, span.begin, "a mesh has two or three dimensions.");
+      }
+      this->dimension_ = static_cast<std::size_t>(dimension);
     }
     else if (key == "NZONE" && this->countOf(value) != 1)
     {

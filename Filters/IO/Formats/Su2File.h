@@ -9,6 +9,7 @@ namespace morph::io
 bool isSu2File(const std::string& path);
 
 /// Reads a mesh of SU2: the points (NPOIN), numbered from 0 in their order, the elements (NELEM),
-/// and the markers as sets of faces. Two-dimensional meshes and several zones are refused by name.
+/// and the markers as sets of faces, or of edges in two dimensions. Several zones are refused by
+/// name.
 std::unique_ptr<SolverFile> readSu2File(const std::string& path);
 }

@@ -191,6 +191,14 @@ vtkUnstructuredGrid* Blocks::Output(vtkInformationVector* outputVector)
 void Blocks::Scatter(vtkInformationVector* outputVector)
 {
   vtkDataObjectTree* output = treeOf(outputVector);
+  if (vtkUnstructuredGrid* grid = this->Output(outputVector))
+  {
+    this->Plane.Flatten(grid, output != nullptr);
+  }
+  if (outputVector->GetNumberOfInformationObjects() > 1)
+  {
+    this->Plane.FlattenCells(vtkUnstructuredGrid::GetData(outputVector, 1));
+  }
   const vtkSmartPointer<vtkUnstructuredGrid> result = this->Scratch;
   this->Scratch = nullptr;
   std::vector<std::vector<double>> behind;

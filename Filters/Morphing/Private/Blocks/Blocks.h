@@ -2,6 +2,7 @@
 #pragma once
 
 #include "Private/Blocks/MergedBlocks.h"
+#include "Private/Blocks/PlaneGrid.h"
 #include "Private/Data/GridMesh.h"
 
 #include <vtkSmartPointer.h>
@@ -25,7 +26,8 @@ namespace morph::filters
 /// The mesh on port 0 of a filter, which may come as composite data, and the output of its type.
 ///
 /// Gather() merges the blocks into one grid, the filter writes into Output(), and Scatter() gives
-/// the result to the blocks. With data that are not composite all three do nothing.
+/// the result to the blocks. With data that are not composite all three do nothing. Thicken() makes
+/// a solid of a plane mesh, and Scatter() a plane mesh of the result.
 ///
 /// The blocks with cells of the highest dimension are the mesh. Its nodes are numbered by their
 /// global ids where all blocks have them, else in the order of the blocks; so are its cells. Cells
@@ -64,6 +66,9 @@ public:
   /// Warns, and returns the merged blocks.
   vtkDataObject* Tell(morph::Monitor& monitor) const;
   ///@}
+  /// What Gather() has returned or, if it is a plane mesh, the solid to morph; see PlaneGrid.
+  vtkDataObject* Thicken(vtkDataObject* mesh) { return this->Plane.Thicken(mesh); }
+
   /// The blocks of the last input; null where it was not composite.
   const MergedBlocks* Merged() const;
   vtkDataObjectTree* Tree() const;
@@ -83,5 +88,6 @@ private:
   vtkSmartPointer<vtkUnstructuredGrid> Scratch;
   Key MadeFrom, Asked;
   MergedBlocks Kept;
+  PlaneGrid Plane;
 };
 }

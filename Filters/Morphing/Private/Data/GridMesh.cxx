@@ -10,6 +10,7 @@
 #include <vtkAOSDataArrayTemplate.h>
 #include <vtkCellArray.h>
 #include <vtkDoubleArray.h>
+#include <vtkFieldData.h>
 #include <vtkFloatArray.h>
 #include <vtkGenericCell.h>
 #include <vtkNew.h>
@@ -197,6 +198,20 @@ bool haveReplacedCells(vtkUnstructuredGrid* grid, const morph::Mesh& mesh)
          read.offsets == mesh.offsets && read.connectivity == mesh.connectivity;
 }
 
+constexpr const char* LayerName = "MorphPlaneLayer";
+
+morph::PlaneLayer layerOf(vtkUnstructuredGrid* grid)
+{
+  vtkDataArray* mark = grid->GetFieldData()->GetArray(LayerName);
+  if (!mark || mark->GetNumberOfValues() != 4)
+  {
+    return {};
+  }
+  const auto nodes = static_cast<morph::Index>(mark->GetComponent(0, 0));
+  return { 2 * nodes <= grid->GetNumberOfPoints() ? nodes : 0,
+    { mark->GetComponent(1, 0), mark->GetComponent(2, 0), mark->GetComponent(3, 0) } };
+}
+
 /// Unknown cells pass the core's checks as poly-vertices; their node ids are still checked.
 void validateKnown(morph::Mesh& mesh)
 {
@@ -242,7 +257,24 @@ morph::Mesh FromGrid(vtkUnstructuredGrid* grid, UnknownCells unknown, morph::Mon
   }
   morph::replaceCollapsedCells(mesh);
   morph::orientPolyhedra(mesh);
+  mesh.layer = layerOf(grid);
   return mesh;
+}
+
+void MarkLayer(const morph::PlaneLayer& layer, vtkUnstructuredGrid* grid)
+{
+  grid->GetFieldData()->RemoveArray(LayerName);
+  if (layer.nodes > 0)
+  {
+    vtkNew<vtkDoubleArray> mark;
+    mark->SetName(LayerName);
+    mark->InsertNextValue(static_cast<double>(layer.nodes));
+    for (const double component : layer.normal)
+    {
+      mark->InsertNextValue(component);
+    }
+    grid->GetFieldData()->AddArray(mark);
+  }
 }
 
 morph::Points FromPoints(vtkPoints* points)

@@ -30,6 +30,10 @@ morph::Mesh FromGrid(vtkUnstructuredGrid* grid, UnknownCells unknown, morph::Mon
 morph::Mesh FromGrid(vtkUnstructuredGrid* grid, UnknownCells unknown = UnknownCells::Refuse);
 ///@}
 
+/// Marks a grid as that of a plane mesh's layer, in its field data, for FromGrid(). A layer without
+/// nodes: removes the mark.
+void MarkLayer(const morph::PlaneLayer& layer, vtkUnstructuredGrid* grid);
+
 /// Copies `points` as double, #points x 3. A null pointer gives 0 x 3.
 morph::Points FromPoints(vtkPoints* points);
 

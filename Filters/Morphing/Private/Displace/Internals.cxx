@@ -85,8 +85,8 @@ void vtkDisplacementAlgorithm::vtkInternals::List(const Options& options, vtkDat
   filters::Monitor monitor(nullptr, options.NumberOfThreads);
   try
   {
-    vtkDataObject* data = this->Blocks.Gather(
-      input, options.CoincidentPoints, filters::GridMesh::UnknownCells::Refuse, monitor);
+    vtkDataObject* data = this->Blocks.Thicken(this->Blocks.Gather(
+      input, options.CoincidentPoints, filters::GridMesh::UnknownCells::Refuse, monitor));
     monitor.TakeWarnings(); // the execution gives them
     auto* mesh = vtkPointSet::SafeDownCast(data);
     if (!mesh || mesh->GetNumberOfCells() == 0)
@@ -453,13 +453,16 @@ void vtkDisplacementAlgorithm::vtkInternals::CountRoles(bool hasInner)
   std::array<morph::Index, Surroundings::IsLayer + 1> inside = {};
   const auto whole = static_cast<std::size_t>(this->Model.points().rows());
   // Without inner nodes all nodes inside stay. On ranks the model has the boundary's nodes alone.
+  const morph::Index front = this->Model.mesh.layer.nodes; // whose images do not count
+  const auto count = [&](morph::Index node)
+  { this->Count[roles[node]] += front == 0 || node < front; };
   for (std::size_t i = 0; hasInner && i < whole; ++i)
   {
-    ++this->Count[roles[i]];
+    count(static_cast<morph::Index>(i));
   }
   for (std::size_t i = 0; !hasInner && i < this->Model.faces.nodes.size(); ++i)
   {
-    ++this->Count[roles[this->Model.faces.nodes[i]]];
+    count(this->Model.faces.nodes[i]);
   }
   // All processes have the nodes of the boundary, and each has its own inner ones behind them.
   for (std::size_t i = whole; i < roles.size(); ++i)

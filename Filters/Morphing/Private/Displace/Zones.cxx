@@ -230,7 +230,8 @@ std::vector<Listed> List(
     for (std::size_t i = 0; marked && i < marked->Flags.size(); ++i)
     {
       const morph::CellShape* shape = marked->AreNodes ? nullptr : morph::cellShape(mesh.types[i]);
-      zone.Nodes += marked->AreNodes && marked->Flags[i];
+      const bool isImage = mesh.layer.nodes > 0 && static_cast<Index>(i) >= mesh.layer.nodes;
+      zone.Nodes += marked->AreNodes && marked->Flags[i] && !isImage;
       zone.Cells += shape && shape->dimension == 3 && marked->Flags[i];
     }
     if (zone.Cells + zone.Nodes > 0)

@@ -200,7 +200,7 @@ bool IsReadable(vtkDataObject* data)
 }
 
 Mesh TakeMesh(vtkDataObject* input, Blocks& blocks, int coincidentPoints, Use use,
-  const char* filter, morph::Monitor& monitor)
+  const char* filter, morph::Monitor& monitor, vtkDataObject* boundary)
 {
   Mesh mesh = { nullptr, false, false, false };
   const auto unknown =
@@ -208,6 +208,7 @@ Mesh TakeMesh(vtkDataObject* input, Blocks& blocks, int coincidentPoints, Use us
   std::exception_ptr problem;
   try
   {
+    Input::RequireNotSwapped(input, boundary);
     mesh.Data = gather(input, blocks, coincidentPoints, unknown, monitor);
   }
   catch (...)
@@ -232,6 +233,29 @@ Mesh TakeMesh(vtkDataObject* input, Blocks& blocks, int coincidentPoints, Use us
       "The mesh is distributed over " + std::to_string(ranks) +
       " MPI ranks, and this plugin was built without MPI or hypre: " + filter +
       " needs the mesh on one rank. Build with MESHMORPHING_USE_MPI, or run on one rank.");
+  }
+  // Plane cells are measured as they are. A process may have only faces of another one's solid.
+  const bool isPlane = use != Use::ToMeasure && PlaneGrid::IsPlane(mesh.Data);
+  if (Ranks::Count(isPlane) > 0 && Ranks::Count(hasCells && !isPlane) == 0)
+  {
+    if (ranks > 1)
+    {
+      throw morph::Error(
+        "The mesh has triangles and quadrilaterals alone, and is distributed over " +
+        std::to_string(ranks) + " MPI ranks. Plane meshes are morphed on one: bring it there.");
+    }
+    try
+    {
+      mesh.Data = blocks.Thicken(mesh.Data);
+    }
+    catch (...)
+    {
+      problem = std::current_exception();
+    }
+  }
+  else
+  {
+    blocks.Thicken(nullptr); // forgets an earlier one
   }
   mesh.IsDistributed = ranks > 1;
   mesh.IsElsewhere = ranks > 0 && !hasCells;

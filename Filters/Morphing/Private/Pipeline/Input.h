@@ -65,11 +65,12 @@ struct Mesh
   bool IsEmpty;        ///< no process has any
   bool IsDistributed;  ///< several processes have cells
 };
-/// Takes a filter's mesh, of composite data too; see Blocks::Gather(). Throws morph::Error as that
-/// does and, on all processes, where more of them have cells than `use` allows. To be called on
-/// every process, before anything can fail there. `filter`: what the message says needs one rank.
+/// Takes a filter's mesh, of composite data too, and a plane one as a solid; see Blocks. Throws
+/// morph::Error as Gather(), Thicken() and RequireNotSwapped() do and, on all processes, where
+/// more of them have cells than `use` allows. To be called on every process, before anything can
+/// fail there. `filter`: what the message says needs one rank. `boundary`: the mesh's, or null.
 Mesh TakeMesh(vtkDataObject* input, Blocks& blocks, int coincidentPoints, Use use,
-  const char* filter, morph::Monitor& monitor);
+  const char* filter, morph::Monitor& monitor, vtkDataObject* boundary = nullptr);
 
 /// The name of an array as a property holds it. Empty for none, or "None", which ParaView's choice
 /// of an array offers.

@@ -192,7 +192,7 @@ int Ports::RequestData(
     vtkDataObject* boundary = vtkDataObject::GetData(inputVector[1]);
     const char* name = this->Filter->GetClassName();
     Input::Mesh mesh = Input::TakeMesh(input, this->Mesh, task.CoincidentPoints,
-      task.WorkOnRanks ? Input::Use::ToMorphOnRanks : Input::Use::ToMorph, name, monitor);
+      task.WorkOnRanks ? Input::Use::ToMorphOnRanks : Input::Use::ToMorph, name, monitor, boundary);
     input = mesh.Data;
     if (!mesh.IsDistributed && Ranks::Count(mesh.IsElsewhere && hasPoints(boundary)) > 0)
     {
@@ -208,7 +208,6 @@ int Ports::RequestData(
     vtkUnstructuredGrid* grid = nullptr;
     const auto check = [&]
     {
-      Input::RequireNotSwapped(input, boundary);
       grid = Input::RequireGrid(input, "The input", this->Checked);
       if (mesh.IsDistributed || !mesh.IsElsewhere)
       {
