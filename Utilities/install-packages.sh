@@ -5,7 +5,7 @@ set -euo pipefail
 usage() {
   cat <<END
 Usage: install-packages.sh [--use | --demo] [--numpy] [--solvers] [--benchmark] [--developer]
-                           [--site] [--portable] [--other-debian]
+                           [--site] [--portable] [--package] [--other-debian]
 Installs the Debian packages that MeshMorphing is built and tested with, as root or through sudo.
 Does nothing where they are all installed. Exits with 77 where the registry does not answer.
   --use         only what it takes to build and to use it: compiler, ParaView, libraries
@@ -18,6 +18,7 @@ Does nothing where they are all installed. Exits with 77 where the registry does
                 design_picture.py need (clang, clang-format, clang-tidy, doxygen, graphviz)
   --site        also what site.sh needs (mkdocs, doxygen)
   --portable    also compilers for other systems, see portable.sh
+  --package     also what package.sh and its test need (debhelper, lintian)
   --other-debian  also what other-debian.sh needs (mmdebstrap)
 Knows Debian 12, 13 and unstable.
 END
@@ -73,6 +74,7 @@ for option in "$@"; do
     --site) packages+=(mkdocs doxygen) ;;
     --portable) packages+=(clang googletest g++-mingw-w64-x86-64-posix wine64 g++-aarch64-linux-gnu
       qemu-user emscripten) ;;
+    --package) packages+=(debhelper help2man lintian) ;;
     --other-debian) packages+=(mmdebstrap uidmap) ;;
     *) usage >&2; exit 2 ;;
   esac
