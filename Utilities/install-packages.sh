@@ -16,7 +16,7 @@ Does nothing where they are all installed. Exits with 77 where the registry does
                 xdotool
   --developer   also ccache, and what format.sh, lint.sh, check-documentation.sh and
                 design_picture.py need (clang, clang-format, clang-tidy, doxygen, graphviz)
-  --site        also what site.sh needs (mkdocs, doxygen)
+  --site        also what site.sh and its test need (mkdocs, doxygen, chromium)
   --portable    also compilers for other systems, see portable.sh
   --package     also what package.sh and its test need (debhelper, lintian)
   --other-debian  also what other-debian.sh needs (mmdebstrap)
@@ -71,7 +71,7 @@ for option in "$@"; do
     --solvers) packages+=(${solvers[@]+"${solvers[@]}"}) ;;
     --benchmark) packages+=(libsuitesparse-dev libopenblas-dev xdotool) ;;
     --developer) packages+=(ccache clang clang-format clang-tidy doxygen graphviz) ;;
-    --site) packages+=(mkdocs doxygen) ;;
+    --site) packages+=(mkdocs doxygen chromium chromium-driver python3-selenium) ;;
     --portable) packages+=(clang googletest g++-mingw-w64-x86-64-posix wine64 g++-aarch64-linux-gnu
       qemu-user emscripten) ;;
     --package) packages+=(debhelper help2man lintian) ;;

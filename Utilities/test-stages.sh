@@ -11,7 +11,7 @@ long       11  fuzz, soak, installation, models, pages' examples, demo, core tes
 mpi         8  meshes on one to four MPI ranks
 solvers     4  files that OpenFOAM, CalculiX and Gmsh read and solve
 package    12  the Debian packages: made, checked (lintian), installed, tried and removed
-site        2  the pages as a site, its links and pictures
+site        3  the pages as a site: links, pictures, search, in a browser
 portable   60  the core compiled for other systems, and its tests run there (portable.sh)
 debian13   25  test.sh in Debian 13
 sanitizers 20  core, fuzz, filters and two MPI ranks with address and undefined-behavior sanitizers
@@ -73,7 +73,10 @@ if [ "$inside" = yes ]; then
       mapfile -t packages <<< "$made"
       lintian --fail-on error,warning build/debian/*.changes
       Testing/Install/package.sh "${packages[@]}" ;;
-    site) on_debian_12; Utilities/site.sh ;;
+    site)
+      on_debian_12
+      /usr/bin/python3 Testing/site_browser.py # Debian's, which has Selenium
+      Utilities/site.sh ;;
     portable) on_debian_12; Utilities/portable.sh -j "$jobs" ;;
     debian13) on_debian_12; Utilities/other-debian.sh trixie test -j "$jobs" ;;
     sanitizers)
