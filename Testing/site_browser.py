@@ -33,7 +33,7 @@ WIDTH = """
   return [document.documentElement.scrollWidth,
     wide ? wide.tagName + ": " + wide.textContent.trim().slice(0, 60) : ""];"""
 PICTURES = """
-  return [...document.images].map(i => [i.getAttribute("src"), i.complete && i.naturalWidth > 0]);"""
+  return [...document.images].map(i => [i.src, i.complete && i.naturalWidth > 0]);"""
 
 
 class Quiet(http.server.SimpleHTTPRequestHandler):

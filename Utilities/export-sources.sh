@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Sourced. `export_sources`: the project's files, those that are not committed yet included, as a tar
-# file on the standard output. Run it in the project's folder, which need not be a clone.
+# Sourced. export_sources writes the project's files, those that are not committed yet too, as a tar
+# file to the standard output. It runs in the project's folder, which need not be a clone.
 
 export_sources() {
   if git rev-parse --is-inside-work-tree > /dev/null 2>&1; then

@@ -6,8 +6,8 @@ cd "$(dirname "$0")/.."
 usage() {
   cat <<END
 Usage: package.sh [-j N]
-Builds the Debian packages of this project for the Debian that it runs on, from a copy of the sources
-in build/debian: meshmorphing has the plugin where ParaView lists it, and morph-mesh;
+Builds the Debian packages for the Debian that it runs on, from a copy of the sources in
+build/debian: meshmorphing has the plugin where ParaView lists it, and morph-mesh;
 libmeshmorphing-dev has the headers, the libraries and their CMake package. Prints their paths. The
 source package is beside them. Install them with: apt-get install <paths>
 Needs the Debian package debhelper (install-packages.sh --package).

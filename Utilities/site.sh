@@ -34,7 +34,8 @@ fi
 staging=build/site-staging
 rm -rf "$staging" build/site
 mkdir -p "$staging/pages"
-cp --parents README.md CONTRIBUTING.md CHANGELOG.md LICENSE Filters/layers.txt "$staging/pages"
+cp --parents README.md CONTRIBUTING.md CHANGELOG.md CITATION.cff LICENSE Filters/layers.txt \
+  "$staging/pages"
 find Documentation Examples -type f ! -name '*.in' ! -name '*.yml' ! -name '*.sed' \
   -exec cp --parents -t "$staging/pages" {} +
 cp Documentation/mkdocs.yml "$staging"
