@@ -46,7 +46,7 @@ case "$release" in
   "debian 13")
     solvers=() # It has no CalculiX.
     tests+=(mount) ;;
-  *) # Debian's unstable suite: its paraview-dev stands on the system's VTK, and xmlpatterns is gone.
+  *) # Of Debian's unstable suite: paraview-dev stands on the system's VTK; xmlpatterns is gone.
     solvers=(calculix-ccx)
     packages=("${packages[@]/qtxmlpatterns5-dev-tools/xsltproc}" libvtk9-dev libvtk9-qt-dev)
     tests+=(mount)
