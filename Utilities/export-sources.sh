@@ -3,7 +3,7 @@
 # file to the standard output. It runs in the project's folder, which need not be a clone.
 
 export_sources() {
-  if git rev-parse --is-inside-work-tree > /dev/null 2>&1; then
+  if [ -e .git ]; then # not where an archive lies within a clone
     git ls-files -z --cached --others --exclude-standard |
       while IFS= read -r -d '' file; do if [ -e "$file" ]; then printf '%s\0' "$file"; fi; done
   else

@@ -39,8 +39,9 @@ tar --extract --file "$release/$name.tar.gz" --directory "$release/work"
   Utilities/install-packages.sh --package
   Utilities/demo.sh --no-install --output "$release/work/demo"
   # With the core that the demo has compiled.
-  MESHMORPHING_BUILD=$PWD/build/paraview /usr/bin/python3 -m pip wheel --no-build-isolation \
-    --no-deps --wheel-dir "$release" .
+  # Without pip's cache, where a wheel of another try would count as this version's.
+  MESHMORPHING_BUILD=$PWD/build/paraview /usr/bin/python3 -m pip wheel --no-cache-dir \
+    --no-build-isolation --no-deps --wheel-dir "$release" .
   Utilities/package.sh
   cp build/debian/*.deb "$release"
 )
