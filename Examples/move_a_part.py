@@ -4,7 +4,7 @@
 As a macro (Macros > Import new macro...): select a volume mesh, run it, and drag the box; tick Auto
 Apply (Edit > Settings) to see the mesh follow. As a script:
 
-    PV_PLUGIN_PATH=<folder of MeshMorphing> pvpython move_a_part.py part.vtu part-moved.vtu
+    PV_PLUGIN_PATH=<the build's folder plugins> pvpython move_a_part.py part.vtu part-moved.vtu
 
 lifts the uppermost tenth of the mesh by a twentieth of its height.
 """

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The figures in the tables of the pages are those of the data files, rounded as the pages show."""
+"""The figures in the tables of the pages are those of the data files, rounded as the pages show.
+The version is the same everywhere."""
 import csv
 import re
 import unittest
@@ -22,6 +23,17 @@ def table(page, heading):
     start = text.index(heading)
     lines = re.search(r"(?:^\|.*\n)+", text[start:], re.MULTILINE)[0].splitlines()
     return [[cell.strip() for cell in line.strip("|").split("|")] for line in lines[2:]]
+
+
+class Version(unittest.TestCase):
+    def test_it_is_that_of_cmake_wherever_it_has_to_stand(self):
+        version = re.search(r"^project\(MeshMorphing VERSION ([\d.]+)",
+                            (ROOT / "CMakeLists.txt").read_text(encoding="utf-8"), re.MULTILINE)[1]
+        for path, line in (("CHANGELOG.md", f"## {version}\n"),
+                           ("debian/changelog", f"meshmorphing ({version}) ")):
+            text = (ROOT / path).read_text(encoding="utf-8")
+            found = re.search(r"^(## |meshmorphing \()", text, re.MULTILINE).start()
+            self.assertTrue(text[found:].startswith(line), path)
 
 
 class Figures(unittest.TestCase):

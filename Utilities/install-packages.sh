@@ -5,7 +5,7 @@ set -euo pipefail
 usage() {
   cat <<END
 Usage: install-packages.sh [--use | --demo] [--numpy] [--solvers] [--benchmark] [--developer]
-                           [--site] [--portable] [--other-debian]
+                           [--site] [--portable] [--package] [--other-debian]
 Installs the Debian packages that MeshMorphing is built and tested with, as root or through sudo.
 Does nothing where they are all installed. Exits with 77 where the registry does not answer.
   --use         only what it takes to build and to use it: compiler, ParaView, libraries
@@ -16,43 +16,39 @@ Does nothing where they are all installed. Exits with 77 where the registry does
                 xdotool
   --developer   also ccache, and what format.sh, lint.sh, check-documentation.sh and
                 design_picture.py need (clang, clang-format, clang-tidy, doxygen, graphviz)
-  --site        also what site.sh needs (mkdocs, doxygen)
+  --site        also what site.sh and its test need (mkdocs, doxygen, chromium)
   --portable    also compilers for other systems, see portable.sh
+  --package     also what package.sh and its test need (debhelper, lintian)
   --other-debian  also what other-debian.sh needs (mmdebstrap)
 Knows Debian 12, 13 and unstable.
 END
 }
 
-# What paraview-dev's CMake files ask for is more than the package itself depends on.
-packages=(
-  cmake g++ ninja-build python3-numpy
-  paraview paraview-dev python3-paraview libcgal-dev libeigen3-dev libnanoflann-dev
-  libfast-float-dev libfmt-dev
-  libutfcpp-dev libopenmpi-dev openmpi-bin libhypre-dev libhdf5-openmpi-dev libhdf5-dev
-  libtheora-dev libogg-dev libnetcdf-dev libdouble-conversion-dev libexpat1-dev libfreetype-dev
-  libgl2ps-dev libglew-dev libjpeg-dev liblz4-dev liblzma-dev libxml2-dev libpng-dev libtiff-dev
-  zlib1g-dev libpython3-dev libgl-dev libx11-dev libxcursor-dev libxt-dev libgdal-dev libavcodec-dev
-  libavformat-dev libavutil-dev libswscale-dev libboost-dev python3-mpi4py libcgns-dev)
 demo=(gmsh python3-gmsh xvfb xauth)
-tests=(git dpkg-dev file gdb help2man cgns-convert netcdf-bin libgtest-dev python3-matplotlib
+tests=(git dpkg-dev file gdb cgns-convert netcdf-bin libgtest-dev python3-matplotlib
   imagemagick libxtst6)
 numpy=(pybind11-dev python3-dev python3-pip python3-setuptools python3-wheel python3-venv
   python3-meshio python3-scipy)
 solvers=(openfoam calculix-ccx)
 release=$(. /etc/os-release && echo "${ID:-} ${VERSION_ID:-${VERSION_CODENAME:-}}")
-qt6=(qt6-base-dev qt6-svg-dev qt6-5compat-dev qt6-tools-dev)
+# What it takes to build stands in debian/control, which names Qt 6 before Qt 5.
+mapfile -t packages < <(awk -v without="$([ "$release" = "debian 12" ] && echo "^qt6")" '
+  /^Build-Depends:/ { inside = 1; next }
+  inside && !/^ / { exit }
+  inside {
+    gsub(/\([^)]*\)|[ ,]/, "")
+    split($0, names, "|")
+    print names[without != "" && names[1] ~ without ? 2 : 1]
+  }' "$(dirname "$0")/../debian/control" | sort --unique)
+packages+=(g++)
 case "$release" in
-  "debian 12")
-    packages+=(
-      qtbase5-dev qttools5-dev qttools5-dev-tools qtxmlpatterns5-dev-tools
-      libqt5svg5-dev libqt5opengl5-dev libqt5x11extras5-dev libqt5xmlpatterns5-dev) ;;
-  "debian 13") # xmlpatterns, for the plugin's help pages, ended with Qt 5.
+  "debian 12") ;;
+  "debian 13")
     solvers=() # It has no CalculiX.
-    packages+=("${qt6[@]}" qtxmlpatterns5-dev-tools)
     tests+=(mount) ;;
-  *) # The paraview-dev of Debian's unstable suite stands on the system's VTK.
+  *) # Of Debian's unstable suite: paraview-dev stands on the system's VTK; xmlpatterns is gone.
     solvers=(calculix-ccx)
-    packages+=("${qt6[@]}" libvtk9-dev libvtk9-qt-dev xsltproc)
+    packages=("${packages[@]/qtxmlpatterns5-dev-tools/xsltproc}" libvtk9-dev libvtk9-qt-dev)
     tests+=(mount)
     if [ "${release% *}" != debian ] || [ -n "${release//[!0-9]/}" ]; then
       echo "install-packages.sh: written for Debian, this is '$release'. Going on; package names" \
@@ -70,9 +66,10 @@ for option in "$@"; do
     --solvers) packages+=(${solvers[@]+"${solvers[@]}"}) ;;
     --benchmark) packages+=(libsuitesparse-dev libopenblas-dev xdotool) ;;
     --developer) packages+=(ccache clang clang-format clang-tidy doxygen graphviz) ;;
-    --site) packages+=(mkdocs doxygen) ;;
+    --site) packages+=(mkdocs doxygen chromium chromium-driver python3-selenium) ;;
     --portable) packages+=(clang googletest g++-mingw-w64-x86-64-posix wine64 g++-aarch64-linux-gnu
       qemu-user emscripten) ;;
+    --package) packages+=(debhelper lintian) ;;
     --other-debian) packages+=(mmdebstrap uidmap) ;;
     *) usage >&2; exit 2 ;;
   esac

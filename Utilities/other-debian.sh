@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 set -euo pipefail
 here=$(cd "$(dirname "$0")/.." && pwd)
+. "$here/Utilities/export-sources.sh"
 
 usage() {
   cat <<END
@@ -12,7 +13,7 @@ root file system in build/SUITE with mmdebstrap, from the registry that this mac
 the project's sources into it, and runs there
   test    Utilities/test.sh (default)
   demo    Utilities/demo.sh
-  package Utilities/package.sh; then the package is installed, tried and removed
+  package Utilities/package.sh; then the packages are installed, tried and removed
   shell   bash, in the copy of the project
 with the options that follow. The root file system and its builds, some gigabytes, are kept for the
 next run; --clean removes them. Needs root, or mmdebstrap's unshare mode.
@@ -68,26 +69,14 @@ make_root() {
   "${as_root[@]}" mv "$root.partial" "$root"
 }
 
-# The project's files into the folder $1.
-extract_sources() {
-  (
-    cd "$here"
-    if git rev-parse --is-inside-work-tree > /dev/null 2>&1; then
-      git ls-files -z --cached --others --exclude-standard |
-        while IFS= read -r -d '' file; do if [ -e "$file" ]; then printf '%s\0' "$file"; fi; done
-    else
-      find . -path ./build -prune -o -type f -print0
-    fi | tar --create --null --files-from=-
-  ) | "${as_root[@]}" tar --extract --directory "$1" --no-same-owner
-}
-
 # Files that have changed get the time of the copy, so that they are built again even if they were
 # edited while an earlier build ran; all others stay.
 copy_sources() {
   local fresh=$root/MeshMorphing.new
   "${as_root[@]}" rm -rf "$fresh"
   "${as_root[@]}" mkdir -p "$fresh" "$project"
-  extract_sources "$fresh"
+  (cd "$here" && export_sources) |
+    "${as_root[@]}" tar --extract --directory "$fresh" --no-same-owner
   # shellcheck disable=SC2016 # expanded inside
   "${as_root[@]}" bash -euc '
     sums() { (cd "$1" && find . -path ./build -prune -o -type f -exec sha256sum {} + | sort); }
@@ -137,10 +126,12 @@ case "$command" in
   package)
     # shellcheck disable=SC2016 # expanded inside
     installing bash -euc '
-      Utilities/install-packages.sh
-      package=$(Utilities/package.sh "$@")
+      Utilities/install-packages.sh --package
+      made=$(Utilities/package.sh "$@")
+      mapfile -t packages <<< "$made"
+      lintian --fail-on error,warning build/debian/*.changes
       result=0
-      Testing/Install/package.sh "$package" || result=$?
+      Testing/Install/package.sh "${packages[@]}" || result=$?
       if [ "$result" -eq 77 ]; then exit 1; fi # no right to try it, which is no silent registry
       exit "$result"
     ' bash "$@"

@@ -5,46 +5,44 @@ cd "$(dirname "$0")/.."
 
 usage() {
   cat <<END
-Usage: package.sh [--from FOLDER] [-j N]
-Builds (preset deb) a Debian package with the plugin where ParaView lists it, the headers, the
-libraries with their CMake package, and morph-mesh; prints its path. Install it with:
-apt-get install <path>
-  --from FOLDER  take this build of the preset paraview, so that little is compiled again; it is
-                 configured as it was afterwards, and the next build links its programs again
-  -j N           processes to build with (default: all cores)
+Usage: package.sh [-j N]
+Builds the Debian packages for the Debian that it runs on, from a copy of the sources in
+build/debian: meshmorphing has the plugin where ParaView lists it, and morph-mesh;
+libmeshmorphing-dev has the headers, the libraries and their CMake package. Prints their paths. The
+source package is beside them. Install them with: apt-get install <paths>
+Needs the Debian package debhelper (install-packages.sh --package).
+  -j N   processes to build with (default: all cores)
 END
 }
 
-from=
 jobs=$(nproc)
 while [ $# -gt 0 ]; do
   case "$1" in
     -h | --help) usage; exit 0 ;;
-    --from) shift; from=${1:?"--from needs a folder"} ;;
     -j) shift; jobs=${1:?"-j needs a number"} ;;
     *) usage >&2; exit 2 ;;
   esac
   shift
 done
-
-if [ -n "$from" ]; then
-  # A build that began without ccache goes on without it: with another command all would be compiled
-  # again.
-  unset CMAKE_CXX_COMPILER_LAUNCHER
-  folder=$from
-  cached() { sed -n "s/^CMAKE_INSTALL_$1:[A-Z]*=//p" "$folder/CMakeCache.txt"; }
-  install_to() { cmake -DCMAKE_INSTALL_PREFIX="$1" -DCMAKE_INSTALL_LIBDIR="$2" "$folder" >&2; }
-  prefix=$(cached PREFIX)
-  libdir=$(cached LIBDIR)
-  # Quiet: the last lines are the error, where there is one.
-  trap 'install_to "$prefix" "$libdir" 2> build/restore.log || cat build/restore.log >&2' EXIT
-  install_to /usr "lib/$(dpkg-architecture -q DEB_HOST_MULTIARCH)"
-else
-  if command -v ccache > /dev/null; then export CMAKE_CXX_COMPILER_LAUNCHER=ccache; fi
-  folder=build/deb
-  cmake --preset deb >&2
+if ! command -v dh > /dev/null; then
+  echo "package.sh: debhelper is missing; Utilities/install-packages.sh --package installs it." >&2
+  exit 1
 fi
-cmake --build "$folder" -j "$jobs" >&2
-rm -f "$folder"/*.deb
-(cd "$folder" && cpack -G DEB >&2)
-ls "$(realpath "$folder")"/*.deb
+
+. Utilities/export-sources.sh
+folder=$PWD/build/debian
+sources=$folder/sources # always the same, for ccache
+rm -rf "$folder"
+mkdir -p "$sources"
+export_sources | tar --extract --directory "$sources"
+# Each Debian's packages are of its own ParaView, and an upgrade of Debian brings the next ones.
+release=$(. /etc/os-release && echo "+deb${VERSION_ID:-sid}")
+sed -i "1s/)/$release)/" "$sources/debian/changelog"
+if command -v ccache > /dev/null; then
+  # The build has a home of its own.
+  CCACHE_DIR=$(ccache --get-config cache_dir)
+  export CCACHE_DIR CCACHE_BASEDIR=$sources CMAKE_CXX_COMPILER_LAUNCHER=ccache
+fi
+(cd "$sources" && dpkg-buildpackage --no-sign "--jobs=$jobs" >&2)
+rm -rf "$sources"
+find "$folder" -name '*.deb'

@@ -7,7 +7,8 @@ usage() {
   cat <<END
 Usage: site.sh [--no-api]
 Builds the documentation as a static site with search into build/site: the pages by MkDocs, the
-reference of the classes by Doxygen. Open build/site/index.html, or copy the folder to any server.
+reference of the classes by Doxygen. Open build/site/index.html, or copy the folder to any server:
+only there the search works, as after python3 -m http.server --directory build/site.
 Fails, and names page and link, where a page, a heading or a picture that a page links to is
 missing. Links to other sites are not followed.
 Needs the Debian packages mkdocs and doxygen (install-packages.sh --site).
@@ -33,7 +34,8 @@ fi
 staging=build/site-staging
 rm -rf "$staging" build/site
 mkdir -p "$staging/pages"
-cp --parents README.md CONTRIBUTING.md CHANGELOG.md LICENSE Filters/layers.txt "$staging/pages"
+cp --parents README.md CONTRIBUTING.md CHANGELOG.md CITATION.cff LICENSE Filters/layers.txt \
+  "$staging/pages"
 find Documentation Examples -type f ! -name '*.in' ! -name '*.yml' ! -name '*.sed' \
   -exec cp --parents -t "$staging/pages" {} +
 cp Documentation/mkdocs.yml "$staging"

@@ -10,8 +10,8 @@ freeze      3  results beside stored ones
 long       11  fuzz, soak, installation, models, pages' examples, demo, core tests with other seeds
 mpi         8  meshes on one to four MPI ranks
 solvers     4  files that OpenFOAM, CalculiX and Gmsh read and solve
-package     2  the Debian package: made, installed, tried and removed
-site        2  the pages as a site, its links and pictures
+package    12  the Debian packages: made, checked (lintian), installed, tried and removed
+site        3  the pages as a site: links, pictures, search, in a browser
 portable   60  the core compiled for other systems, and its tests run there (portable.sh)
 debian13   25  test.sh in Debian 13
 sanitizers 20  core, fuzz, filters and two MPI ranks with address and undefined-behavior sanitizers
@@ -69,9 +69,14 @@ if [ "$inside" = yes ]; then
     mpi) more_tests; tests build/paraview -L '^mpi$' ;;
     solvers) tests build/paraview -L '^solvers$' ;;
     package)
-      package=$(Utilities/package.sh --from build/paraview -j "$jobs")
-      Testing/Install/package.sh "$package" ;;
-    site) on_debian_12; Utilities/site.sh ;;
+      made=$(Utilities/package.sh -j "$jobs")
+      mapfile -t packages <<< "$made"
+      lintian --fail-on error,warning build/debian/*.changes
+      Testing/Install/package.sh "${packages[@]}" ;;
+    site)
+      on_debian_12
+      /usr/bin/python3 Testing/site_browser.py # Debian's, which has Selenium
+      Utilities/site.sh ;;
     portable) on_debian_12; Utilities/portable.sh -j "$jobs" ;;
     debian13) on_debian_12; Utilities/other-debian.sh trixie test -j "$jobs" ;;
     sanitizers)
@@ -90,7 +95,7 @@ if [ ${#chosen[@]} -eq 0 ]; then
   mapfile -t chosen < <(awk 'NF { print $1 }' <<< "$stages")
 fi
 if [ "$install" = yes ]; then
-  Utilities/install-packages.sh --solvers --site --portable --other-debian
+  Utilities/install-packages.sh --solvers --site --portable --package --other-debian
 fi
 if command -v ccache > /dev/null; then
   export CMAKE_CXX_COMPILER_LAUNCHER=ccache CCACHE_BASEDIR=$PWD

@@ -78,10 +78,9 @@ configure_package_config_file(
   "${CMAKE_CURRENT_LIST_DIR}/MeshMorphingConfig.cmake.in"
   "${CMAKE_CURRENT_BINARY_DIR}/CMakeFiles/MeshMorphingConfig.cmake"
   INSTALL_DESTINATION "${package_destination}")
-# While the major version is 0 a minor version may change the interface.
 write_basic_package_version_file(
   "${CMAKE_CURRENT_BINARY_DIR}/CMakeFiles/MeshMorphingConfigVersion.cmake"
-  COMPATIBILITY SameMinorVersion)
+  COMPATIBILITY SameMajorVersion)
 install(FILES
   "${CMAKE_CURRENT_BINARY_DIR}/CMakeFiles/MeshMorphingConfig.cmake"
   "${CMAKE_CURRENT_BINARY_DIR}/CMakeFiles/MeshMorphingConfigVersion.cmake"

@@ -52,7 +52,7 @@ file(REMOVE_RECURSE "${WORK}")
 file(WRITE "${WORK}/All.cxx" "${code}")
 file(WRITE "${WORK}/Filters.cxx" "${filters}")
 file(WRITE "${WORK}/CMakeLists.txt" "cmake_minimum_required(VERSION 3.18)
-project(Headers LANGUAGES C CXX)
+project(Headers LANGUAGES CXX)
 find_package(MeshMorphing REQUIRED)
 add_library(filters-headers OBJECT Filters.cxx)
 target_link_libraries(filters-headers
