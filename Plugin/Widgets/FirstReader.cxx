@@ -7,7 +7,7 @@
 
 void FirstReader::startup()
 {
-  qApp->installEventFilter(this); // the dialog is made anew each time, by name alone
+  qApp->installEventFilter(this); // each dialog is another object
 }
 
 bool FirstReader::eventFilter(QObject* watched, QEvent* event)

@@ -181,13 +181,13 @@ class Cases:
         left = [p.name for p in output.parent.iterdir() if ".morph-mesh-" in p.name]
         if left:
             return f"a temporary file is left: {left}"
-        if result.returncode == 0:
+        if result.returncode in (0, 3):  # 3: written, with cells that the motion inverts
             xml = file.suffix in (".vtu", ".vtp")
             cut = file.read_bytes().rstrip() != sample.read_bytes().rstrip()
             if xml and ways == "truncated" and cut:
                 return "a truncated XML file is taken for a whole one"
             if not output.exists():
-                return "status 0 without a file"
+                return f"status {result.returncode} without a file"
             if output.suffix == ".vtk":
                 return finite_mesh(output)
             again = subprocess.run([PROGRAM, "--list-surfaces", output], capture_output=True,

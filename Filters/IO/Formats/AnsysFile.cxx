@@ -323,7 +323,7 @@ void AnsysFile::parse()
   while (lines.next())
   {
     Span line = lines.span();
-    line.end = std::min(line.end, std::max(this->text().find('!', line.begin), line.begin));
+    line.end = line.begin + std::min(lines.line().find('!'), line.size()); // a comment
     splitAtCommas(this->text(), line, fields);
     const auto word = [&](std::size_t i)
     { return i < fields.size() ? upperCase(fields[i].of(this->text())) : std::string(); };
