@@ -282,7 +282,7 @@ TEST(RankBoundary, DisplacementMovesWhatItMovesOnOneRank)
         filter->SetDisplacementToField();
         filter->SetFieldData(field);
         filter->SetFieldArray("U");
-        filter->SetFieldReach(0.1);
+        filter->SetFieldDistance(0.1);
       } },
     { "points",
       [&](Filter* filter)
@@ -290,7 +290,7 @@ TEST(RankBoundary, DisplacementMovesWhatItMovesOnOneRank)
         filter->SetDisplacementToField();
         filter->SetFieldData(handles);
         filter->SetFieldArray("Displacement");
-        filter->SetFieldReach(10);
+        filter->SetFieldDistance(10);
       } },
   };
   const auto all = shapes();

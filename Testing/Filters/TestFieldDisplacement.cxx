@@ -157,8 +157,8 @@ TEST(FieldDisplacement, OfASurfaceIsThatOfTheNearestFace)
   // The value of a face is that 0.02 in front of each node.
   EXPECT_LT(deviation(filter, affineField), 0.02);
   EXPECT_GT(deviation(filter, affineField), 1e-4);
-  filter->SetFieldReach(1e-4);
-  EXPECT_NE(errorOf(filter).find("`FieldReach`"), std::string::npos);
+  filter->SetFieldDistance(1e-4);
+  EXPECT_NE(errorOf(filter).find("`FieldDistance`"), std::string::npos);
 }
 
 TEST(FieldDisplacement, OfPointsIsAffineForAnAffineField)
@@ -178,13 +178,13 @@ TEST(FieldDisplacement, OfPointsIsAffineForAnAffineField)
     table->AddColumn(column);
   }
   const auto filter = moves(table, "");
-  filter->SetFieldReach(1);
+  filter->SetFieldDistance(1);
   EXPECT_LT(deviation(filter, affineField), 1e-10);
 
   auto cloud = grids::cloud(at);
   cloud->GetPointData()->AddArray(valuesOf(cloud, affineField));
   const auto other = moves(cloud);
-  other->SetFieldReach(1);
+  other->SetFieldDistance(1);
   EXPECT_LT(deviation(other, affineField), 1e-10);
 
   table->RemoveColumnByName("dy");

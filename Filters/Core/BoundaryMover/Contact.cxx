@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <set>
 #include <sstream>
@@ -87,12 +88,27 @@ std::vector<Index> nodesOf(const BoundaryModel& model, const Contact::Options& o
   return { nodes.begin(), nodes.end() };
 }
 
+/// The nearest place on another body; of several triangles that meet there, one that the place
+/// faces, so that the gap is along its normal.
 TriangleTree::Found otherBody(
   const BoundaryModel& model, const Facets& triangles, Index node, const Row& place, double radius)
 {
-  const Index body = model.bodyOfNode[node];
-  return triangles.tree.nearest(place, radius,
-    [&](Index triangle) { return model.bodyOfNode[triangles.corners[triangle][0]] != body; });
+  const auto isOther = [&, body = model.bodyOfNode[node]](Index triangle)
+  { return model.bodyOfNode[triangles.corners[triangle][0]] != body; };
+  const TriangleTree::Found found = triangles.tree.nearest(place, radius, isOther);
+  const Row arm = place - found.place;
+  if (found.triangle < 0 || arm.isZero(0))
+  {
+    return found;
+  }
+  constexpr double Rounding = 1e-9;
+  const TriangleTree::Found facing = triangles.tree.nearest(place, (1 + Rounding) * arm.norm(),
+    [&](Index triangle)
+    {
+      return isOther(triangle) &&
+             std::abs(triangles.tree.normal(triangle).dot(arm)) > (1 - Rounding) * arm.norm();
+    });
+  return facing.triangle < 0 ? found : facing;
 }
 
 /// Normal, not of unit length.
@@ -100,17 +116,6 @@ Row normalAt(const Points& points, const std::array<Index, 3>& corners)
 {
   const Row a = points.row(corners[0]);
   return (points.row(corners[1]) - a).cross(points.row(corners[2]) - a);
-}
-
-/// Rows of unit length, orthogonal: a side of the triangle, across it, and its normal; zero for a
-/// triangle without area.
-Eigen::Matrix3d frameOf(const Points& points, const std::array<Index, 3>& corners)
-{
-  const Row normal = normalAt(points, corners).normalized();
-  const Row side = (points.row(corners[1]) - points.row(corners[0])).normalized();
-  Eigen::Matrix3d frame;
-  frame << side, normal.cross(side), normal;
-  return frame;
 }
 
 /// The weights of a place in a triangle, by areas; in one without area those of its nearest corner.
@@ -200,12 +205,13 @@ bool Contact::follow(
     {
       continue;
     }
-    const Eigen::Matrix3d from = frameOf(points, pair.corners);
-    const Eigen::Matrix3d to = frameOf(result.moved, pair.corners);
+    const Row from = normalAt(points, pair.corners), to = normalAt(result.moved, pair.corners);
     Row gap = points.row(pair.node) - before;
-    if (!from.row(2).isZero(0) && !to.row(2).isZero(0)) // else the face has no direction
+    if (!from.isZero(0) && !to.isZero(0)) // else the face has no direction
     {
-      gap = gap * from.transpose() * to;
+      gap *= Eigen::Quaterniond::FromTwoVectors(from.transpose(), to.transpose())
+               .toRotationMatrix()
+               .transpose();
     }
     added.emplace_back(pair.node, after + gap);
     this->followers_.push_back(pair.node);

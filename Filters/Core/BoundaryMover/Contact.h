@@ -13,9 +13,10 @@
 namespace morph
 {
 /// Contact between bodies, whose nodes need not match. Nodes of a body of which nothing else is
-/// asked follow their nearest place on the boundary of a body that moves: a node x above the place
-/// p of a face goes to p' + R (x - p), where p' keeps its weights in the face and R turns as the
-/// face does. So the gap stays, 0 exactly. The motion of such a body may take others along.
+/// asked follow their nearest place on the boundary of a body that moves. A node x above the place
+/// p of a face goes to p' + R (x - p). The weights of p' in the face are those of p, and R turns
+/// the face's normal into its new direction. So the gap stays, 0 exactly. Such a body may take
+/// others along.
 class Contact
 {
 public:

@@ -262,7 +262,7 @@ std::vector<Index> TakeMissing(
   }
   const bool byField = options.Displacement == vtkDisplacementAlgorithm::DISPLACEMENT_FIELD;
   const std::string property = byField ? "`Field`" : "`DisplacementArray`";
-  const std::string why = byField ? "they are farther than `FieldReach` from the field, or it"
+  const std::string why = byField ? "they are farther than `FieldDistance` from the field, or it"
                                   : "'" + Input::ArrayName(options.DisplacementArray) + "'";
   if (moving.empty())
   {

@@ -129,7 +129,7 @@ morph::Points vtkDisplacementAlgorithm::vtkInternals::ByField(
 {
   const std::string array = filters::Input::ArrayName(options.FieldArray);
   const auto origin = std::make_tuple(field, field ? field->GetMTime() : 0, array,
-    options.FieldReach, this->Model.inputVersion, this->ChooseCount);
+    options.FieldDistance, this->Model.inputVersion, this->ChooseCount);
   if (!this->Whole && field && this->FieldOrigin == origin)
   {
     return this->FieldValues;
@@ -137,7 +137,7 @@ morph::Points vtkDisplacementAlgorithm::vtkInternals::ByField(
   this->FieldOrigin = {}; // in case it throws
   this->FieldValues = filters::FieldDisplacement::At(field, array,
     this->Model.points()(this->Choice.moving, morph::allColumns),
-    options.FieldReach * this->Model.size,
+    options.FieldDistance * this->Model.size,
     filters::RankGroup(this->Whole ? filters::RankGroup::Of::All : filters::RankGroup::Of::One),
     monitor);
   if (!this->Whole)
