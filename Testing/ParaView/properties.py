@@ -49,7 +49,8 @@ def printed(filter_proxy, name):
     return match.group(1)
 
 #: Limits of memory, which have no end, and tolerances, which span decades.
-WITHOUT_SLIDER = ("StepMemoryLimit", "MemoryLimit", "Tolerance", "HandleRadius")
+WITHOUT_SLIDER = ("StepMemoryLimit", "MemoryLimit", "Tolerance", "HandleRadius",
+                  "ContactDistance")
 #: What widgets of the panel are made from; not among its results.
 FOR_WIDGETS = ("SurfaceList", "SurfaceSizes", "SurfaceBounds", "ZoneList", "ZoneSizes",
                "PickedSurfaces", "ValidWeights", "Advice")
