@@ -122,6 +122,19 @@ TEST(Bodies, OneOfWhichNothingIsAskedStays)
     << cubes.monitor.warnings[0];
 }
 
+TEST(Bodies, IdsThatDoNotExistAreNamed)
+{
+  TwoCubes cubes;
+  const Points target = Points::Zero(1, 3);
+  std::string message;
+  motions::kindOf(
+    [&] {
+      cubes.session.morph({ { 9999 }, target }, cubes.options, cubes.monitor);
+    },
+    message);
+  EXPECT_NE(message.find("9999"), std::string::npos) << message;
+}
+
 /// The boundary of bodies, of which the nodes that `isMoving` tells are moved by `map`.
 struct MovedBoundary
 {

@@ -46,7 +46,9 @@ UndeformedMesh::UndeformedMesh(Mesh mesh, const UndeformedMesh* sameCells, Monit
 std::vector<Index> UndeformedMesh::prescribedFor(const std::vector<Index>& ids) const
 {
   std::vector<Index> result = this->hanging_.without(ids);
-  if (this->bodyOfNode_.empty())
+  const Index nodes = this->mesh_.numberOfNodes();
+  const bool areKnown = ids.empty() || (ids.front() >= 0 && ids.back() < nodes);
+  if (this->bodyOfNode_.empty() || !areKnown) // partitionNodes() names those that do not exist
   {
     return result;
   }
