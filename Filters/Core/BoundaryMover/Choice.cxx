@@ -2,8 +2,8 @@
 #include "BoundaryMover/Choice.h"
 
 #include "BoundaryMover/Patches.h"
-
 #include "Mesh/PlaneLayer.h"
+
 #include <algorithm>
 #include <utility>
 
@@ -54,6 +54,27 @@ Choice choose(const BoundaryModel& model, const std::vector<std::uint8_t>& isMov
   }
   return result;
 }
+}
+
+TargetOfNode targetsOf(const Choice& choice, const Points& targets)
+{
+  TargetOfNode moving;
+  for (std::size_t i = 0; i < choice.moving.size(); ++i)
+  {
+    moving[choice.moving[i]] = targets.row(static_cast<Index>(i));
+  }
+  return moving;
+}
+
+void setMoving(const TargetOfNode& moving, Choice& choice, Points& targets)
+{
+  choice.moving.clear();
+  targets.resize(static_cast<Index>(moving.size()), 3);
+  for (const auto& [node, to] : moving)
+  {
+    targets.row(static_cast<Index>(choice.moving.size())) = to;
+    choice.moving.push_back(node);
+  }
 }
 
 bool Choice::operator==(const Choice& other) const

@@ -4,6 +4,7 @@
 #include "BoundaryMover/BoundaryModel.h"
 
 #include <cstdint>
+#include <map>
 #include <set>
 #include <string>
 #include <vector>
@@ -20,6 +21,13 @@ struct Choice
 
   bool operator==(const Choice& other) const;
 };
+
+/// Where nodes go that move.
+using TargetOfNode = std::map<Index, Eigen::RowVector3d>;
+/// `targets`: of choice.moving.
+TargetOfNode targetsOf(const Choice& choice, const Points& targets);
+/// Makes these the nodes that move, and `targets` theirs.
+void setMoving(const TargetOfNode& moving, Choice& choice, Points& targets);
 
 /// Chooses the patches of these names, and holds others; see findPatches(). Nodes of a held patch
 /// that are chosen to move, move. Nodes between corners (of quadratic cells) that all move, move

@@ -193,7 +193,8 @@ bool Contact::follow(
   {
     moving.insert(model.bodyOfNode[node]);
   }
-  std::vector<std::pair<Index, Row>> all, added;
+  std::vector<Index> added;
+  TargetOfNode all = targetsOf(choice, targets);
   for (const Pair& pair : this->pairs_)
   {
     const Row before = placeOf(points, pair.corners, pair.weights);
@@ -213,26 +214,15 @@ bool Contact::follow(
                .toRotationMatrix()
                .transpose();
     }
-    added.emplace_back(pair.node, after + gap);
-    this->followers_.push_back(pair.node);
+    all[pair.node] = after + gap;
+    added.push_back(pair.node);
   }
   if (added.empty())
   {
     return false;
   }
-  for (std::size_t i = 0; i < choice.moving.size(); ++i)
-  {
-    all.emplace_back(choice.moving[i], targets.row(static_cast<Index>(i)));
-  }
-  all.insert(all.end(), added.begin(), added.end());
-  std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-  choice.moving.clear();
-  targets.resize(static_cast<Index>(all.size()), 3);
-  for (std::size_t i = 0; i < all.size(); ++i)
-  {
-    choice.moving.push_back(all[i].first);
-    targets.row(static_cast<Index>(i)) = all[i].second;
-  }
+  this->followers_.insert(this->followers_.end(), added.begin(), added.end());
+  setMoving(all, choice, targets);
   for (std::size_t f = 0; f + 1 < model.faces.offsets.size(); ++f)
   {
     const auto corner = model.faces.connectivity.begin();

@@ -56,28 +56,6 @@ std::vector<Index> edgeOf(const Mesh& mesh, const Zone& part)
 }
 
 /// Where nodes move, in the order of their ids.
-using PlaceOfNode = std::map<Index, Eigen::RowVector3d>;
-
-PlaceOfNode placesOf(const Choice& choice, const Points& targets)
-{
-  PlaceOfNode places;
-  for (std::size_t i = 0; i < choice.moving.size(); ++i)
-  {
-    places[choice.moving[i]] = targets.row(static_cast<Index>(i));
-  }
-  return places;
-}
-
-void setMoving(const PlaceOfNode& places, Choice& choice, Points& targets)
-{
-  choice.moving.clear();
-  targets.resize(static_cast<Index>(places.size()), 3);
-  for (const auto& [node, to] : places)
-  {
-    targets.row(static_cast<Index>(choice.moving.size())) = to;
-    choice.moving.push_back(node);
-  }
-}
 }
 
 InnerPieces::~InnerPieces() = default;
@@ -208,7 +186,7 @@ Points InnerNodes::rest(const BoundaryModel& model) const
 void InnerNodes::constrain(
   const BoundaryModel& model, const Options& options, Choice& choice, Points& targets) const
 {
-  PlaceOfNode moving = placesOf(choice, targets);
+  TargetOfNode moving = targetsOf(choice, targets);
   std::vector<Index> held = choice.held;
   const auto isOuter = [&](Index node)
   { return std::binary_search(model.faces.nodes.begin(), model.faces.nodes.end(), node); };
@@ -290,7 +268,7 @@ void InnerNodes::spreadAround(const BoundaryModel& model, const Choice& choice,
     return result.roles[node] == Surroundings::IsZone ||
            result.roles[node] == Surroundings::IsLayer;
   };
-  PlaceOfNode moving;
+  TargetOfNode moving;
   for (const Index node : model.faces.nodes)
   {
     if (isPlaced(node) && !std::binary_search(choice.held.begin(), choice.held.end(), node))
@@ -302,7 +280,7 @@ void InnerNodes::spreadAround(const BoundaryModel& model, const Choice& choice,
   {
     return;
   }
-  for (const auto& [node, to] : placesOf(choice, targets))
+  for (const auto& [node, to] : targetsOf(choice, targets))
   {
     moving[node] = to;
   }

@@ -21,6 +21,19 @@ using Square = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
 /// Rigid links may join nodes at one place: at least this part of the links' mean length counts.
 constexpr double LeastLength = 1e-6;
 
+/// Calls act(row, column, value).
+template <typename Matrix, typename Act>
+void forEachEntry(const Matrix& matrix, const Act& act)
+{
+  for (int k = 0; k < matrix.outerSize(); ++k)
+  {
+    for (typename Matrix::InnerIterator entry(matrix, k); entry; ++entry)
+    {
+      act(entry.row(), entry.col(), entry.value());
+    }
+  }
+}
+
 bool isVolume(const Mesh& mesh, Index cell)
 {
   const CellShape* shape = cellShape(mesh, cell);
@@ -127,22 +140,6 @@ std::vector<Index> AttachedNodes::anchorsOf(
   }
   sortUnique(anchors);
   return anchors;
-}
-
-namespace
-{
-/// Calls act(row, column, value).
-template <typename Matrix, typename Act>
-void forEachEntry(const Matrix& matrix, const Act& act)
-{
-  for (int k = 0; k < matrix.outerSize(); ++k)
-  {
-    for (typename Matrix::InnerIterator entry(matrix, k); entry; ++entry)
-    {
-      act(entry.row(), entry.col(), entry.value());
-    }
-  }
-}
 }
 
 AttachedNodes::AttachedNodes(const Mesh& rest, const NodePartition& partition)

@@ -297,10 +297,7 @@ BoundaryFaces describeFaces(const Mesh& mesh, const std::vector<Place>& faces)
   }
   return result;
 }
-}
 
-namespace
-{
 /// Whether all corners of a face of a layer are on one side of it.
 bool isFrontOrBack(const Mesh& mesh, const Place& place)
 {

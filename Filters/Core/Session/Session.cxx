@@ -15,6 +15,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <utility>
 
@@ -68,21 +69,12 @@ BoundaryTargets forMethod(
 {
   BoundaryTargets result;
   result.unmatched = boundary.unmatched;
-  result.targets = from.points(ids, allColumns);
+  Points all = from.points;
+  all(boundary.ids, allColumns) = boundary.targets;
+  result.targets = all(ids, allColumns);
   std::vector<Index> staying;
-  auto row = boundary.ids.begin();
-  for (std::size_t i = 0; i < ids.size(); ++i)
-  {
-    row = std::lower_bound(row, boundary.ids.end(), ids[i]);
-    if (row != boundary.ids.end() && *row == ids[i])
-    {
-      result.targets.row(static_cast<Index>(i)) = boundary.targets.row(row - boundary.ids.begin());
-    }
-    else
-    {
-      staying.push_back(ids[i]);
-    }
-  }
+  std::set_difference(
+    ids.begin(), ids.end(), boundary.ids.begin(), boundary.ids.end(), std::back_inserter(staying));
   if (!staying.empty())
   {
     monitor.warn("Bodies of which no node is prescribed stay, " + std::to_string(staying.size()) +
@@ -381,18 +373,10 @@ Points Session::transpose(
   {
     gradient.bottomRows(gradient.rows() - front).setZero(); // a plane mesh is the front
   }
-  Points own, prescribed = Points::Zero(static_cast<Index>(ids.size()), 3);
+  Points own, all = Points::Zero(gradient.rows(), 3); // what hangs moves by its ties
   this->attached_.applyTranspose(gradient);
   linear->applyTranspose(gradient, own, applying);
-  const std::vector<Index>& known = this->partition_->prescribed;
-  for (std::size_t i = 0; i < ids.size(); ++i)
-  {
-    const auto row = std::lower_bound(known.begin(), known.end(), ids[i]);
-    if (row != known.end() && *row == ids[i]) // others hang, and move by their ties
-    {
-      prescribed.row(static_cast<Index>(i)) = own.row(row - known.begin());
-    }
-  }
-  return prescribed;
+  all(this->partition_->prescribed, allColumns) = own;
+  return all(ids, allColumns);
 }
 }

@@ -45,10 +45,12 @@ UndeformedMesh::UndeformedMesh(Mesh mesh, const UndeformedMesh* sameCells, Monit
 
 std::vector<Index> UndeformedMesh::prescribedFor(const std::vector<Index>& ids) const
 {
+  if (!ids.empty() && (ids.front() < 0 || ids.back() >= this->mesh_.numberOfNodes()))
+  {
+    return ids; // partitionNodes() names those that do not exist
+  }
   std::vector<Index> result = this->hanging_.without(ids);
-  const Index nodes = this->mesh_.numberOfNodes();
-  const bool areKnown = ids.empty() || (ids.front() >= 0 && ids.back() < nodes);
-  if (this->bodyOfNode_.empty() || !areKnown) // partitionNodes() names those that do not exist
+  if (this->bodyOfNode_.empty())
   {
     return result;
   }

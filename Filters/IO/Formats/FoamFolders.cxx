@@ -26,11 +26,15 @@ bool isThere(const fs::path& path)
   return fs::exists(path, error);
 }
 
+}
+
 bool hasFile(const fs::path& folder, const char* name)
 {
   return isThere(folder / name) || isThere(folder / (std::string(name) + ".gz"));
 }
 
+namespace
+{
 /// The folder that a path means: itself, or that of a marker or a file of points.
 fs::path folderOf(const fs::path& path)
 {

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
 namespace morph::io
 {
+/// Whether a folder has the file, packed (name.gz) or not.
+bool hasFile(const std::filesystem::path& folder, const char* name);
+
 /// Where a mesh of OpenFOAM lies, or a part of one.
 struct FoamFolder
 {

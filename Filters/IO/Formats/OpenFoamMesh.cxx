@@ -23,13 +23,6 @@ namespace
 {
 namespace fs = std::filesystem;
 
-bool hasFile(const fs::path& folder, const char* name)
-{
-  std::error_code error;
-  return fs::exists(folder / name, error) ||
-         fs::exists(folder / (std::string(name) + ".gz"), error);
-}
-
 class OpenFoamMesh : public SolverFile
 {
 public:
