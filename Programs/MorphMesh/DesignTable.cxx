@@ -4,21 +4,28 @@
 #include "Messages.h"
 #include "NumberColumns.h"
 
+#include <vtksys/SystemTools.hxx>
+
 #include <algorithm>
 
 namespace morph_mesh
 {
 namespace
 {
+/// The column of a shape: of its name, or, if there is none, of its name in other letters.
 std::size_t columnOf(
   const std::vector<std::string>& header, const std::string& shape, const std::string& path)
 {
-  const auto found = std::find(header.begin(), header.end(), shape);
+  const auto lower = [](const std::string& name) { return vtksys::SystemTools::LowerCase(name); };
+  const bool isExact = std::find(header.begin(), header.end(), shape) != header.end();
+  const auto isOf = [&](const std::string& name)
+  { return isExact ? name == shape : lower(name) == lower(shape); };
+  const auto found = std::find_if(header.begin(), header.end(), isOf);
   if (found == header.end())
   {
     throw Failure(path + " has no column '" + shape + "', the name of a shape's file.");
   }
-  if (std::find(found + 1, header.end(), shape) != header.end())
+  if (std::find_if(found + 1, header.end(), isOf) != header.end())
   {
     throw Failure(path + " has two columns '" + shape + "'.");
   }
@@ -36,9 +43,13 @@ DesignTable readTable(const std::string& path, const std::vector<std::string>& s
     columns.push_back(columnOf(header, shape, path));
   }
   DesignTable table;
-  std::copy_if(header.begin(), header.end(), std::back_inserter(table.ignored),
-    [&](const std::string& name)
-    { return std::find(shapes.begin(), shapes.end(), name) == shapes.end(); });
+  for (std::size_t i = 0; i < header.size(); ++i)
+  {
+    if (std::find(columns.begin(), columns.end(), i) == columns.end())
+    {
+      table.ignored.push_back(header[i]);
+    }
+  }
   for (auto line = lines.begin() + 1; line != lines.end(); ++line)
   {
     std::vector<double>& row = table.rows.emplace_back();

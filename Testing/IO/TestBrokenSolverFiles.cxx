@@ -85,7 +85,8 @@ const char* const LsDyna =
   "2,1.,0.,0.\n3,0.,1.,0.\n4,0.,0.,1.\n*ELEMENT_SOLID\n1,7,1,2,3,4,4,4,4,4\n2,7\n1,2,3,4\n"
   "*ELEMENT_SHELL_THICKNESS\n       1       8       1       2       3       3\n0.1,0.1\n*PART\n"
   "A part\n8,1,1\n*SET_NODE_LIST_TITLE\nSome\n1,0.,0.\n1,2,3\n*SET_SEGMENT\n2\n1,2,3,3\n"
-  "*SET_PART_LIST\n3\n7,8\n*SET_SHELL\n4\n1\n*END\n";
+  "*SET_PART_LIST\n3\n7,8\n*SET_SHELL\n4\n1\n*ELEMENT_BEAM_PID\n3,9,1,2,3\n0,0\n"
+  "*SET_NODE_LIST_GENERATE\n5\n1,3\n*SET_BEAM_GENERATE\n6\n1,9\n*SET_NODE_GENERAL\n*END\n";
 const char* const Su2 = "NDIME= 3\nNELEM= 1\n10 0 1 2 3 0\nNPOIN= 4\n0 0 0 0\n1. 0 0 1\n0 1 0 2\n"
                         "0 0 1e0 3\nNMARK= 1\nMARKER_TAG= wall\nMARKER_ELEMS= 1\n5 0 1 2\n";
 const char* const Gmsh2 =

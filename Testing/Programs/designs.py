@@ -79,6 +79,13 @@ class Designs(unittest.TestCase):
         self.table.write_text(self.table.read_text().replace("c,1,0", "c,0.75,0"))
         self.assertIn("4 designs, 3 of them there already", self.write().stdout)
 
+    def test_a_table_that_a_spreadsheet_wrote(self):
+        self.assertEqual(self.write().returncode, 0)
+        names, rows = self.table.read_text().split("\n", 1)
+        rows = rows.replace(",", ";").replace(".", ",")
+        self.table.write_text("\ufeff" + names.upper().replace(",", ";") + "\n" + rows)
+        self.assertIn("4 designs, 4 of them there already", self.write().stdout)
+
     def test_a_killed_run_continues(self):
         self.table.write_text("whole,again\n" + "0.5,0.25\n" * 60)
         arguments = [PROGRAM, BORE, "--shapes", *map(str, self.shapes), "--table", str(self.table),

@@ -74,6 +74,24 @@ class Cases(solver_files.SolverFiles):
         self.assertEqual(done.returncode, 0, done.stderr)
         return done
 
+    @unittest.skipUnless(shutil.which("gmsh"), "Gmsh is not installed (gmsh)")
+    def test_a_case_that_a_converter_of_openfoam_wrote(self):
+        box, mesh = self.folder / "box.geo", self.folder / "box.msh"
+        box.write_text('SetFactory("OpenCASCADE"); Box(1) = {0, 0, 0, 1, 1, 1};\n'
+                       'Physical Volume("body") = {1}; Physical Surface("lid") = {6};\n')
+        subprocess.run(["gmsh", "-3", box, "-format", "msh22", "-o", mesh], check=True,
+                       capture_output=True, timeout=120)
+        for form in ("ascii", "binary"):
+            with self.subTest(form=form):
+                self.make("checkMesh", form=form)
+                openfoam("gmshToFoam", self.case, mesh)
+                self.copy()
+                self.morph("--move", "lid", "--translate", "0,0,0", "--quiet", self.case, self.out)
+                self.assertEqual(differing(self.case, self.out), set())
+                self.morph("--move", "lid", *TOP[2:], self.case, self.out)
+                self.assertEqual(differing(self.case, self.out), {"constant/polyMesh/points"})
+                self.assertIn("(1 1 1.2)", openfoam("checkMesh", self.out, "-constant"))
+
     def test_pieces_of_a_decomposed_case_are_one_mesh(self):
         """OpenFOAM joins what is written, and finds the whole box higher."""
         for form, handler in (("ascii", "uncollated"), ("binary", "uncollated"),

@@ -21,6 +21,7 @@ from legacy_files import points_of
 
 try:
     import meshio
+    import numpy as np
 except ImportError:
     meshio = None
 
@@ -173,6 +174,27 @@ class SolverFiles(unittest.TestCase):
                 for node, x in zip(model.order, after.points):
                     self.assertLess(abs(x - exact[model.numbers[node]]).max(), rounding)
                 self.assertGreater(abs(before.points - after.points).max(), 0.03)
+
+    @needs_meshio
+    def test_files_that_meshio_writes(self):
+        """Zero keeps each byte; meshio finds the moved nodes where they were asked to go."""
+        corner = np.arange(64).reshape(4, 4, 4)[:3, :3, :3].reshape(-1, 1)
+        cells = corner + [0, 1, 5, 4, 16, 17, 21, 20]
+        tetrahedra = cells[:, [[0, 1, 2, 6], [0, 2, 3, 6], [0, 3, 7, 6], [0, 7, 4, 6], [0, 4, 5, 6],
+                               [0, 5, 1, 6]]].reshape(-1, 4)
+        points = np.array([(i % 4, i // 4 % 4, i // 16) for i in range(64)]) / 3
+        sides = [word for i in range(6) for word in ("--move", f"Surface {i}")]
+        for form, extension in (("abaqus", "inp"), ("nastran", "bdf"), ("su2", "su2"),
+                                ("gmsh22", "msh"), ("gmsh", "msh")):
+            for kind, nodes in (("hexahedron", cells), ("tetra", tetrahedra)):
+                with self.subTest(form=form, kind=kind):
+                    path, out = (self.folder / f"{name}.{extension}" for name in ("in", "out"))
+                    meshio.write(path, meshio.Mesh(points, [(kind, nodes)]), file_format=form)
+                    self.morph(path, out, "--move", "Surface 1", "--translate", "0,0,0")
+                    self.assertEqual(out.read_bytes(), path.read_bytes())
+                    self.morph(path, out, *sides, "--translate", "-.1,.02,.03")
+                    moved = meshio.read(out).points
+                    self.assertLess(abs(moved - points - [-.1, .02, .03]).max(), 1e-6)
 
     def test_names_of_the_file_are_surfaces(self):
         for extension, names in ((".inp", ("Wall", "Inlet", "Outlet")),
@@ -354,10 +376,10 @@ class SolverFiles(unittest.TestCase):
                     card(8, 1, 1, width=10) + "*SET_NODE_LIST\n" + card(3, width=10) +
                     card(5, 6, 7, 8, width=10) + "*SET_SEGMENT_TITLE\nFoot\n" +
                     card(4, width=10) + card(1, 2, 4, 3, width=10) + "*SET_SHELL\n" +
-                    card(5, width=10) + card(1, width=10) + "*ELEMENT_BEAM\n" + card(9, 9, 1, 2) +
+                    card(5, width=10) + card(1, width=10) + "*ELEMENT_MASS\n" + card(9, 1) +
                     "*MAT_ELASTIC\n" + card(1, width=10) + "*END\nno deck\n")
                 rows = run("--list-surfaces", path)
-                self.assertIn("elements of *ELEMENT_BEAM are left out", rows.stderr)
+                self.assertIn("What *ELEMENT_MASS defines is left out", rows.stderr)
                 for name, faces in (("PID 7", 6), ("The lid", 1), ("Node set 3", 1), ("Foot", 1),
                                     ("Shell set 5", 1)):
                     self.assertRegex(rows.stdout, f"(?m)^{name} +{faces} ")
@@ -385,6 +407,27 @@ class SolverFiles(unittest.TestCase):
             self.assertRegex(result.stdout, r"inverted cells +0 +0\n")
             self.assertRegex(run("--list-surfaces", path).stdout, f"(?m)^PID 7 +{faces} ")
 
+    def test_options_of_keywords_of_ls_dyna(self):
+        """Lines that options add, thick shells, ranges of sets; beams and quadratic shells move."""
+        nodes = "".join(f"{i + 1},{x},{y},{z}\n" for i, (x, y, z) in enumerate(self.CORNERS))
+        nodes += "11,.5,0,1\n12,1,.5,1\n13,.5,1,1\n14,0,.5,1\n20,0,0,2\n"
+        path, out = self.folder / "m.k", self.folder / "out.k"
+        for solid, extra in (("SOLID", ""), ("SOLID_ORTHO", "0.,0.\n0.,0.\n"), ("TSHELL", "")):
+            with self.subTest(solid=solid):
+                path.write_text(
+                    f"*NODE\n{nodes}*ELEMENT_{solid}\n1,7,1,2,4,3,5,6,8,7\n{extra}"
+                    "*ELEMENT_SHELL_THICKNESS_OFFSET\n1,8,5,6,8,7,11,12,13,14\n.1,.1,.1,.1\n.05\n"
+                    "*ELEMENT_BEAM_ORIENTATION\n1,9,5,20,1,0\n0.,0.,1.\n"
+                    "*SET_NODE_LIST_GENERATE_TITLE\nLid\n1\n5,6,7,15\n"
+                    "*SET_SHELL_LIST_GENERATE\n2\n1,9\n*SET_NODE_GENERAL\n3\nPART,7\n*END\n")
+                listed = run("list", path)
+                for name, faces in (("PID 7", 6), ("PID 8", 1), ("Lid", 1), ("Shell set 2", 1)):
+                    self.assertRegex(listed.stdout, f"(?m)^{name} +{faces} ")
+                self.assertIn("What *SET_NODE_GENERAL defines is left out", listed.stderr)
+                run("--move", "Lid", "--translate", "0,0,.5", path, out)
+                beam = [float(x) for x in re.search("(?m)^20,(.*)$", out.read_text())[1].split(",")]
+                self.assertEqual(beam, [0, 0, 2.5])
+
     def test_included_files_of_ls_dyna(self):
         folder, there = self.folder / "in", self.folder / "there"
         for parent in (folder, there):
@@ -408,7 +451,8 @@ class SolverFiles(unittest.TestCase):
         box.write_text('SetFactory("OpenCASCADE"); Box(1) = {0, 0, 0, 1, 1, 1};\n'
                        'Physical Volume("body") = {1}; Physical Surface("wall") = {1};\n'
                        "Mesh.MeshSizeMax = 0.5;\n")
-        for extension, wall in ((".inp", "wall"), (".key", "PID 2000001"), (".bdf", "PID 1")):
+        for extension, wall in ((".inp", "wall"), (".key", "PID 2000001"), (".bdf", "PID 1"),
+                                (".su2", "wall")):
             with self.subTest(extension=extension):
                 path, out = self.folder / ("box" + extension), self.folder / ("out" + extension)
                 subprocess.run(["gmsh", "-3", box, "-o", path], check=True, capture_output=True,

@@ -75,13 +75,15 @@ bool isRefused(const std::string& command)
   return commands.count(command) > 0;
 }
 
-/// Whether a type has volume elements (1), shells (2), or is left out (0).
+/// Whether a type has volume elements (1), shells (2), lines of two nodes and one that orients them
+/// (3), or is left out (0).
 int kindOf(Index type)
 {
   static const std::set<Index> solids = { 45, 64, 65, 70, 87, 90, 92, 95, 185, 186, 187, 226, 227,
     278, 279, 285, 291 };
-  static const std::set<Index> shells = { 41, 57, 63, 131, 157, 181 };
-  return solids.count(type) > 0 ? 1 : shells.count(type) > 0 ? 2 : 0;
+  static const std::set<Index> shells = { 41, 57, 63, 93, 131, 132, 157, 181, 281 };
+  static const std::set<Index> lines = { 4, 8, 44, 180, 188 };
+  return solids.count(type) > 0 ? 1 : shells.count(type) > 0 ? 2 : lines.count(type) > 0 ? 3 : 0;
 }
 
 /// The format of a block, on the line after its command: "(3i9,6e21.13e3)".
@@ -128,6 +130,7 @@ bool AnsysFile::nextOfBlock(Lines& lines, const char* block) const
 std::vector<NumberField> AnsysFile::fieldsOf(Span line) const
 {
   std::vector<NumberField> fields;
+  fields.reserve(this->widths_.size());
   std::size_t column = 0;
   for (const std::size_t width : this->widths_)
   {
@@ -401,6 +404,11 @@ void AnsysFile::finish()
       continue;
     }
     auto [cellType, nodes] = kind == 1 ? solidElement(element.nodes) : shellElement(element.nodes);
+    if (kind == 3 && nodes.size() >= 2)
+    {
+      cellType = Line;
+      nodes.resize(2);
+    }
     if (cellType == EmptyCell)
     {
       this->failAt(0, element.at,

@@ -7,6 +7,7 @@
 #include "Formats/TextFile.h"
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <set>
 
@@ -33,11 +34,15 @@ private:
     Node,
     Part,
     Solid,
+    ThickShell,
     Shell,
+    Beam,
     NodeSet,
     SegmentSet,
     SolidSet,
+    ThickShellSet,
     ShellSet,
+    BeamSet,
     PartSet,
   };
   struct Element
@@ -45,18 +50,20 @@ private:
     Index number = 0, part = 0;
     std::vector<Index> nodes;
     std::size_t file = 0, at = 0;
+    Block kind = Block::Solid;
   };
   struct Set
   {
     Block kind;
     std::string name;
+    bool isRange; ///< first and last of each range
     std::vector<Index> members;
   };
 
   bool parse(std::size_t part, int depth);
   void takeKeyword(std::size_t part, Span span);
   void takeCard(std::size_t part, Span span);
-  void takeElement(std::size_t part, Span span, std::vector<Element>& elements);
+  void takeElement(std::size_t part, Span span);
   void takeSet(std::size_t part, Span span);
   std::vector<NumberField> fieldsOf(std::size_t part, Span span,
     std::initializer_list<std::size_t> widths, std::size_t count) const;
@@ -64,17 +71,18 @@ private:
   std::vector<Index> integersOf(
     std::size_t part, Span span, std::size_t width, std::size_t count, bool isList = false) const;
   Index position(Index node, const std::string& what) const;
-  std::map<Index, Index> addElements(const std::vector<Element>& elements, bool isShell);
-  void addSets();
+  void addElements();
+  void addSet(const Set& set);
   void finish();
 
   Block block_ = Block::Other;
-  bool isLong_ = false, isLongBlock_ = false, hasTitle_ = false;
+  bool isLong_ = false, isLongBlock_ = false, hasTitle_ = false, isRange_ = false;
   int line_ = 0;                  ///< of the block, from 0
   bool isOpen_ = false;           ///< the nodes of an element are on the next line
   int extraLines_ = 0, skip_ = 0; ///< of each element, and of the one before
   std::string title_;
-  std::vector<Element> solids_, shells_;
+  std::vector<Element> elements_;
+  std::map<std::pair<Block, Index>, Index> cells_; ///< each kind of element has its own numbers
   std::vector<Set> sets_;
   std::map<Index, std::string> titles_; ///< of parts
   std::set<std::string> unknown_;
@@ -92,6 +100,7 @@ std::vector<NumberField> LsDynaFile::fieldsOf(
     return freeFields(text, span, count);
   }
   std::vector<NumberField> fields;
+  fields.reserve(count);
   for (std::size_t i = 0, column = 0; i < count; ++i)
   {
     const std::size_t own = widths.begin()[std::min(i, widths.size() - 1)];
@@ -165,17 +174,20 @@ void LsDynaFile::takeKeyword(std::size_t part, Span span)
 {
   static const std::map<std::string, Block> blocks = { { "INCLUDE", Block::Include },
     { "NODE", Block::Node }, { "PART", Block::Part }, { "ELEMENT_SOLID", Block::Solid },
-    { "ELEMENT_SHELL", Block::Shell }, { "ELEMENT_SHELL_THICKNESS", Block::Shell },
-    { "ELEMENT_SHELL_BETA", Block::Shell }, { "SET_NODE", Block::NodeSet },
-    { "SET_NODE_LIST", Block::NodeSet }, { "SET_SEGMENT", Block::SegmentSet },
-    { "SET_SOLID", Block::SolidSet }, { "SET_SHELL", Block::ShellSet },
-    { "SET_SHELL_LIST", Block::ShellSet }, { "SET_PART", Block::PartSet },
-    { "SET_PART_LIST", Block::PartSet } };
+    { "ELEMENT_TSHELL", Block::ThickShell }, { "ELEMENT_SHELL", Block::Shell },
+    { "ELEMENT_BEAM", Block::Beam }, { "SET_NODE", Block::NodeSet },
+    { "SET_SEGMENT", Block::SegmentSet }, { "SET_SOLID", Block::SolidSet },
+    { "SET_TSHELL", Block::ThickShellSet }, { "SET_SHELL", Block::ShellSet },
+    { "SET_BEAM", Block::BeamSet }, { "SET_PART", Block::PartSet } };
   static const std::map<std::string, std::string> refused = {
     { "INCLUDE_", "files that are included by another keyword than *INCLUDE" },
     { "NODE_", "nodes that are transformed, or defined otherwise than by *NODE" },
     { "DEFINE_TRANSFORMATION", "parts that are transformed" }, { "PARAMETER", "parameters" }
   };
+  // The lines that an option of a keyword adds to each element.
+  static const std::map<std::string, int> options = { { "_ORTHO", 2 }, { "_DOF", 1 },
+    { "_THICKNESS", 1 }, { "_BETA", 1 }, { "_MCID", 1 }, { "_OFFSET", 1 }, { "_ORIENTATION", 1 },
+    { "_PID", 1 }, { "_SECTION", 1 } };
   std::string name = upperCase(trimmed(span.of(this->parts_[part].text).substr(1)));
   this->isLong_ = this->isLong_ || name.find("LONG=Y") != std::string::npos;
   name = name.substr(0, name.find_first_of(" ,"));
@@ -193,17 +205,34 @@ void LsDynaFile::takeKeyword(std::size_t part, Span span)
         "it has *" + name + ": " + what + " are not read. Write a deck without them.");
     }
   }
-  const std::string end = "_TITLE";
-  this->hasTitle_ =
-    name.size() > end.size() && name.compare(name.size() - end.size(), end.size(), end) == 0;
-  name.resize(name.size() - (this->hasTitle_ ? end.size() : 0));
-  const auto found = blocks.find(name);
+  std::string rest = name;
+  const auto drop = [&rest](const std::string& end)
+  {
+    const bool ends =
+      rest.size() > end.size() && rest.compare(rest.size() - end.size(), end.size(), end) == 0;
+    rest.resize(rest.size() - (ends ? end.size() : 0));
+    return ends;
+  };
+  const bool isElement = name.rfind("ELEMENT_", 0) == 0, isSet = name.rfind("SET_", 0) == 0;
+  this->hasTitle_ = drop("_TITLE");
+  this->isRange_ = isSet && drop("_GENERATE");
+  this->extraLines_ = 0;
+  if (isSet)
+  {
+    drop("_LIST");
+  }
+  for (auto option = options.begin(); isElement && option != options.end();)
+  {
+    const bool has = drop(option->first);
+    this->extraLines_ += has ? option->second : 0;
+    option = has ? options.begin() : std::next(option);
+  }
+  const auto found = blocks.find(rest);
   this->block_ = found == blocks.end() ? Block::Other : found->second;
   this->line_ = this->skip_ = 0;
   this->isOpen_ = false;
   this->title_.clear();
-  this->extraLines_ = this->block_ == Block::Shell && name != "ELEMENT_SHELL" ? 1 : 0;
-  if (this->block_ == Block::Other && name.rfind("ELEMENT_", 0) == 0)
+  if (this->block_ == Block::Other && (isElement || isSet))
   {
     this->unknown_.insert(name);
   }
@@ -228,8 +257,10 @@ void LsDynaFile::takeCard(std::size_t part, Span span)
       return;
     }
     case Block::Solid:
+    case Block::ThickShell:
     case Block::Shell:
-      this->takeElement(part, span, this->block_ == Block::Solid ? this->solids_ : this->shells_);
+    case Block::Beam:
+      this->takeElement(part, span);
       return;
     case Block::Part: // a title and a card
       if (this->line_++ % 2 == 0)
@@ -248,23 +279,25 @@ void LsDynaFile::takeCard(std::size_t part, Span span)
 }
 
 /// On one line, or with its nodes on a second one.
-void LsDynaFile::takeElement(std::size_t part, Span span, std::vector<Element>& elements)
+void LsDynaFile::takeElement(std::size_t part, Span span)
 {
   if (this->skip_ > 0)
   {
     --this->skip_;
     return;
   }
-  std::vector<Index> numbers = this->integersOf(part, span, 8, 10);
+  // What follows the two nodes of a beam is its orientation.
+  std::vector<Index> numbers =
+    this->integersOf(part, span, 8, this->block_ == Block::Beam ? 4 : 10);
   if (!this->isOpen_)
   {
-    elements.push_back({ numbers[0], numbers[1], {}, part, span.begin });
+    this->elements_.push_back({ numbers[0], numbers[1], {}, part, span.begin, this->block_ });
     numbers.erase(numbers.begin(), numbers.begin() + 2);
   }
   numbers.erase(std::find(numbers.begin(), numbers.end(), 0), numbers.end());
   this->isOpen_ = !this->isOpen_ && numbers.empty();
   this->skip_ = this->isOpen_ ? 0 : this->extraLines_;
-  elements.back().nodes = std::move(numbers);
+  this->elements_.back().nodes = std::move(numbers);
 }
 
 void LsDynaFile::takeSet(std::size_t part, Span span)
@@ -281,8 +314,8 @@ void LsDynaFile::takeSet(std::size_t part, Span span)
       { Block::SegmentSet, "Segment set " }, { Block::SolidSet, "Solid set " },
       { Block::ShellSet, "Shell set " }, { Block::PartSet, "Part set " } };
     const std::string number = std::to_string(this->integersOf(part, span, 10, 1)[0]);
-    this->sets_.push_back(
-      { this->block_, this->title_.empty() ? kinds.at(this->block_) + number : this->title_, {} });
+    this->sets_.push_back({ this->block_,
+      this->title_.empty() ? kinds.at(this->block_) + number : this->title_, this->isRange_, {} });
     return;
   }
   const bool isSegment = this->block_ == Block::SegmentSet;
@@ -306,12 +339,16 @@ Index LsDynaFile::position(Index node, const std::string& what) const
   return found->second;
 }
 
-std::map<Index, Index> LsDynaFile::addElements(const std::vector<Element>& elements, bool isShell)
+void LsDynaFile::addElements()
 {
-  std::map<Index, Index> cells; // solids and shells have numbers of their own
-  for (const Element& element : elements)
+  for (const Element& element : this->elements_)
   {
-    auto [type, nodes] = isShell ? shellElement(element.nodes) : solidElement(element.nodes);
+    const bool isSolid = element.kind == Block::Solid || element.kind == Block::ThickShell;
+    auto [type, nodes] = isSolid ? solidElement(element.nodes) : shellElement(element.nodes);
+    if (element.kind == Block::Beam)
+    {
+      type = nodes.size() == 2 ? Line : EmptyCell;
+    }
     const std::string name = "element " + std::to_string(element.number);
     if (type == EmptyCell)
     {
@@ -323,10 +360,74 @@ std::map<Index, Index> LsDynaFile::addElements(const std::vector<Element>& eleme
       node = this->position(node, name);
     }
     const Index cell = this->mesh_.addCell(type, nodes, element.number);
-    cells[element.number] = cell;
+    this->cells_[{ element.kind, element.number }] = cell;
     this->cellsOfPart_[element.part].push_back(cell);
   }
-  return cells;
+}
+
+void LsDynaFile::addSet(const Set& set)
+{
+  static const std::map<Block, Block> elements = { { Block::SolidSet, Block::Solid },
+    { Block::ThickShellSet, Block::ThickShell }, { Block::ShellSet, Block::Shell },
+    { Block::BeamSet, Block::Beam } };
+  const std::string what = "the set " + set.name;
+  NamedSet& named = this->mesh_.set(set.name);
+  if (set.kind == Block::SegmentSet)
+  {
+    for (auto first = set.members.begin(); first != set.members.end(); first += 4)
+    {
+      auto [type, nodes] = shellElement({ first, first + 4 });
+      for (Index& node : nodes)
+      {
+        node = this->position(node, what);
+      }
+      named.cells.push_back(this->mesh_.addCell(type, nodes, -1));
+    }
+    return;
+  }
+  // A list has each member, which may be missing in the deck but for nodes; a range has first and
+  // last, and those between them that the deck has.
+  std::map<Index, Index> nodes;
+  if (set.kind == Block::NodeSet && set.isRange)
+  {
+    nodes.insert(this->positions_.begin(), this->positions_.end());
+  }
+  for (std::size_t i = 0; i < set.members.size(); i += set.isRange ? 2 : 1)
+  {
+    const Index first = set.members[i];
+    const Index last = !set.isRange                 ? first
+                       : i + 1 < set.members.size() ? set.members[i + 1]
+                                                    : first - 1;
+    if (set.kind == Block::NodeSet && !set.isRange)
+    {
+      named.nodes.push_back(this->position(first, what));
+    }
+    else if (set.kind == Block::NodeSet)
+    {
+      for (auto node = nodes.lower_bound(first); node != nodes.end() && node->first <= last; ++node)
+      {
+        named.nodes.push_back(node->second);
+      }
+    }
+    else if (set.kind == Block::PartSet)
+    {
+      for (auto part = this->cellsOfPart_.lower_bound(first);
+           part != this->cellsOfPart_.end() && part->first <= last; ++part)
+      {
+        named.cells.insert(named.cells.end(), part->second.begin(), part->second.end());
+      }
+    }
+    else
+    {
+      const Block kind = elements.at(set.kind);
+      const auto end = this->cells_.upper_bound({ kind, last });
+      for (auto cell = this->cells_.lower_bound({ kind, first }); cell != end && first <= last;
+           ++cell)
+      {
+        named.cells.push_back(cell->second);
+      }
+    }
+  }
 }
 
 void LsDynaFile::finish()
@@ -336,8 +437,7 @@ void LsDynaFile::finish()
     this->fail("it has no *NODE.");
   }
   this->positions_ = positionsOf(this->mesh_.nodeNumbers, "node", this->path());
-  const auto solids = this->addElements(this->solids_, false);
-  const auto shells = this->addElements(this->shells_, true);
+  this->addElements();
   for (const auto& [part, cells] : this->cellsOfPart_)
   {
     const std::string& title = this->titles_[part];
@@ -345,46 +445,12 @@ void LsDynaFile::finish()
   }
   for (const Set& set : this->sets_)
   {
-    NamedSet& named = this->mesh_.set(set.name);
-    const std::vector<Index>& members = set.members;
-    for (std::size_t i = 0; i < members.size(); i += set.kind == Block::SegmentSet ? 4 : 1)
-    {
-      const auto addFrom = [&](const std::map<Index, Index>& cells)
-      {
-        if (const auto cell = cells.find(members[i]); cell != cells.end())
-        {
-          named.cells.push_back(cell->second);
-        }
-      };
-      if (set.kind == Block::NodeSet)
-      {
-        named.nodes.push_back(this->position(members[i], "the set " + set.name));
-      }
-      else if (set.kind == Block::SegmentSet)
-      {
-        const auto first = members.begin() + static_cast<std::ptrdiff_t>(i);
-        auto [type, nodes] = shellElement({ first, first + 4 });
-        for (Index& node : nodes)
-        {
-          node = this->position(node, "the set " + set.name);
-        }
-        named.cells.push_back(this->mesh_.addCell(type, nodes, -1));
-      }
-      else if (set.kind == Block::PartSet)
-      {
-        const std::vector<Index>& cells = this->cellsOfPart_[members[i]];
-        named.cells.insert(named.cells.end(), cells.begin(), cells.end());
-      }
-      else
-      {
-        addFrom(set.kind == Block::SolidSet ? solids : shells);
-      }
-    }
+    this->addSet(set);
   }
   for (const std::string& name : this->unknown_)
   {
     this->mesh_.warnings.push_back(
-      "The elements of *" + name + " are left out of the mesh; they stay in the file.");
+      "What *" + name + " defines is left out of the mesh; it stays " + "in the file.");
   }
 }
 }

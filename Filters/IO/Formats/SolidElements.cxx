@@ -2,6 +2,7 @@
 #include "Formats/SolidElements.h"
 
 #include <algorithm>
+#include <map>
 
 namespace morph::io
 {
@@ -72,7 +73,13 @@ std::pair<std::uint8_t, std::vector<Index>> shellElement(std::vector<Index> node
   {
     nodes.pop_back();
   }
-  const bool isKnown = nodes.size() == 3 || nodes.size() == 4;
-  return { !isKnown ? EmptyCell : nodes.size() == 3 ? Triangle : Quad, nodes };
+  if (nodes.size() == 8 && nodes[2] == nodes[3])
+  {
+    nodes = { nodes[0], nodes[1], nodes[2], nodes[4], nodes[5], nodes[7] };
+  }
+  static const std::map<std::size_t, std::uint8_t> types = { { 3, Triangle }, { 4, Quad },
+    { 6, QuadraticTriangle }, { 8, QuadraticQuad } };
+  const auto found = types.find(nodes.size());
+  return { found == types.end() ? std::uint8_t(EmptyCell) : found->second, nodes };
 }
 }

@@ -12,6 +12,7 @@ namespace morph::io
 /// pyramid or a wedge. EmptyCell for another number of nodes.
 std::pair<std::uint8_t, std::vector<Index>> solidElement(const std::vector<Index>& nodes);
 
-/// The same of a shell: 3 or 4 nodes, the last one of which may be 0 or that before it.
+/// The same of a shell: 3, 4, 6 or 8 nodes. One of four may have 0 or the third as its last; one of
+/// eight that has the third twice is a triangle.
 std::pair<std::uint8_t, std::vector<Index>> shellElement(std::vector<Index> nodes);
 }
