@@ -24,6 +24,8 @@
 #include <vtkStaticCellLocator.h>
 #include <vtkTable.h>
 
+#include <Eigen/QR>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -38,6 +40,7 @@ using morph::Error;
 using morph::Index;
 using morph::Points;
 using Row = Eigen::RowVector3d;
+using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 constexpr double Infinity = std::numeric_limits<double>::infinity();
 constexpr Index Grain = 256;
@@ -255,13 +258,14 @@ private:
              at.Place.data(), nullptr, at.Part, at.Parameters, square, weights.data()) >= 0;
   }
 
-  /// VTK's inverse of the shape functions ends at some 1e-6 of a cell's size. The field's gradient
-  /// there does the rest, so that affine fields are exact.
+  /// VTK's inverse of the shape functions ends at some 1e-6 of a cell's size. One more step does
+  /// the rest, so that affine fields are exact: by the smallest change of the parameters, which
+  /// there is in a collapsed cell, too.
   Row Value(vtkGenericCell* cell, const At& at, const std::vector<double>& weights) const
   {
     Row value = Row::Zero(), place = Row::Zero();
-    Points values(cell->GetNumberOfPoints(), 3);
-    bool hasGradient = cell->GetCellType() != VTK_POLYHEDRON; // whose weights are exact
+    Points values(cell->GetNumberOfPoints(), 3), corners(cell->GetNumberOfPoints(), 3);
+    bool isInexact = cell->GetCellType() != VTK_POLYHEDRON; // whose weights are exact
     for (Index k = 0; k < values.rows(); ++k)
     {
       const vtkIdType point = cell->GetPointId(k);
@@ -272,20 +276,24 @@ private:
         {
           return Row::Constant(std::numeric_limits<double>::quiet_NaN());
         }
-        hasGradient = false;
+        isInexact = false;
         continue;
       }
-      Row corner;
-      cell->GetPoints()->GetPoint(k, corner.data());
+      cell->GetPoints()->GetPoint(k, corners.row(k).data());
       value += weights[k] * values.row(k);
-      place += weights[k] * corner;
+      place += weights[k] * corners.row(k);
     }
-    Eigen::Matrix<double, 3, 3, Eigen::RowMajor> gradient; // of each component
-    if (hasGradient && (at.Place - place).norm() > this->Rounding)
+    if (isInexact && (at.Place - place).norm() > this->Rounding)
     {
-      cell->Derivatives(at.Part, at.Parameters, values.data(), 3, gradient.data());
-      const Row rest = (at.Place - place) * gradient.transpose();
-      value += rest.allFinite() ? rest : Row::Zero(); // of a collapsed cell
+      Points slopes = Points::Zero(values.rows(), 3); // a row of all nodes for each parameter
+      cell->InterpolateDerivs(at.Parameters, slopes.data());
+      const Eigen::Map<const Matrix> byParameter(
+        slopes.data(), cell->GetCellDimension(), values.rows());
+      const Matrix map = byParameter * corners;
+      const Row step = at.Place - place;
+      value +=
+        map.transpose().completeOrthogonalDecomposition().solve(step.transpose()).transpose() *
+        (byParameter * values);
     }
     return value;
   }
