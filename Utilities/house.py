@@ -102,7 +102,7 @@ while gdb.selected_inferior().pid:
     while frame is not None:
         where = frame.find_sal().symtab
         stack.append((frame.name() or "", where.fullname() if where else ""))
-        if re.search(r"MorphAlgorithm::RequestData\\b", stack[-1][0]):
+        if re.search(r"::RequestData\\b", stack[-1][0]):
             for name, file in stack:
                 print("FRAME", file, name, sep="\\t")
             gdb.execute("kill")
@@ -126,13 +126,17 @@ def frames(tree, build, kernel):
         check=True, stdout=subprocess.DEVNULL)
     subprocess.run(["cmake", "--build", str(build), "--target", "morph-mesh"], check=True,
                    stdout=sys.stderr)
+    program, mesh = build / "bin/morph-mesh", tree / "Data/Models/small/bore_hex_small.vtu"
     with tempfile.TemporaryDirectory() as folder:
+        boundary = Path(folder) / "boundary.vtp"
+        subprocess.run([program, "--extract-boundary", mesh, boundary], check=True,
+                       stdout=subprocess.DEVNULL)
         script = Path(folder) / "stack.py"
         script.write_text(IN_GDB.format(kernel=f"{tree / file}:{number}"), encoding="utf-8")
         output = subprocess.run(
-            ["gdb", "--batch", "--nx", "-x", str(script), "--args", str(build / "bin/morph-mesh"),
-             "--threads", "1", "--method", "FEMWARP", "--move", "Surface 0", "--radius", "0.1",
-             str(tree / "Data/Models/small/canister_hex_small.vtu"), str(Path(folder) / "out.vtu")],
+            ["gdb", "--batch", "--nx", "-x", script, "--args", program, "--threads", "1",
+             "--method", "FEMWARP", "--displacement-array", "FinalDisplacement", mesh, boundary,
+             Path(folder) / "out.vtu"],
             capture_output=True, text=True, env={**os.environ, "DEBUGINFOD_URLS": ""})
     filters = str(tree / "Filters") + os.sep
     stack = [line.split("\t")[1:] for line in output.stdout.splitlines()

@@ -142,6 +142,15 @@ void setFieldData(const SolverMesh& whole, const std::string& path, vtkFieldData
     }
   }
   data->AddArray(names);
+  if (!whole.periodic.empty())
+  {
+    const auto pairs = stringArray("PeriodicSurfaces");
+    for (const auto& [first, second] : whole.periodic)
+    {
+      pairs->InsertNextValue(first + " = " + second);
+    }
+    data->AddArray(pairs);
+  }
   const auto file = stringArray("SolverFile");
   file->InsertNextValue(path);
   data->AddArray(file);

@@ -5,7 +5,10 @@
 #include "Mesh/CellShape.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <map>
+#include <utility>
 
 namespace fuzz
 {
@@ -35,6 +38,24 @@ std::uint8_t formOf(std::uint8_t linear, int order, Random& random)
       return linear;
   }
 }
+
+/// A Lagrange or Bezier cell; that itself where there is none.
+const morph::CellShape* anyOrder(std::uint8_t& type, Random& random)
+{
+  const std::map<std::uint8_t, std::array<Index, 2>> sizes = { { morph::Tetra, { 10, 20 } },
+    { morph::Hexahedron, { 27, 64 } }, { morph::Wedge, { 18, 40 } } }; // of order 2 and 3
+  const std::map<std::uint8_t, std::uint8_t> types = { { morph::Tetra, morph::LagrangeTetrahedron },
+    { morph::Hexahedron, morph::LagrangeHexahedron }, { morph::Wedge, morph::LagrangeWedge } };
+  const bool isThird = random.happens(0.5), isBezier = random.happens(0.3);
+  const auto size = sizes.find(type);
+  if (size == sizes.end())
+  {
+    return morph::cellShape(type);
+  }
+  constexpr int ToBezier = morph::BezierTetrahedron - morph::LagrangeTetrahedron;
+  type = static_cast<std::uint8_t>(types.at(type) + (isBezier ? ToBezier : 0));
+  return morph::shapeOfAnyOrder(type, size->second[isThird]);
+}
 }
 
 Mesh quadratic(const Mesh& mesh, int order, double part, Random random)
@@ -42,26 +63,28 @@ Mesh quadratic(const Mesh& mesh, int order, double part, Random random)
   Mesh result;
   result.offsets.push_back(0);
   std::vector<Eigen::RowVector3d> places;
-  std::map<std::vector<Index>, Index> known;
+  std::map<std::vector<std::pair<Index, long>>, Index> known; // by shares of corners
   const std::uint64_t sameForm = random.bits();
   for (Index c = 0; c < mesh.numberOfCells(); ++c)
   {
     Random form(sameForm); // neighbors have the same face nodes
-    const std::uint8_t type =
-      random.happens(part) ? formOf(mesh.types[c], order, form) : mesh.types[c];
-    const morph::CellShape& shape = *morph::cellShape(type);
+    std::uint8_t type = mesh.types[c];
+    const bool isRaised = random.happens(part);
+    type = isRaised && order < 4 ? formOf(type, order, form) : type;
+    const morph::CellShape& shape =
+      *(isRaised && order == 4 ? anyOrder(type, form) : morph::cellShape(type));
     std::vector<Index> nodes(mesh.cell(c), mesh.cell(c) + mesh.cellSize(c));
     for (int k = static_cast<int>(nodes.size()); k < shape.numberOfNodes; ++k)
     {
       double N[8];
       morph::shapeFunctions(shape.shape, shape.extraNodes[k - shape.numberOfCorners], N, nullptr);
-      std::vector<Index> between;
+      std::vector<std::pair<Index, long>> between;
       Eigen::RowVector3d place = Eigen::RowVector3d::Zero();
       for (int a = 0; a < shape.numberOfCorners; ++a)
       {
         if (N[a] > 0)
         {
-          between.push_back(nodes[a]);
+          between.emplace_back(nodes[a], std::lround(N[a] * 1e6));
           place += N[a] * mesh.points.row(nodes[a]);
         }
       }

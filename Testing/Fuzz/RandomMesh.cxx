@@ -136,8 +136,9 @@ Mesh lattice(Choices& choices)
   const int order =
     kind == 5 || kind == 8
       ? 0
-      : choices.pick("mesh.order", { "linear", "quadratic", "fully quadratic", "quadratic-linear" },
-          { 7, 1, 1, 0.5 });
+      : choices.pick("mesh.order",
+          { "linear", "quadratic", "fully quadratic", "quadratic-linear", "any order" },
+          { 7, 1, 1, 0.5, 0.5 });
   // Quadratic cells bring many nodes.
   const double large = order == 0 ? 0.15 : 0.03;
   const auto length = [large](Random& random) {

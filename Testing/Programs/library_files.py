@@ -43,7 +43,10 @@ BETWEEN = {24: ((0, 1), (1, 2), (0, 2), (0, 3), (1, 3), (2, 3)),
 BETWEEN[29] = BETWEEN[25] + ((0, 3, 7, 4), (1, 2, 6, 5), (0, 1, 5, 4), (3, 2, 6, 7), (0, 1, 2, 3),
                              (4, 5, 6, 7), tuple(range(8)))
 BETWEEN[32] = BETWEEN[26] + ((0, 1, 4, 3), (1, 2, 5, 4), (2, 0, 3, 5))
-CORNERS = {24: 4, 25: 8, 26: 6, 27: 5, 29: 8, 32: 6}
+# Of a tetrahedron of 15 nodes: those of faces, whose order nothing depends on.
+FACES = ((0, 1, 2), (0, 1, 3), (1, 2, 3), (0, 2, 3))
+BETWEEN[71] = BETWEEN[24] + FACES + ((0, 1, 2, 3),)
+CORNERS = {71: 4, 24: 4, 25: 8, 26: 6, 27: 5, 29: 8, 32: 6}
 
 
 class Files(unittest.TestCase):
@@ -207,6 +210,27 @@ class Gmsh(Files):
                                     f"msh{version}", "-o", path], cwd=self.folder, check=True,
                                    capture_output=True, timeout=120)
                     self.check_middles(path, what)
+
+    @unittest.skipUnless(shutil.which("gmsh"), "Gmsh is not installed (gmsh)")
+    def test_pyramids_with_a_node_in_their_base(self):
+        (self.folder / "box.geo").write_text(
+            'SetFactory("OpenCASCADE"); Box(1) = {0, 0, 0, 2, 2, 2};\n'
+            "Transfinite Curve{:} = 3; Transfinite Surface{5}; Recombine Surface{5};\n"
+            'Physical Volume("body") = {1}; Physical Surface("foot") = {5};\n')
+        path, out = self.folder / "box.msh", self.folder / "out.msh"
+        subprocess.run(["gmsh", "-3", "box.geo", "-order", "2", "-format", "msh22", "-o", path],
+                       cwd=self.folder, check=True, capture_output=True, timeout=120)
+        self.morph(path, out, "--move", "foot", "--translate", "0.25,0,-0.5")
+        nodes, elements = path.read_text().split("$EndNodes")
+        points = [{line.split()[0]: [float(x) for x in line.split()[1:]]
+                   for line in file.read_text().split("$EndNodes")[0].split("\n")
+                   if len(line.split()) == 4} for file in (path, out)]
+        pyramids = [line.split()[5:] for line in elements.splitlines()
+                    if line.split()[1:2] == ["14"]]
+        self.assertEqual({len(nodes) for nodes in pyramids}, {14})
+        for nodes in pyramids:
+            for before, after, by in zip(points[0][nodes[13]], points[1][nodes[13]], (.25, 0, -.5)):
+                self.assertAlmostEqual(after - before, by, delta=1e-12)
 
     def as_written_by_gmsh(self, path):
         """What Gmsh writes after it has read a file: text of version 2.2."""
@@ -419,8 +443,9 @@ class SecondOrder(Files):
              (7, 4)),
         26: ((0, 1), (1, 2), (2, 0), (0, 3), (1, 4), (2, 5), (3, 4), (4, 5), (5, 3)),
         24: BETWEEN[24]}
-    POINTS[32] = POINTS[26]
+    POINTS[32], POINTS[71] = POINTS[26], POINTS[24]
     BOTTOM_SIDES_TOP[32] = BOTTOM_SIDES_TOP[26] + BETWEEN[32][9:]
+    BOTTOM_SIDES_TOP[71] = BETWEEN[24] + ((0, 1, 2, 3),) + FACES
 
     def nodes(self, what, between):
         corners = self.POINTS[what]
@@ -454,7 +479,8 @@ class SecondOrder(Files):
 
     @unittest.skipUnless(shutil.which("ncgen"), "ncgen is not installed (netcdf-bin)")
     def test_exodus(self):
-        for what, name in ((25, "HEX20"), (26, "WEDGE15"), (32, "WEDGE18"), (24, "TETRA10")):
+        for what, name in ((25, "HEX20"), (26, "WEDGE15"), (32, "WEDGE18"), (24, "TETRA10"),
+                           (71, "TETRA15")):
             nodes = self.nodes(what, self.BOTTOM_SIDES_TOP)
             values = lambda axis: ", ".join(str(x[axis]) for x in nodes)
             (self.folder / "one.cdl").write_text(

@@ -30,7 +30,19 @@ SYSTEM = {
                    "writeControl timeStep; writeInterval 1; writeFormat %s; writePrecision 12;",
     "fvSchemes": "gradSchemes {} divSchemes {} laplacianSchemes {}", "fvSolution": "",
     "decomposeParDict": "numberOfSubdomains 4; method simple; "
-                        "simpleCoeffs { n (2 2 1); delta 0.001; }", "blockMeshDict": BLOCKS}
+                        "simpleCoeffs { n (2 2 1); delta 0.001; }"}
+SIDES = BLOCKS[BLOCKS.index("sides {"):]
+# Left and right are images of each other, of which no file but that of the patches knows.
+CYCLIC = BLOCKS.replace(SIDES, """
+left { type cyclic; neighbourPatch right; faces ((3 0 4 7) (7 4 8 11)); }
+right { type cyclic; neighbourPatch left; faces ((1 2 6 5) (5 6 10 9)); }
+sides { type patch; faces ((0 1 5 4) (2 3 7 6) (4 5 9 8) (6 7 11 10)); });
+""")
+# One cell thick: front and back are one patch.
+FLAT = BLOCKS.replace("(5 5 4)", "(5 1 4)").replace(SIDES, """
+frontAndBack { type empty; faces ((0 1 5 4) (2 3 7 6) (4 5 9 8) (6 7 11 10)); }
+sides { type patch; faces ((3 0 4 7) (7 4 8 11) (1 2 6 5) (5 6 10 9)); });
+""")
 TOP = ("--move", "top", "--translate", "0,0,0.2", "--quiet")
 
 
@@ -54,10 +66,10 @@ class Cases(solver_files.SolverFiles):
         super().setUp()
         self.case, self.out = self.folder / "case", self.folder / "out"
 
-    def make(self, program, *options, form="ascii"):
+    def make(self, program, *options, form="ascii", blocks=BLOCKS):
         shutil.rmtree(self.case, ignore_errors=True)
         (self.case / "system").mkdir(parents=True)
-        for name, text in SYSTEM.items():
+        for name, text in {**SYSTEM, "blockMeshDict": blocks}.items():
             header = "FoamFile { version 2.0; format ascii; class dictionary; object %s; }\n" % name
             (self.case / "system" / name).write_text(header + text.replace("%s", form))
         openfoam("blockMesh", self.case)
@@ -73,6 +85,41 @@ class Cases(solver_files.SolverFiles):
         done = run(*words)
         self.assertEqual(done.returncode, 0, done.stderr)
         return done
+
+    def points(self, case):
+        text = (case / "constant" / "polyMesh" / "points").read_text()
+        return [tuple(map(float, row.split()))
+                for row in re.findall(r"\(([-+.\de]+ [-+.\de]+ [-+.\de]+)\)", text)]
+
+    def check_images(self, blocks, axis, *options):
+        """Nodes at 0 along the axis, and those at 1 behind them, move alike."""
+        self.make("checkMesh", blocks=blocks)
+        openfoam("blockMesh", self.case)
+        self.copy()
+        self.morph(*options, "--quiet", self.case, self.out)
+        before, after, largest = self.points(self.case), self.points(self.out), 0
+        numbers = {tuple(round(x, 6) for x in place): i for i, place in enumerate(before)}
+        for place, i in numbers.items():
+            if place[axis] == 0:
+                image = numbers[tuple(1 if k == axis else x for k, x in enumerate(place))]
+                for k in range(3):
+                    step = after[i][k] - before[i][k]
+                    largest = max(largest, abs(step))
+                    self.assertAlmostEqual(step, after[image][k] - before[image][k], delta=1e-10)
+        self.assertGreater(largest, 0.05)
+        self.assertIn("Mesh OK", openfoam("checkMesh", self.out, "-constant"))
+
+    def test_cyclic_patches_stay_images(self):
+        """A handle beside one of them moves both."""
+        handle = self.folder / "handle.csv"
+        handle.write_text("x,y,z,dx,dy,dz,radius\n0,.5,1,0.02,0,0.2,.5\n")
+        self.check_images(CYCLIC, 0, "--move", "top", "--handles", handle)
+
+    def test_front_and_back_of_a_plane_case_stay_images(self):
+        for method in ("WeightedResidual", "Smoothing", "MeshSmoothing"):
+            with self.subTest(method=method):
+                self.check_images(FLAT, 1, "--move", "top", "--rotate", "y,12",
+                                  "--surface-method", method)
 
     @unittest.skipUnless(shutil.which("gmsh"), "Gmsh is not installed (gmsh)")
     def test_a_case_that_a_converter_of_openfoam_wrote(self):

@@ -33,6 +33,11 @@ const Surroundings::Result& BoundaryMover::move(const BoundaryModel& model, cons
       {
         this->inner_.constrain(model, options.inner, chosen, places);
       }
+      this->periodic_.find(model, options.periodic);
+      if (!options.periodic.empty())
+      {
+        this->periodic_.addImages(model, chosen, places);
+      }
       result =
         this->surroundings_.spread(model, chosen, places, options.rest, spreading, std::move(last));
       if (options.contact.distance > 0)
@@ -58,7 +63,8 @@ const Surroundings::Result& BoundaryMover::move(const BoundaryModel& model, cons
     this->rounds_.run(model, chosen.held, options.rest.sliding, options.slideRounds,
       this->surroundings_, pieces, this->inner_, result, sliding);
   }
-  if (hasInner || !options.rest.sliding.empty())
+  alike([&] { this->periodic_.tie(model, result); });
+  if (hasInner || !options.rest.sliding.empty() || !options.periodic.empty())
   {
     alike(
       [&]

@@ -3,6 +3,7 @@
 
 #include "BoundaryMover/Contact.h"
 #include "BoundaryMover/InnerNodes.h"
+#include "BoundaryMover/PeriodicSides.h"
 #include "BoundaryMover/SlideRounds.h"
 #include "BoundaryMover/Surroundings.h"
 
@@ -26,6 +27,7 @@ public:
     InnerNodes::Options inner;
     int slideRounds = 0; ///< see SlideRounds
     Contact::Options contact;
+    PeriodicSides::Names periodic;
 
     bool hasInner() const
     {
@@ -35,8 +37,8 @@ public:
 
   /// `targets`: of choice.moving, #moving x 3, finite. `pieces`: of a mesh on several processes,
   /// whose boundary alone `model` is; else null. Then this is collective. Warns of what is not met
-  /// where zones and sliding surfaces win over what else is asked. Throws Error as InnerNodes,
-  /// SlideRounds and Contact do; then there is no result. Cost: passes over the boundary and, the
+  /// where zones, sliding and periodic surfaces win over what else is asked. Throws Error as InnerNodes,
+  /// SlideRounds, Contact and PeriodicSides do; then there is no result. Cost: passes over the boundary and, the
   /// first time, the weights of surfaces that follow.
   const Surroundings::Result& move(const BoundaryModel& model, const Choice& choice,
     const Points& targets, const Options& options, const InnerPieces* pieces, Monitor& monitor);
@@ -53,6 +55,7 @@ private:
   InnerNodes inner_;
   SlideRounds rounds_;
   Contact contact_;
+  PeriodicSides periodic_;
   Surroundings::Result result_;
 };
 }

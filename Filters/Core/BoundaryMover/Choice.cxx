@@ -77,6 +77,19 @@ void setMoving(const TargetOfNode& moving, Choice& choice, Points& targets)
   }
 }
 
+void markMovingFaces(const BoundaryFaces& faces, Choice& choice)
+{
+  const auto corner = faces.connectivity.begin();
+  for (std::size_t f = 0; f + 1 < faces.offsets.size(); ++f)
+  {
+    choice.isMovingFace[f] =
+      choice.isMovingFace[f] ||
+      std::all_of(corner + faces.offsets[f], corner + faces.offsets[f + 1],
+        [&](Index node)
+        { return std::binary_search(choice.moving.begin(), choice.moving.end(), node); });
+  }
+}
+
 bool Choice::operator==(const Choice& other) const
 {
   return this->moving == other.moving && this->held == other.held &&

@@ -29,6 +29,9 @@ TargetOfNode targetsOf(const Choice& choice, const Points& targets);
 /// Makes these the nodes that move, and `targets` theirs.
 void setMoving(const TargetOfNode& moving, Choice& choice, Points& targets);
 
+/// Adds the faces all of whose corners move to the moving ones.
+void markMovingFaces(const BoundaryFaces& faces, Choice& choice);
+
 /// Chooses the patches of these names, and holds others; see findPatches(). Nodes of a held patch
 /// that are chosen to move, move. Nodes between corners (of quadratic cells) that all move, move
 /// too. Options are named in messages: "Surfaces" and "FixedSurfaces". Throws Error for a name that

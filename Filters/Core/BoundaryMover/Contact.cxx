@@ -223,15 +223,7 @@ bool Contact::follow(
   }
   this->followers_.insert(this->followers_.end(), added.begin(), added.end());
   setMoving(all, choice, targets);
-  for (std::size_t f = 0; f + 1 < model.faces.offsets.size(); ++f)
-  {
-    const auto corner = model.faces.connectivity.begin();
-    choice.isMovingFace[f] =
-      choice.isMovingFace[f] ||
-      std::all_of(corner + model.faces.offsets[f], corner + model.faces.offsets[f + 1],
-        [&](Index node)
-        { return std::binary_search(choice.moving.begin(), choice.moving.end(), node); });
-  }
+  markMovingFaces(model.faces, choice);
   return true;
 }
 

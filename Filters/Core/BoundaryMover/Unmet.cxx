@@ -78,8 +78,9 @@ void warnOfUnmet(const BoundaryModel& model, const Choice& choice, const Points&
   off.write("slide leave their surfaces", text);
   if (!text.str().empty())
   {
-    monitor.warn("Zones and sliding surfaces win over what else is asked of the boundary." +
-                 text.str() + " Leave these nodes out of one or the other if that is not meant.");
+    monitor.warn(
+      "Zones, sliding and periodic surfaces win over what else is asked of the boundary." +
+      text.str() + " Leave these nodes out of one or the other if that is not meant.");
   }
 }
 }

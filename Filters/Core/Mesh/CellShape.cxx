@@ -32,7 +32,8 @@ constexpr double WedgeExtra[][3] = { { .5, 0, 0 }, { .5, .5, 0 }, { 0, .5, 0 }, 
   { .5, .5, 1 }, { 0, .5, 1 }, { 0, 0, .5 }, { 1, 0, .5 }, { 0, 1, .5 }, { .5, 0, .5 },
   { .5, .5, .5 }, { 0, .5, .5 } };
 constexpr double PyramidExtra[][3] = { { .5, 0, 0 }, { 1, .5, 0 }, { .5, 1, 0 }, { 0, .5, 0 },
-  { 0, 0, .5 }, { 1, 0, .5 }, { 1, 1, .5 }, { 0, 1, .5 } };
+  { 0, 0, .5 }, { 1, 0, .5 }, { 1, 1, .5 }, { 0, 1, .5 }, { .5, .5, 0 }, { .5, 0, 1. / 3 },
+  { 1, .5, 1. / 3 }, { .5, 1, 1. / 3 }, { 0, .5, 1. / 3 }, { .5, .5, .2 } };
 
 constexpr CellShape flat(const char* name, Shape shape, int dimension, int nodes, int corners)
 {
@@ -60,7 +61,7 @@ const CellShape* cellShape(std::uint8_t type)
 {
   static const auto table = []
   {
-    std::array<CellShape, Polyhedron + 1> t{};
+    std::array<CellShape, BezierWedge + 1> t{};
     t[EmptyCell] = flat("empty cell", Shape::Other, 0, 0, 0);
     t[Vertex] = flat("vertex", Shape::Other, 0, 1, 1);
     t[PolyVertex] = flat("poly-vertex", Shape::Other, 0, -1, 0);
@@ -91,6 +92,27 @@ const CellShape* cellShape(std::uint8_t type)
     t[BiquadraticQuadraticWedge] = wedge("biquadratic-quadratic wedge", 18);
     t[BiquadraticQuadraticHexahedron] = hex("biquadratic-quadratic hexahedron", 24);
     t[BiquadraticTriangle] = flat("biquadratic triangle", Shape::Tri, 2, 7, 3);
+    t[CubicLine] = flat("cubic line", Shape::Other, 1, 4, 2);
+    t[QuadraticPolygon] = flat("quadratic polygon", Shape::Other, 2, -1, 0);
+    t[TriquadraticPyramid] = pyramid("triquadratic pyramid", 19);
+    t[TriquadraticPyramid].isMapped = false;
+    t[LagrangeCurve] = flat("Lagrange curve", Shape::Other, 1, -1, 2);
+    t[LagrangeTriangle] = flat("Lagrange triangle", Shape::Tri, 2, -1, 3);
+    t[LagrangeQuadrilateral] = flat("Lagrange quadrilateral", Shape::Quadrilateral, 2, -1, 4);
+    t[LagrangeTetrahedron] = tet("Lagrange tetrahedron", -1);
+    t[LagrangeHexahedron] = hex("Lagrange hexahedron", -1);
+    t[LagrangeWedge] = wedge("Lagrange wedge", -1);
+    t[BezierCurve] = flat("Bezier curve", Shape::Other, 1, -1, 2);
+    t[BezierTriangle] = flat("Bezier triangle", Shape::Tri, 2, -1, 3);
+    t[BezierQuadrilateral] = flat("Bezier quadrilateral", Shape::Quadrilateral, 2, -1, 4);
+    t[BezierTetrahedron] = tet("Bezier tetrahedron", -1);
+    t[BezierHexahedron] = hex("Bezier hexahedron", -1);
+    t[BezierWedge] = wedge("Bezier wedge", -1);
+    for (int type = LagrangeCurve; type <= BezierWedge; ++type)
+    {
+      t[type].extraNodes = nullptr; // they depend on the order
+      t[type].isMapped = false;
+    }
     t[Polyhedron] = { "polyhedron", Shape::Polyhedron, 3, -1, 0, 0, nullptr, InOrder, nullptr };
     return t;
   }();

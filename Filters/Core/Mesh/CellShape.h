@@ -41,7 +41,23 @@ enum CellType : std::uint8_t
   BiquadraticQuadraticWedge = 32,
   BiquadraticQuadraticHexahedron = 33,
   BiquadraticTriangle = 34,
-  Polyhedron = 42
+  CubicLine = 35,
+  QuadraticPolygon = 36,
+  TriquadraticPyramid = 37,
+  Polyhedron = 42,
+  // Of any order.
+  LagrangeCurve = 68,
+  LagrangeTriangle = 69,
+  LagrangeQuadrilateral = 70,
+  LagrangeTetrahedron = 71,
+  LagrangeHexahedron = 72,
+  LagrangeWedge = 73,
+  BezierCurve = 75,
+  BezierTriangle = 76,
+  BezierQuadrilateral = 77,
+  BezierTetrahedron = 78,
+  BezierHexahedron = 79,
+  BezierWedge = 80
 };
 
 /// The linear shape that a cell's corners span.
@@ -71,7 +87,7 @@ struct CellShape
   const char* name; ///< as in VTK: "hexahedron"
   Shape shape;
   int dimension;     ///< 0 to 3
-  int numberOfNodes; ///< -1 where the type leaves it open (poly-line, polygon)
+  int numberOfNodes; ///< -1 where the type leaves it open (poly-line, polygon, any order)
   int numberOfCorners;
   int numberOfFaces; ///< of volume cells; 0 otherwise
   const FaceShape* faces;
@@ -81,16 +97,28 @@ struct CellShape
   /// Nominal parametric coordinates of the nodes after the corners (mid-side, face, body).
   /// (numberOfNodes - numberOfCorners) x 3; null where there are none or dimension < 3.
   const double (*extraNodes)[3];
+  /// Whether quality and certificate know the map of the nodes after the corners (CellMap.h).
+  /// Without it, quality is that of the corners, and the certificate is undecided.
+  bool isMapped = true;
 };
 
-/// Returns null for a type that this library does not know (Lagrange, ...).
+/// The highest order of Lagrange and Bezier cells.
+constexpr int HighestOrder = 10;
+
+/// Returns null for a type that this library does not know.
 const CellShape* cellShape(std::uint8_t type);
+
+/// The shape of a cell of a type of any order (Lagrange, Bezier) that has so many nodes: those of
+/// an order that is the same in all directions, or VTK's tetrahedron of 15, wedge of 21 and
+/// triangle of 7 nodes. Null for another number, or an order above HighestOrder.
+const CellShape* shapeOfAnyOrder(std::uint8_t type, Index nodes);
 
 /// What a cell is, by its type and its nodes; null as above. Whoever works on the cells of a mesh
 /// asks here, so that they are recognized in one place.
 inline const CellShape* cellShape(const Mesh& mesh, Index cell)
 {
-  return cellShape(mesh.types[cell]);
+  const std::uint8_t type = mesh.types[cell];
+  return type < LagrangeCurve ? cellShape(type) : shapeOfAnyOrder(type, mesh.cellSize(cell));
 }
 
 /// Copies the positions of a cell's corners, in the order of its shape. `points`: #nodes x 3;

@@ -55,8 +55,9 @@ void validate(const Mesh& mesh)
     throw Error("Cells of VTK type " + std::to_string(type) +
                 (type >= 60 ? " (higher order)" : "") + " cannot be morphed: cell ids " +
                 listIds(unknown) +
-                ". Use tetrahedra, hexahedra, voxels, wedges, pyramids, their quadratic forms or "
-                "polyhedra.");
+                ". Use tetrahedra, hexahedra, voxels, wedges, pyramids, their quadratic forms, "
+                "Lagrange or Bezier cells of one order up to " +
+                std::to_string(HighestOrder) + ", or polyhedra.");
   }
   if (!wrongSize.empty())
   {

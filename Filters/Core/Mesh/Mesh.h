@@ -44,7 +44,7 @@ struct Mesh
 };
 
 /// Throws Error unless the mesh is consistent: array lengths, node ids, finite coordinates, nodes
-/// per cell, closed polyhedra. The message names cells of a type that is not in CellShape.h
-/// (Lagrange cells, for instance). Cost: one pass over the mesh.
+/// per cell, closed polyhedra. The message names cells of a type that is not in CellShape.h, or of
+/// another order. Cost: one pass over the mesh.
 void validate(const Mesh& mesh);
 }

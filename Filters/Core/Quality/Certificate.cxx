@@ -373,7 +373,7 @@ struct Counts
 Certificate certifyCell(std::uint8_t type, const double (*nodes)[3])
 {
   const CellShape* shape = cellShape(type);
-  if (!shape || numberOfCorners(shape->shape) == 0)
+  if (!shape || !shape->isMapped || numberOfCorners(shape->shape) == 0)
   {
     return Certificate::Undecided;
   }
@@ -383,6 +383,20 @@ Certificate certifyCell(std::uint8_t type, const double (*nodes)[3])
     x[k] = Vector(nodes[k][0], nodes[k][1], nodes[k][2]);
   }
   return certifyNodes(type, *shape, x);
+}
+
+std::vector<Index> unmappedCells(const Mesh& mesh)
+{
+  std::vector<Index> cells;
+  for (Index c = 0; c < mesh.numberOfCells(); ++c)
+  {
+    const CellShape* shape = cellShape(mesh, c);
+    if (shape && shape->dimension == 3 && !shape->isMapped)
+    {
+      cells.push_back(c);
+    }
+  }
+  return cells;
 }
 
 CertificateReport certify(const Mesh& mesh, const ConstPoints& points,
@@ -405,7 +419,7 @@ CertificateReport certify(const Mesh& mesh, const ConstPoints& points,
       thread_local PolyhedronPlaces measure; // for its memory
       report.cells[c] = measure.certify(mesh, c, points, orientation.empty() ? 1 : orientation[c]);
     }
-    else if (shape)
+    else if (shape && shape->isMapped)
     {
       Vector x[MostNodesOfVolume];
       for (int k = 0; k < shape->numberOfNodes; ++k)

@@ -67,11 +67,14 @@ CertificateReport certify(const Mesh& mesh, const ConstPoints& points,
 /// The maximum number of nodes of a volume cell that this library knows.
 constexpr int MostNodesOfVolume = 27;
 
-/// Whether the shape is a volume cell with more nodes than its corners.
+/// Whether the shape is a volume cell with more nodes than its corners, whose map is known.
 inline bool isQuadraticVolume(const CellShape& shape)
 {
-  return shape.extraNodes && shape.numberOfNodes > shape.numberOfCorners;
+  return shape.isMapped && shape.extraNodes && shape.numberOfNodes > shape.numberOfCorners;
 }
+
+/// The volume cells with more nodes than their corners whose map is not known, ascending.
+std::vector<Index> unmappedCells(const Mesh& mesh);
 
 /// The result of a proof about the Jacobian determinant of a cell.
 struct JacobianProof

@@ -112,6 +112,16 @@ void warnOfShared(const std::vector<Index>& repeatedCells, const std::vector<Ind
   }
 }
 
+void warnOfUnmapped(const std::vector<Index>& cells, Monitor& monitor)
+{
+  if (!cells.empty())
+  {
+    monitor.warn("Quality is that of the corners in " + std::to_string(cells.size()) +
+                 " cells of higher order, whose validity between them is undecided: cell ids " +
+                 listIds(cells) + ".");
+  }
+}
+
 void warnOfLoose(const std::vector<Index>& nodes, Monitor& monitor)
 {
   if (!nodes.empty())

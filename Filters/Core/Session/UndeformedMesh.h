@@ -66,6 +66,8 @@ private:
 /// are those of the whole mesh, ascending.
 void warnOfShared(const std::vector<Index>& repeatedCells, const std::vector<Index>& touchingNodes,
   Monitor& monitor);
+/// Warns of cells of which quality sees the corners alone; see unmappedCells(). Ids as above.
+void warnOfUnmapped(const std::vector<Index>& cells, Monitor& monitor);
 /// Warns of nodes of shells, beams or links that hang on nothing; see AttachedNodes.h. Ids as
 /// above.
 void warnOfLoose(const std::vector<Index>& nodes, Monitor& monitor);

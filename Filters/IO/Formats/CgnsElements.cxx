@@ -12,9 +12,9 @@ CgnsElement cgnsElement(Index type)
   static constexpr CgnsElement Elements[] = { {}, {}, { Vertex, 1 }, { Line, 2 },
     { QuadraticEdge, 3 }, { Triangle, 3 }, { QuadraticTriangle, 6 }, { Quad, 4 },
     { QuadraticQuad, 8 }, { BiquadraticQuad, 9 }, { Tetra, 4 }, { QuadraticTetra, 10 },
-    { Pyramid, 5 }, { EmptyCell, 14 }, { Wedge, 6 }, { QuadraticWedge, 15 }, { EmptyCell, 18 },
-    { Hexahedron, 8 }, { QuadraticHexahedron, 20 }, { TriquadraticHexahedron, 27 }, {},
-    { QuadraticPyramid, 13 } };
+    { Pyramid, 5 }, { QuadraticPyramid, 14 }, { Wedge, 6 }, { QuadraticWedge, 15 },
+    { BiquadraticQuadraticWedge, 18 }, { Hexahedron, 8 }, { QuadraticHexahedron, 20 },
+    { TriquadraticHexahedron, 27 }, {}, { QuadraticPyramid, 13 } };
   return type > 0 && type < Index(std::size(Elements)) ? Elements[type] : CgnsElement();
 }
 
@@ -34,9 +34,9 @@ void cgnsToVtkOrder(std::uint8_t cellType, std::vector<Index>& nodes)
       nodes[20 + i] = old[From[i]];
     }
   }
-  if (cellType == QuadraticWedge)
+  if (cellType == QuadraticWedge || cellType == BiquadraticQuadraticWedge)
   {
-    std::rotate(nodes.begin() + 9, nodes.begin() + 12, nodes.end());
+    std::rotate(nodes.begin() + 9, nodes.begin() + 12, nodes.begin() + 15);
   }
 }
 }

@@ -17,16 +17,16 @@ struct Kind
 };
 
 constexpr Kind Kinds[] = { { "TET", 4, Tetra }, { "TET", 10, QuadraticTetra },
-  { "HEX", 8, Hexahedron }, { "HEX", 20, QuadraticHexahedron },
+  { "TET", 15, LagrangeTetrahedron }, { "HEX", 8, Hexahedron }, { "HEX", 20, QuadraticHexahedron },
   { "HEX", 27, TriquadraticHexahedron }, { "WED", 6, Wedge }, { "WED", 15, QuadraticWedge },
   { "WED", 18, BiquadraticQuadraticWedge }, { "PYR", 5, Pyramid }, { "PYR", 13, QuadraticPyramid },
-  { "TRI", 3, Triangle }, { "TRI", 6, QuadraticTriangle }, { "QUAD", 4, Quad },
-  { "QUAD", 8, QuadraticQuad }, { "QUAD", 9, BiquadraticQuad }, { "SHELL", 3, Triangle },
-  { "SHELL", 6, QuadraticTriangle }, { "SHELL", 4, Quad }, { "SHELL", 8, QuadraticQuad },
-  { "SHELL", 9, BiquadraticQuad }, { "BEAM", 2, Line }, { "BEAM", 3, QuadraticEdge },
-  { "BAR", 2, Line }, { "BAR", 3, QuadraticEdge }, { "TRUSS", 2, Line },
-  { "TRUSS", 3, QuadraticEdge }, { "EDGE", 2, Line }, { "EDGE", 3, QuadraticEdge },
-  { "SPHERE", 1, Vertex } };
+  { "PYR", 14, QuadraticPyramid }, { "TRI", 3, Triangle }, { "TRI", 6, QuadraticTriangle },
+  { "QUAD", 4, Quad }, { "QUAD", 8, QuadraticQuad }, { "QUAD", 9, BiquadraticQuad },
+  { "SHELL", 3, Triangle }, { "SHELL", 6, QuadraticTriangle }, { "SHELL", 4, Quad },
+  { "SHELL", 8, QuadraticQuad }, { "SHELL", 9, BiquadraticQuad }, { "BEAM", 2, Line },
+  { "BEAM", 3, QuadraticEdge }, { "BAR", 2, Line }, { "BAR", 3, QuadraticEdge },
+  { "TRUSS", 2, Line }, { "TRUSS", 3, QuadraticEdge }, { "EDGE", 2, Line },
+  { "EDGE", 3, QuadraticEdge }, { "SPHERE", 1, Vertex } };
 }
 
 std::uint8_t exodusCellType(const std::string& type, Index nodes)
@@ -60,6 +60,10 @@ void exodusToVtkOrder(std::uint8_t cellType, std::vector<Index>& nodes)
       nodes[20 + i] = old[From[i]];
     }
   }
+  if (cellType == LagrangeTetrahedron) // the node inside comes before those of the faces
+  {
+    std::rotate(nodes.begin() + 10, nodes.begin() + 11, nodes.end());
+  }
   if (cellType == QuadraticWedge || cellType == BiquadraticQuadraticWedge)
   {
     std::rotate(nodes.begin() + 9, nodes.begin() + 12, nodes.begin() + 15);
@@ -85,6 +89,7 @@ std::vector<int> exodusSide(std::uint8_t cellType, Index side)
     {
       case Tetra:
       case QuadraticTetra:
+      case LagrangeTetrahedron:
         return tetra;
       case Hexahedron:
       case QuadraticHexahedron:

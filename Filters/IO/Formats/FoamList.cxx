@@ -449,9 +449,13 @@ std::vector<FoamList::Patch> FoamList::patches()
   return this->namedEntries<Patch>(
     [this](Patch& patch, const std::string& key)
     {
-      if (key == "type")
+      std::string* text = key == "type"             ? &patch.type
+                          : key == "neighbourPatch" ? &patch.neighbour
+                          : key == "referPatch"     ? &patch.cyclic
+                                                    : nullptr;
+      if (text)
       {
-        patch.type = std::string(this->word().of(this->content_));
+        *text = std::string(this->word().of(this->content_));
       }
       else if (key == "nFaces" || key == "startFace")
       {

@@ -11,7 +11,7 @@ GmshElement gmshElement(Index type)
   static constexpr GmshElement Elements[] = { {}, { Line, 2 }, { Triangle, 3 }, { Quad, 4 },
     { Tetra, 4 }, { Hexahedron, 8 }, { Wedge, 6 }, { Pyramid, 5 }, { QuadraticEdge, 3 },
     { QuadraticTriangle, 6 }, { BiquadraticQuad, 9 }, { QuadraticTetra, 10 },
-    { TriquadraticHexahedron, 27 }, { BiquadraticQuadraticWedge, 18 }, { EmptyCell, 14 },
+    { TriquadraticHexahedron, 27 }, { BiquadraticQuadraticWedge, 18 }, { QuadraticPyramid, 14 },
     { Vertex, 1 }, { QuadraticQuad, 8 }, { QuadraticHexahedron, 20 }, { QuadraticWedge, 15 },
     { QuadraticPyramid, 13 } };
   return type > 0 && type < Index(std::size(Elements)) ? Elements[type] : GmshElement();
@@ -28,7 +28,7 @@ void gmshToVtkOrder(std::uint8_t cellType, std::vector<Index>& nodes)
   static const std::vector<std::size_t> wedge = { 6, 9, 7, 12, 14, 13, 8, 10, 11 };
   static const std::vector<std::size_t> biquadratic = { 6, 9, 7, 12, 14, 13, 8, 10, 11, 15, 17,
     16 };
-  static const std::vector<std::size_t> pyramid = { 5, 8, 10, 6, 7, 9, 11, 12 };
+  static const std::vector<std::size_t> pyramid = { 5, 8, 10, 6, 7, 9, 11, 12, 13 };
   const std::vector<std::size_t>* from = nullptr;
   switch (cellType)
   {
@@ -54,9 +54,10 @@ void gmshToVtkOrder(std::uint8_t cellType, std::vector<Index>& nodes)
       return;
   }
   const std::vector<Index> old = nodes;
-  for (std::size_t i = 0; i < from->size(); ++i)
+  const auto corners = static_cast<std::size_t>(cellShape(cellType)->numberOfCorners);
+  for (std::size_t i = corners; i < nodes.size(); ++i)
   {
-    nodes[nodes.size() - from->size() + i] = old[(*from)[i]];
+    nodes[i] = old[(*from)[i - corners]];
   }
 }
 }

@@ -206,12 +206,9 @@ GmshElement GmshFile::kind(const GmshCursor& cursor, Index type) const
   const GmshElement element = gmshElement(type);
   if (element.cellType == EmptyCell)
   {
-    cursor.fail(
-      "the element type " + std::to_string(type) +
-      (element.nodes > 0 ? ", a pyramid of 14 nodes, has no counterpart here. Set "
-                           "Mesh.SecondOrderIncomplete to 1 in Gmsh, so that it has 13."
-                         : " is not supported: elements of first and second order are. Set "
-                           "Mesh.ElementOrder to 2 in Gmsh."));
+    cursor.fail("the element type " + std::to_string(type) +
+                " is not supported: elements of first and second order are. Set Mesh.ElementOrder "
+                "to 2 in Gmsh.");
   }
   return element;
 }

@@ -48,6 +48,13 @@ public:
                  std::to_string(this->cuts_.size()) +
                  " faces of their cuts have no face on the other side. Is a piece missing?");
     }
+    for (const auto& [kind, names] : this->flat_)
+    {
+      if (names.size() == 2 || (names.size() == 1 && kind.second == "empty"))
+      {
+        this->mesh_.periodic.emplace(*names.begin(), *names.rbegin());
+      }
+    }
     if (!this->folders_.warning.empty())
     {
       this->mesh_.warnings.push_back(this->folders_.warning);
@@ -110,6 +117,8 @@ private:
   std::map<std::vector<Index>, Index> interfaces_;
   ///@}
   std::map<std::pair<std::string, std::string>, std::string> zones_; ///< the set of each, by file
+  /// Patches of the types empty and wedge, of each region: front and back.
+  std::map<std::pair<std::string, std::string>, std::set<std::string>> flat_;
 };
 
 void OpenFoamMesh::readPoints(const FoamFolder& folder)
@@ -288,22 +297,31 @@ std::vector<Index> OpenFoamMesh::addPatches(
     {
       this->fail("the faces of the patch " + patch.name + " are out of range.");
     }
-    const bool isCut = patch.type.rfind("processor", 0) == 0; // processorCyclic too
-    if (isCut && !this->arePieces_)
+    // A cut through a cyclic patch is a part of that patch.
+    const std::string name = nameIn(part, patch.cyclic.empty() ? patch.name : patch.cyclic);
+    if (patch.type.rfind("processor", 0) == 0 && !this->arePieces_)
     {
       this->fail("it is a piece of a decomposed case (its patch " + patch.name + " is of type " +
                  patch.type +
                  "), whose cuts would be outer walls. Give the folder of the case, whose pieces "
                  "are read and written together.");
     }
+    if (patch.type == "cyclic" && patch.count > 0)
+    {
+      this->mesh_.periodic.insert(std::minmax(name, nameIn(part, patch.neighbour)));
+    }
+    else if ((patch.type == "empty" || patch.type == "wedge") && patch.count > 0)
+    {
+      this->flat_[{ part.region, patch.type }].insert(name);
+    }
     for (Index f = patch.first; f < patch.first + patch.count; ++f)
     {
       const auto at = static_cast<std::size_t>(f);
       std::vector<Index> nodes = faces[at];
       std::sort(nodes.begin(), nodes.end());
-      if (isCut)
+      if (patch.type == "processor")
       {
-        if (patch.type == "processor" && !this->cuts_.insert(nodes).second)
+        if (!this->cuts_.insert(nodes).second)
         {
           this->cuts_.erase(nodes);
         }
@@ -317,7 +335,7 @@ std::vector<Index> OpenFoamMesh::addPatches(
       {
         added.emplace(std::move(nodes), cell);
       }
-      this->mesh_.set(nameIn(part, patch.name)).cells.push_back(cell);
+      this->mesh_.set(name).cells.push_back(cell);
     }
   }
   this->interfaces_.merge(added);

@@ -17,6 +17,14 @@ void SolverMesh::addNode(Index number, double x, double y, double z)
 
 Index SolverMesh::addCell(std::uint8_t type, const std::vector<Index>& nodes, Index number)
 {
+  if (type == QuadraticPyramid && nodes.size() == 14)
+  {
+    const Index cell = this->addCell(type, { nodes.begin(), nodes.end() - 1 }, number);
+    std::vector<Index> base = { nodes[0], nodes[1], nodes[2], nodes[3] };
+    base.insert(base.end(), { nodes[5], nodes[6], nodes[7], nodes[8], nodes[13] });
+    this->addCell(BiquadraticQuad, base, -1);
+    return cell;
+  }
   this->cellTypes.push_back(type);
   this->connectivity.insert(this->connectivity.end(), nodes.begin(), nodes.end());
   this->offsets.push_back(static_cast<Index>(this->connectivity.size()));

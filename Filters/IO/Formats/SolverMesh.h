@@ -5,8 +5,10 @@
 #include "Mesh/Mesh.h"
 #include "Support/Types.h"
 
+#include <set>
 #include <string>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 namespace morph::io
@@ -34,6 +36,8 @@ struct SolverMesh
   std::vector<Index> faces;
   std::vector<Index> cellNumbers; ///< -1: a face that is no element of the file, but of a set
   std::vector<NamedSet> sets;
+  /// Pairs of sets whose faces are images of each other; one name twice: front and back are one set.
+  std::set<std::pair<std::string, std::string>> periodic;
   /// The name of the displacements that other readers add to the coordinates, as ParaView does with
   /// those of Exodus II; empty: there are none. 3 x #nodes, of the last time step or of that of
   /// SolverFile::takeStep().
@@ -44,7 +48,8 @@ struct SolverMesh
   Index nodes() const { return static_cast<Index>(this->nodeNumbers.size()); }
   Index cells() const { return static_cast<Index>(this->cellTypes.size()); }
   void addNode(Index number, double x, double y, double z);
-  /// Adds a cell; returns its position.
+  /// Adds a cell; returns its position. A quadratic pyramid may have a 14th node, in the middle of
+  /// its base, which VTK's type lacks: a face without a number, of nine nodes, then follows it.
   Index addCell(std::uint8_t type, const std::vector<Index>& nodes, Index number);
   /// Adds a polyhedron; returns its position. `faces`: their nodes, outward.
   Index addPolyhedron(const std::vector<std::vector<Index>>& faces, Index number);

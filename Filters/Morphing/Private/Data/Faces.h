@@ -12,6 +12,6 @@ namespace morph::filters::Faces
 using Polygon = std::vector<int>;
 
 /// The polygons of face `face` of a volume cell, outward by the right-hand rule in VTK's order. A
-/// linear cell has one polygon; a quadratic one has pieces through all nodes of the face.
+/// linear cell has one polygon; one of higher order has pieces through all nodes of the face.
 std::vector<Polygon> Pieces(const morph::CellShape& shape, int face);
 }

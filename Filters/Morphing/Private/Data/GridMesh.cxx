@@ -216,11 +216,11 @@ morph::PlaneLayer layerOf(vtkUnstructuredGrid* grid)
 void validateKnown(morph::Mesh& mesh)
 {
   const std::vector<std::uint8_t> types = mesh.types;
-  for (std::uint8_t& type : mesh.types)
+  for (morph::Index c = 0; c < mesh.numberOfCells(); ++c)
   {
-    if (!morph::cellShape(type))
+    if (!morph::cellShape(mesh, c))
     {
-      type = morph::PolyVertex;
+      mesh.types[c] = morph::PolyVertex;
     }
   }
   morph::validate(mesh);

@@ -13,7 +13,7 @@ class vtkUnstructuredGrid;
 /// Conversion from vtkUnstructuredGrid to morph::Mesh.
 namespace morph::filters::GridMesh
 {
-/// What to do with cells of a type the core does not know (Lagrange cells, ...).
+/// What to do with cells of a type or an order that the core does not know.
 enum class UnknownCells
 {
   Refuse, ///< throw morph::Error that names the type and the cells

@@ -21,7 +21,7 @@ namespace morph::filters
 {
 namespace
 {
-/// The pieces of each face of each cell type, computed at first use.
+/// The pieces of each face of each shape of cells, computed at first use.
 class FacePieces
 {
 public:
@@ -30,8 +30,8 @@ public:
     const morph::Mesh& mesh, const morph::BoundaryFaces& faces, morph::Index face)
   {
     const morph::Index cell = faces.cells[face];
-    const morph::CellShape& shape = *morph::cellShape(mesh.types[cell]);
-    auto& pieces = this->ByType[mesh.types[cell]];
+    const morph::CellShape& shape = *morph::cellShape(mesh, cell);
+    auto& pieces = this->ByShape[&shape];
     if (pieces.empty())
     {
       for (int f = 0; f < shape.numberOfFaces; ++f)
@@ -43,7 +43,7 @@ public:
   }
 
 private:
-  std::map<std::uint8_t, std::vector<std::vector<Faces::Polygon>>> ByType;
+  std::map<const morph::CellShape*, std::vector<std::vector<Faces::Polygon>>> ByShape;
 };
 
 void writePoints(

@@ -16,6 +16,7 @@
 #include <vtkPointSet.h>
 #include <vtkPolyData.h>
 #include <vtkSelection.h>
+#include <vtkStringArray.h>
 #include <vtkUnstructuredGrid.h>
 #include <vtkVariant.h>
 
@@ -49,6 +50,19 @@ void writeRounds(
   }
   data->AddArray(change);
   data->AddArray(force);
+}
+
+/// The pairs of the property or, where it is empty, of the file.
+morph::PeriodicSides::Names periodicOf(std::string text, vtkPointSet* input)
+{
+  auto* ofFile =
+    vtkStringArray::SafeDownCast(input->GetFieldData()->GetAbstractArray("PeriodicSurfaces"));
+  const bool isOfFile = text.empty() && ofFile;
+  for (vtkIdType i = 0; isOfFile && i < ofFile->GetNumberOfValues(); ++i)
+  {
+    text += ofFile->GetValue(i) + ";";
+  }
+  return morph::PeriodicSides::parse(text == "none" ? "" : text);
 }
 
 void writeGaps(
@@ -328,6 +342,7 @@ void vtkDisplacementAlgorithm::vtkInternals::Prepare(const Options& options, vtk
   moves.Contact.distance = options.ContactDistance;
   moves.Contact.surfaces =
     morph::surfacesNamed(this->Model, options.ContactSurfaces, "ContactSurfaces");
+  moves.Periodic = periodicOf(options.PeriodicSurfaces, input);
   for (const morph::Index sheet : this->Model.sheets())
   {
     if (std::count(rest.sliding.begin(), rest.sliding.end(), sheet) == 0)
@@ -373,6 +388,7 @@ void vtkDisplacementAlgorithm::vtkInternals::Displace(const Options& options, vt
     this->FindInner(options, grid, zones, mover);
     mover.slideRounds = options.SlideRounds;
     mover.contact = moves.Contact;
+    mover.periodic = moves.Periodic;
   }
   const std::unique_ptr<morph::InnerPieces> pieces = whole ? whole->Volume() : nullptr;
   morph::ProgressRange moving(monitor, target ? 0.7 : 0.5, 1);
@@ -427,7 +443,8 @@ void vtkDisplacementAlgorithm::vtkInternals::Write(const Options& options, vtkPo
     writeGaps(before, after, output->GetFieldData());
     this->ContactReport = contact.report(before, after);
   }
-  if (mover.hasInner() || mover.slideRounds > 0 || mover.contact.distance > 0)
+  if (mover.hasInner() || mover.slideRounds > 0 || mover.contact.distance > 0 ||
+      !mover.periodic.empty())
   {
     filters::AffineArrays::Remove(output);
   }

@@ -133,6 +133,7 @@ private:
     morph::Choice Choice;
     morph::Surroundings::Options Rest;
     morph::Contact::Options Contact;
+    morph::PeriodicSides::Names Periodic;
   };
   void Classify(const Options& options, vtkPointSet* input, morph::Monitor& monitor);
   void ListZones(vtkUnstructuredGrid* grid, const morph::Mesh& mesh);

@@ -7,6 +7,7 @@
 #include "Private/Data/Surface.h"
 #include "Private/Distributed/RankQuality.h"
 #include "Private/RankBlocks/GlobalRanks.h"
+#include "Quality/Certificate.h"
 #include "Session/UndeformedMesh.h"
 #include "Support/Error.h"
 
@@ -173,11 +174,17 @@ void RankMesh::WarnOfShared(morph::Monitor& monitor) const
 {
   const morph::distributed::DistributedMesh& whole = *this->Distributed;
   const std::vector<morph::Index> cells = RankQuality::GatherIds(whole, whole.repeatedCells());
+  std::vector<morph::Index> unmapped = morph::unmappedCells(whole.mesh());
+  unmapped.erase(std::remove_if(unmapped.begin(), unmapped.end(),
+                   [&](morph::Index cell) { return whole.isGhost()[cell] != 0; }),
+    unmapped.end());
+  unmapped = RankQuality::GatherIds(whole, unmapped);
   std::vector<morph::Index> nodes = this->Processes.gather(whole.idsOfNodes(whole.touchingNodes()));
   std::sort(nodes.begin(), nodes.end());
   if (this->Processes.rank() == 0)
   {
     morph::warnOfShared(cells, nodes, monitor);
+    morph::warnOfUnmapped(unmapped, monitor);
   }
 }
 
