@@ -5,6 +5,7 @@
 #include "BoundaryMover/InnerNodes.h"
 #include "BoundaryMover/SlideRounds.h"
 #include "BoundaryMover/Surroundings.h"
+#include "BoundaryMover/Unmet.h"
 
 #include <vector>
 
@@ -35,7 +36,7 @@ public:
 
   /// `targets`: of choice.moving, #moving x 3, finite. `pieces`: of a mesh on several processes,
   /// whose boundary alone `model` is; else null. Then this is collective. Warns of what is not met
-  /// where zones and sliding surfaces win over what else is asked. Throws Error as InnerNodes,
+  /// where zones and sliding surfaces win over what else is asked, and of bodies that part. Throws Error as InnerNodes,
   /// SlideRounds and Contact do; then there is no result. Cost: passes over the boundary and, the
   /// first time, the weights of surfaces that follow.
   const Surroundings::Result& move(const BoundaryModel& model, const Choice& choice,
@@ -53,6 +54,7 @@ private:
   InnerNodes inner_;
   SlideRounds rounds_;
   Contact contact_;
+  TouchingNodes touching_;
   Surroundings::Result result_;
 };
 }
