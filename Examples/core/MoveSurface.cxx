@@ -43,7 +43,9 @@ morph::BoundaryModel boundaryOf(
   std::vector<std::uint8_t> isNamed = marks(named, file.cells());
   isNamed.resize(file.cells(), 0);
   model.findFaces(isNamed, monitor);
-  model.geometry = morph::classify(mesh, model.faces, {}, monitor);
+  morph::ClassificationOptions options;
+  options.sheets = model.sheetNumbers();
+  model.geometry = morph::classify(mesh, model.faces, options, monitor);
   std::vector<morph::NamedSet> sets;
   for (const morph::io::NamedSet& set : file.sets)
   {

@@ -64,6 +64,54 @@ TEST(BoundaryMover, ASetOfNodesIsListedFirstWithItsArea)
   EXPECT_THROW(morph::choosePatches(model, { "BOTTOM" }, {}), morph::Error);
 }
 
+TEST(BoundaryMover, OuterSurfacesAreTheSameWhereAnInterfaceIsAskedFor)
+{
+  morph::Monitor monitor;
+  for (const auto& [name, mesh] : meshes::all(4, 4, 4))
+  {
+    BoundaryModel with;
+    with.mesh = mesh;
+    std::vector<morph::NamedCells> parts = { { "a", {} }, { "b", {} } };
+    for (Index c = 0; c < mesh.numberOfCells(); ++c)
+    {
+      parts[c % 3 == 0].cells.push_back(c); // a ragged interface
+    }
+    with.innerSurfaces = morph::innerSurfaces(mesh, parts, {}, monitor);
+    const std::vector<std::uint8_t> none(mesh.numberOfCells(), 0);
+    with.findFaces(none, monitor);
+    const morph::Classification without =
+      morph::classify(mesh, with.faces, morph::ClassificationOptions(), monitor);
+    with.asked = { "a | b" };
+    with.findFaces(none, monitor);
+    morph::ClassificationOptions options;
+    options.sheets = with.sheetNumbers();
+    ASSERT_EQ(options.sheets.size(), with.innerSurfaces[0].places.size()) << name;
+    const morph::Classification all = morph::classify(mesh, with.faces, options, monitor);
+    ASSERT_GT(all.surfaces.size(), without.surfaces.size()) << name;
+    for (std::size_t s = 0; s < without.surfaces.size(); ++s)
+    {
+      EXPECT_EQ(all.surfaces[s].id, without.surfaces[s].id) << name;
+      EXPECT_EQ(all.surfaces[s].faces, without.surfaces[s].faces) << name;
+      EXPECT_EQ(all.surfaces[s].nodes, without.surfaces[s].nodes) << name;
+      EXPECT_EQ(all.surfaces[s].curves, without.surfaces[s].curves) << name;
+    }
+    ASSERT_EQ(all.curves.size(), without.curves.size()) << name;
+    for (std::size_t c = 0; c < without.curves.size(); ++c)
+    {
+      EXPECT_EQ(all.curves[c].nodes, without.curves[c].nodes) << name;
+      EXPECT_EQ(all.curves[c].surfaces, without.curves[c].surfaces) << name;
+    }
+    for (Index n = 0; n < mesh.numberOfNodes(); ++n)
+    {
+      if (without.dimension[n] < 3)
+      {
+        EXPECT_EQ(all.dimension[n], without.dimension[n]) << name << n;
+        EXPECT_EQ(all.entity[n], without.entity[n]) << name << n;
+      }
+    }
+  }
+}
+
 TEST(BoundaryMover, SidesFollowATopThatTurnsWithinTheirPlanes)
 {
   const BoundaryModel model = modelOf(meshes::hexes(4, 4, 4));

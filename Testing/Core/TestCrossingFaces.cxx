@@ -103,6 +103,62 @@ TEST(CrossingFaces, NotOfBodiesThatStayInContact)
   EXPECT_TRUE(crossings(both, slid).empty());
 }
 
+TEST(CrossingFaces, OfBodiesThatOverlapByLessThanACell)
+{
+  // They touch, or are a hundredth of a cell apart; one of them has other cells.
+  for (const auto& [name, box] : meshes::all(2, 2, 2))
+  {
+    for (const double gap : { 0., 0.01 })
+    {
+      for (const double size : { 1., 0.6 })
+      {
+        const Mesh other = mapped(meshes::hexes(3, 3, 3),
+          [&](const Row& p) { return Row(p * 2 * size / 3 + Row(2 + gap, 0.1, 0)); });
+        const Mesh both = together(box, other);
+        for (const double way : { -0.5, 0.5 * gap, gap + 0.06, gap + 0.1, gap + 0.5 })
+        {
+          const auto found = crossings(both, moved(both, box.numberOfNodes(), shift(way, 0, 0)));
+          EXPECT_EQ(found.empty(), way <= gap) << name << ", " << gap << size << ", " << way;
+        }
+      }
+    }
+  }
+}
+
+TEST(CrossingFaces, NotOfAShaftThatTurnsInItsHole)
+{
+  // Of 32 and 20 facets, of one radius: they overlap by the height of the coarse ones.
+  const auto ring = [](Index facets, double inner, double outer)
+  {
+    return mapped(meshes::hexes(facets, 2, 2),
+      [=](const Row& p)
+      {
+        const double angle = 1.9 * M_PI * p[0] / static_cast<double>(facets);
+        const double radius = inner + (outer - inner) * p[1] / 2;
+        return Row(radius * std::cos(angle), radius * std::sin(angle), p[2]);
+      });
+  };
+  for (const auto& [inside, outside] : { std::pair<Index, Index>(20, 32), { 32, 20 }, { 24, 24 } })
+  {
+    const Mesh shaft = ring(inside, 1, 2), both = together(shaft, ring(outside, 2, 3));
+    const auto turn = [](double angle, double x)
+    {
+      return [=](const Row& p)
+      {
+        return Row(p[0] * std::cos(angle) - p[1] * std::sin(angle) + x,
+          p[0] * std::sin(angle) + p[1] * std::cos(angle), p[2] + 0.1);
+      };
+    };
+    for (const double angle : { 0.01, 0.1, 0.13, 1. })
+    {
+      EXPECT_TRUE(crossings(both, moved(both, shaft.numberOfNodes(), turn(angle, 0))).empty())
+        << inside << ", " << outside << ", " << angle;
+      EXPECT_FALSE(crossings(both, moved(both, shaft.numberOfNodes(), turn(angle, 0.3))).empty())
+        << inside << ", " << outside << ", " << angle;
+    }
+  }
+}
+
 TEST(CrossingFaces, NotOfMatchingBodiesThatBendTogether)
 {
   // Their faces have the same places, and other first corners.
@@ -134,7 +190,7 @@ TEST(CrossingFaces, OfABodyWithItself)
       [&](const Row& p)
       {
         const double angle = 2 * M_PI * turns * p[0] / 40, radius = 20 / M_PI + p[2];
-        return Row(radius * std::cos(angle), p[1], radius * std::sin(angle));
+        return Row(radius * std::cos(angle), p[1], -radius * std::sin(angle));
       })
       .points;
   };

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <functional>
 #include <random>
 
 namespace
@@ -53,5 +54,71 @@ TEST(InnerFaces, AreThoseInsideUnderOneWallOrTwo)
     EXPECT_EQ(found.sheets, wanted.sheets) << name;
     EXPECT_TRUE(morph::innerFaces(mesh, outer, none, monitor).baffles.empty()) << name;
   }
+}
+
+TEST(InnerFaces, InterfacesAreBetweenPartsWithoutACommonCell)
+{
+  for (const auto& [name, mesh] : meshes::all(4, 3, 2))
+  {
+    meshes::ThreadedMonitor monitor;
+    std::vector<morph::NamedCells> parts = { { "all", {} }, { "left", {} }, { "right", {} } };
+    std::vector<bool> isLeft;
+    for (Index c = 0; c < mesh.numberOfCells(); ++c)
+    {
+      double x = 0;
+      for (Index k = 0; k < mesh.cellSize(c); ++k)
+      {
+        x += mesh.points(mesh.cell(c)[k], 0) / static_cast<double>(mesh.cellSize(c));
+      }
+      isLeft.push_back(x < 2);
+      parts[0].cells.push_back(c);
+      parts[isLeft[c] ? 1 : 2].cells.push_back(c);
+    }
+    morph::InnerFaces::Places wanted;
+    const morph::FaceTable table = morph::faceTable(mesh, monitor);
+    std::vector<Index> cellOf;
+    for (Index c = 0; c < mesh.numberOfCells(); ++c)
+    {
+      for (Index f = table.start[c]; f < table.start[c + 1]; ++f)
+      {
+        cellOf.push_back(c);
+        const Index other = cellOf[table.first[f]];
+        if (isLeft[other] != isLeft[c])
+        {
+          wanted.emplace_back(other, static_cast<int>(table.first[f] - table.start[other]));
+        }
+      }
+    }
+    std::sort(wanted.begin(), wanted.end());
+    ASSERT_FALSE(wanted.empty()) << name;
+    const std::vector<morph::InnerSurface> found = morph::innerSurfaces(mesh, parts, {}, monitor);
+    ASSERT_EQ(found.size(), 1u) << name;
+    EXPECT_EQ(found[0].name, "left | right");
+    EXPECT_EQ(found[0].places, wanted) << name;
+  }
+}
+
+TEST(InnerFaces, ASetOfNodesInsideIsASurfaceUnlessItHasAWholeCell)
+{
+  meshes::ThreadedMonitor monitor;
+  const Mesh mesh = meshes::hexes(4, 4, 4);
+  const auto set = [&](const std::function<bool(const Eigen::RowVector3d&)>& has)
+  {
+    morph::NamedNodes nodes{ "set", std::vector<std::uint8_t>(mesh.numberOfNodes(), 0) };
+    for (Index n = 0; n < mesh.numberOfNodes(); ++n)
+    {
+      nodes.isNode[n] = has(mesh.points.row(n));
+    }
+    const auto found = morph::innerSurfaces(mesh, {}, { nodes }, monitor);
+    return found.empty() ? std::size_t(0) : found[0].places.size();
+  };
+  EXPECT_EQ(set([](const auto& x) { return x[0] == 2; }), 16u);
+  EXPECT_EQ(set([](const auto& x) { return x[0] == 2 && x[1] > 1 && x[2] > 0 && x[2] < 4; }), 4u);
+  EXPECT_EQ(set([](const auto& x) { return x[0] == 2 && x[1] > 2; }), 4u);
+  EXPECT_EQ(set([](const auto& x) { return x[0] == 0; }), 0u);
+  EXPECT_EQ(set([](const auto& x) { return x[0] == 0 || x[1] == 2; }), 0u);
+  EXPECT_EQ(set([](const auto& x) { return x[0] >= 2 && x[0] <= 3; }), 0u);
+  EXPECT_EQ(set([](const auto& x) { return x[0] == 2 && x[1] == 2; }), 0u);
+  EXPECT_EQ(set([](const auto& x) { return x[0] == 2 || (x == Eigen::RowVector3d(1, 1, 1)); }), 0u);
 }
 }

@@ -489,6 +489,42 @@ TEST(MorphMesh, KeepsThePrecisionOfItsInput)
   EXPECT_EQ(filter->GetOutput()->GetPoints()->GetDataType(), VTK_DOUBLE);
 }
 
+TEST(MorphMesh, BodiesThatTouchAndPartAreWarnedOfUnlessTheyAreTied)
+{
+  morph::Mesh above = meshes::hexes(4, 4, 4);
+  meshes::transform(above, [](const Row& x) { return Row(x + Row(0, 0, 4)); });
+  const auto grid = grids::make(shapes::together(meshes::hexes(4, 4, 4), above));
+  vtkNew<vtkMorphMesh> filter;
+  filter->SetInputData(grid);
+  for (int below = 0; below < 6; ++below)
+  {
+    filter->AddSurface(("Surface " + std::to_string(below)).c_str());
+  }
+  filter->SetDisplacementToVector();
+  filter->SetVector(0.25, 0, -0.125);
+  grids::Listener listener(filter);
+  filter->Update();
+  ASSERT_EQ(listener.Warnings.size(), 1u);
+  for (const char* part :
+    { "50 nodes part", "up to 0.2795", "Surface 5, Surface 6", "ContactDistance" })
+  {
+    EXPECT_NE(listener.Warnings[0].find(part), std::string::npos) << listener.Warnings[0];
+  }
+  listener.Warnings.clear();
+  filter->SetContactDistance(1e-6);
+  filter->Update();
+  for (const std::string& warning : listener.Warnings)
+  {
+    EXPECT_EQ(warning.find("not tied"), std::string::npos) << warning;
+  }
+  const morph::Points x = grids::points(grid), y = grids::points(filter->GetOutput());
+  for (morph::Index i = 0; i < x.rows(); ++i)
+  {
+    const Row by = y.row(i) - x.row(i);
+    EXPECT_TRUE(x(i, 2) != 4 || (by - Row(0.25, 0, -0.125)).norm() < 1e-9) << i;
+  }
+}
+
 TEST(MorphMesh, ContactTakesAnotherBodyAlong)
 {
   morph::Mesh mesh = meshes::hexes(4, 4, 4);

@@ -560,6 +560,39 @@ TEST(Crossings, AreCountedAndNamedAndAStatus)
   EXPECT_NE(listener.Warnings[0].find("Left"), std::string::npos) << listener.Warnings[0];
 }
 
+TEST(Crossings, AreMarkedOnTheSurface)
+{
+  auto filter = morphed<vtkFEMWarpMorph>(twoProngs(), intoTheGap(3));
+  filter->Update();
+  auto* surface = vtkPolyData::SafeDownCast(filter->GetOutputDataObject(2));
+  vtkDataArray* crosses = surface->GetCellData()->GetArray("CrossesItself");
+  ASSERT_TRUE(crosses);
+  ASSERT_EQ(crosses->GetNumberOfTuples(), surface->GetNumberOfCells());
+  vtkIdType count = 0;
+  for (vtkIdType i = 0; i < crosses->GetNumberOfTuples(); ++i)
+  {
+    count += crosses->GetComponent(i, 0) != 0;
+    double box[6];
+    surface->GetCellBounds(i, box);
+    EXPECT_TRUE(crosses->GetComponent(i, 0) == 0 || (box[1] >= 7 && box[0] <= 8)) << i;
+  }
+  EXPECT_EQ(count, filter->GetCrossingFaces());
+}
+
+TEST(Crossings, SubStepsEndBeforeThem)
+{
+  auto filter = morphed<vtkFEMWarpMorph>(twoProngs(), intoTheGap(3));
+  filter->SetValidityToSubStep();
+  grids::Listener listener(filter);
+  filter->Update();
+  EXPECT_STREQ(filter->GetMorphStatus(), "Partial");
+  EXPECT_EQ(filter->GetCrossingFaces(), 0);
+  EXPECT_LE(filter->GetLargestValidStep(), 2. / 3 + 1e-3);
+  EXPECT_GT(filter->GetLargestValidStep(), 2. / 3 - 1. / 128);
+  ASSERT_EQ(listener.Errors.size(), 1u);
+  EXPECT_NE(listener.Errors[0].find("runs into itself"), std::string::npos) << listener.Errors[0];
+}
+
 TEST(Crossings, AreNoneWhereTheGapStaysOrCloses)
 {
   for (const double way : { 1., 1.9, 2. })

@@ -1,16 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Names that a mesh's file gives parts of its boundary, and how large surfaces are.
+#include "BlockGrids.h"
 #include "DisplacedBoundaries.h"
 
 #include "vtkMorphMesh.h"
 
 #include <vtkBox.h>
 #include <vtkCellData.h>
+#include <vtkCompositeDataSet.h>
 #include <vtkDataArraySelection.h>
 #include <vtkDataSet.h>
 #include <vtkDoubleArray.h>
 #include <vtkFieldData.h>
 #include <vtkIdList.h>
+#include <vtkInformation.h>
+#include <vtkInformationStringKey.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkStringArray.h>
@@ -339,6 +343,49 @@ TEST(SurfaceNames, ASheetMovesByItsNameAndElseGoesAlong)
   }
 }
 
+TEST(SurfaceNames, ASetOfNodesInsideMovesWithItsRim)
+{
+  auto grid = grids::make(meshes::hexes(4, 4, 4));
+  const morph::Points x = grids::points(grid);
+  vtkNew<vtkStringArray> names;
+  names->SetName("SurfaceNames");
+  for (const char* name : { "MIDDLE", "LINE" })
+  {
+    vtkNew<vtkUnsignedCharArray> marks;
+    marks->SetName(name);
+    for (morph::Index i = 0; i < x.rows(); ++i)
+    {
+      marks->InsertNextValue(
+        x(i, 0) == 2 && (name[0] == 'M' || (x(i, 1) == 2 && x(i, 2) > 0 && x(i, 2) < 4)));
+    }
+    grid->GetPointData()->AddArray(marks);
+    names->InsertNextValue(name);
+  }
+  grid->GetFieldData()->AddArray(names);
+  vtkNew<vtkMorphMesh> filter;
+  filter->SetInputData(grid);
+  filter->SetDisplacementToVector();
+  filter->SetVector(0.25, 0, 0);
+  filter->UpdateInformation();
+  EXPECT_EQ(filter->GetSurfaceSizes()->GetValue(0), "MIDDLE");
+  EXPECT_EQ(filter->GetSurfaceSizes()->GetValue(1), "16 inner");
+  EXPECT_EQ(filter->GetSurfaceSizes()->LookupValue("LINE"), -1);
+  filter->AddSurface("MIDDLE");
+  grids::Listener listener(filter);
+  filter->Update();
+  ASSERT_TRUE(listener.Errors.empty()) << listener.Errors[0];
+  const morph::Points y = grids::points(filter->GetOutput());
+  for (morph::Index i = 0; i < x.rows(); ++i)
+  {
+    EXPECT_TRUE(x(i, 0) != 2 || y(i, 0) == 2.25) << i;
+  }
+  filter->AddSurface("LINE");
+  filter->Update();
+  ASSERT_EQ(listener.Errors.size(), 1u);
+  EXPECT_NE(listener.Errors[0].find("a zone holds or moves the nodes of 'LINE'"), std::string::npos)
+    << listener.Errors[0];
+}
+
 TEST(SurfaceNames, ASetInsideThatCannotMoveSaysSo)
 {
   vtkNew<vtkMorphMesh> filter;
@@ -349,4 +396,115 @@ TEST(SurfaceNames, ASetInsideThatCannotMoveSaysSo)
   ASSERT_EQ(listener.Errors.size(), 1u);
   EXPECT_NE(listener.Errors[0].find("'core', which lies inside of the mesh"), std::string::npos)
     << listener.Errors[0];
+}
+
+namespace
+{
+/// A cube of 4 x 4 x 4 cells in two blocks that meet at x = 2.
+vtkSmartPointer<vtkMultiBlockDataSet> twoBlocks()
+{
+  auto grid = grids::make(meshes::hexes(4, 4, 4));
+  auto result = vtkSmartPointer<vtkMultiBlockDataSet>::New();
+  const auto side = [](const grids::Row& center) { return center[0] < 2 ? 0 : 1; };
+  const auto pieces = blocks::cut(grid, 2, side, false);
+  for (unsigned int i = 0; i < 2; ++i)
+  {
+    result->SetBlock(i, pieces[i]);
+    result->GetMetaData(i)->Set(vtkCompositeDataSet::NAME(), i == 0 ? "steel" : "glue");
+  }
+  return result;
+}
+
+/// Before and after, of all blocks.
+std::pair<morph::Points, morph::Points> movedBlocks(
+  vtkMultiBlockDataSet* data, vtkMorphMesh* filter)
+{
+  filter->SetInputData(data);
+  grids::Listener listener(filter);
+  filter->Update();
+  EXPECT_TRUE(listener.Errors.empty()) << listener.Errors[0];
+  EXPECT_EQ(filter->GetInvertedCells(), 0);
+  const auto all = [](vtkDataObject* tree)
+  {
+    const morph::Points a = grids::points(blocks::grid(tree, 0)),
+                        b = grids::points(blocks::grid(tree, 1));
+    morph::Points both(a.rows() + b.rows(), 3);
+    both << a, b;
+    return both;
+  };
+  return { all(data), all(filter->GetOutputDataObject(0)) };
+}
+}
+
+TEST(SurfaceNames, AnInterfaceOfTwoBlocksIsListedAfterTheOuterSets)
+{
+  vtkNew<vtkMorphMesh> filter;
+  filter->SetInputData(twoBlocks());
+  filter->UpdateInformation();
+  vtkStringArray* sizes = filter->GetSurfaceSizes();
+  const std::string before = filter->GetSurfaceList()->GetArrayName(1);
+  ASSERT_EQ(sizes->GetValue(0), "steel | glue");
+  EXPECT_EQ(sizes->GetValue(1), "16 inner");
+  EXPECT_EQ(sizes->GetValue(2), "16");
+  filter->AddFixedSurface("steel | glue");
+  filter->UpdateInformation();
+  EXPECT_EQ(filter->GetSurfaceSizes()->GetValue(0), "steel | glue");
+  EXPECT_EQ(filter->GetSurfaceList()->GetArrayName(1), before);
+}
+
+TEST(SurfaceNames, AnInterfaceMovesAndSidesFollowItsRim)
+{
+  vtkNew<vtkMorphMesh> filter;
+  filter->AddSurface("steel | glue");
+  filter->SetDisplacementToVector();
+  filter->SetVector(0.5, 0, 0);
+  const auto [x, y] = movedBlocks(twoBlocks(), filter);
+  for (morph::Index i = 0; i < x.rows(); ++i)
+  {
+    EXPECT_TRUE(x(i, 0) != 2 || y(i, 0) == 2.5) << i;
+    EXPECT_TRUE((x(i, 0) != 0 && x(i, 0) != 4) || y(i, 0) == x(i, 0)) << i;
+    for (const int j : { 1, 2 })
+    {
+      EXPECT_TRUE((x(i, j) != 0 && x(i, j) != 4) || std::abs(y(i, j) - x(i, j)) < 1e-12) << i;
+    }
+  }
+}
+
+TEST(SurfaceNames, AnInterfaceIsHeldOrSlidesOrGoesAlong)
+{
+  vtkNew<vtkBox> side;
+  side->SetBounds(3.9, 5, -1, 5, -1, 5);
+  const auto at = [&](bool isHeld, bool isSliding)
+  {
+    vtkNew<vtkMorphMesh> filter;
+    filter->SetMoving(vtkMorphMesh::MOVING_REGION);
+    filter->SetRegion(side);
+    filter->SetDisplacementToVector();
+    filter->SetVector(0.25, 0.25, 0);
+    if (isHeld)
+    {
+      filter->AddFixedSurface("steel | glue");
+    }
+    if (isSliding)
+    {
+      filter->AddSlidingSurface("steel | glue");
+      filter->SetSurroundingsToFollowEverywhere();
+    }
+    return movedBlocks(twoBlocks(), filter);
+  };
+  const auto along = at(false, false), held = at(true, false), slid = at(false, true);
+  bool anyAlong = false, anySlid = false;
+  const morph::Points& x = along.first;
+  for (morph::Index i = 0; i < x.rows(); ++i)
+  {
+    if (x(i, 0) == 2)
+    {
+      anyAlong = anyAlong || along.second(i, 0) > 2.01;
+      EXPECT_EQ(held.second.row(i), x.row(i)) << i;
+      EXPECT_NEAR(slid.second(i, 0), 2, 1e-12) << i;
+      anySlid = anySlid || slid.second(i, 1) > x(i, 1) + 0.01;
+    }
+  }
+  EXPECT_TRUE(anyAlong);
+  EXPECT_TRUE(anySlid);
 }

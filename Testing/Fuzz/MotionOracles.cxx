@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "MotionOracles.h"
 
+#include "Mesh/FaceTable.h"
 #include "RandomMesh.h"
 #include "Recount.h"
 #include "SameData.h"
+#include "vtkBoundaryDisplacement.h"
 #include "vtkDisplacementAlgorithm.h"
 #include "vtkLBWarpMorph.h"
 #include "vtkMorphAlgorithm.h"
@@ -13,17 +15,21 @@
 #include "vtkSimplexLinearMorph.h"
 #include "vtkSimplexNaturalNeighborMorph.h"
 
+#include <vtkCellData.h>
 #include <vtkCompositeDataSet.h>
 #include <vtkDataArray.h>
 #include <vtkPointData.h>
 #include <vtkPointSet.h>
 #include <vtkPoints.h>
+#include <vtkStringArray.h>
+#include <vtkUnstructuredGrid.h>
 
 #include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <sstream>
 
 namespace fuzz
@@ -519,5 +525,83 @@ Finding checkRanges(Case& made, vtkAlgorithm* filter, const Run& run)
     }
   }
   return {};
+}
+
+namespace
+{
+/// The names and sizes of surfaces, and where they are.
+std::vector<std::string> listed(vtkDisplacementAlgorithm* filter)
+{
+  filter->UpdateInformation();
+  std::vector<std::string> texts;
+  vtkStringArray* sizes = filter->GetSurfaceSizes();
+  for (vtkIdType i = 0; i < sizes->GetNumberOfValues(); ++i)
+  {
+    texts.push_back(sizes->GetValue(i));
+  }
+  return texts;
+}
+
+template <typename F>
+void forgetNames(vtkAlgorithm* algorithm)
+{
+  if (auto* filter = F::SafeDownCast(algorithm))
+  {
+    filter->RemoveAllSurfaces();
+    filter->RemoveAllFixedSurfaces();
+    filter->RemoveAllSlidingSurfaces();
+    filter->RemoveAllFreeSurfaces();
+  }
+}
+
+/// How many faces are of one cell of each part, and of no other cell.
+Index countBetween(const RandomGrid& grid)
+{
+  const morph::Mesh& mesh = grid.mesh;
+  morph::Monitor monitor;
+  const morph::FaceTable table = morph::faceTable(mesh, monitor);
+  vtkDataArray* parts[] = { grid.grid()->GetCellData()->GetArray("Left"),
+    grid.grid()->GetCellData()->GetArray("Right") };
+  std::map<Index, std::vector<Index>> cellsOf;
+  for (Index c = 0; c < mesh.numberOfCells(); ++c)
+  {
+    for (Index f = table.start[c]; f < table.start[c + 1]; ++f)
+    {
+      cellsOf[table.first[f]].push_back(c);
+    }
+  }
+  Index count = 0;
+  for (const auto& [face, cells] : cellsOf)
+  {
+    const auto is = [&, all = &cells](int part, int cell)
+    { return parts[part]->GetComponent((*all)[cell], 0) != 0; };
+    count += cells.size() == 2 && ((is(0, 0) && is(1, 1)) || (is(0, 1) && is(1, 0)));
+  }
+  return count;
+}
+}
+
+Finding checkParts(Case& made, vtkAlgorithm* algorithm)
+{
+  auto* filter = vtkDisplacementAlgorithm::SafeDownCast(algorithm);
+  if (!filter || !made.grid.hasParts || made.inputs.front() != made.grid.data ||
+      !made.grid.isAsMesh || volumeNodes(made.grid.mesh).empty())
+  {
+    return {};
+  }
+  const std::vector<std::string> asked = listed(filter);
+  auto other = made.makeFilter();
+  forgetNames<vtkBoundaryDisplacement>(other);
+  forgetNames<vtkMorphMesh>(other);
+  const std::vector<std::string> all = listed(vtkDisplacementAlgorithm::SafeDownCast(other));
+  if (asked != all)
+  {
+    return { "parts", "the list of surfaces depends on what is asked for" };
+  }
+  const auto found = std::find(all.begin(), all.end(), "Left | Right");
+  const Index count = all.empty() ? 0 : countBetween(made.grid);
+  const std::string wanted = count > 0 ? text(static_cast<double>(count)) + " inner" : "";
+  const std::string given = found == all.end() ? "" : *(found + 1);
+  return given == wanted ? Finding{} : Finding{ "parts", "'" + given + "', not '" + wanted + "'" };
 }
 }

@@ -19,6 +19,10 @@ Finding checkFrame(Case& made, vtkAlgorithm* filter, const Run& first);
 /// another as before, and those that hang on none stay.
 Finding checkAttached(const Case& made, vtkAlgorithm* filter, const Run& run);
 
+/// The faces between two named parts are listed with their number. The list is the same whatever
+/// names are asked for.
+Finding checkParts(Case& made, vtkAlgorithm* filter);
+
 /// With weights inside the ranges that vtkMorphShapes gives, no cell is inverted. Changes the
 /// weights.
 Finding checkRanges(Case& made, vtkAlgorithm* filter, const Run& run);

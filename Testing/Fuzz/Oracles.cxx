@@ -213,7 +213,7 @@ Verdict judge(
       [&] { return checkNothing(made, algorithm, run); },
       [&] { return checkAttached(made, algorithm, run); },
       [&] { return checkAgain(made, algorithm, run); },
-      [&] { return checkFrame(made, algorithm, run); },
+      [&] { return checkFrame(made, algorithm, run); }, [&] { return checkParts(made, algorithm); },
       [&] { return checkRanges(made, algorithm, run); }, inputsChanged })
   {
     verdict.finding = check();

@@ -305,6 +305,11 @@ bool setMotion(Choices& choices, const RandomGrid& grid, vtkDisplacementAlgorith
   {
     addSurface(filter, choices.stream("walls by name").below(4), "Walls");
   }
+  if (grid.hasParts && choices.chance("with.partsByName", 0.7))
+  {
+    Random parts = choices.stream("parts by name");
+    addSurface(filter, parts.below(4), parts.happens(0.6) ? "Left | Right" : "Between");
+  }
   const int zone = choices.pick("with.zones",
     { "none", "frozen array", "rigid array", "both", "region", "selection" },
     { 20, 1, 1, 1, 1, 1 });

@@ -164,20 +164,71 @@ void addWalls(Choices& choices, morph::Mesh& mesh)
   }
 }
 
+/// Adds a set to those that the grid names.
+void addName(const char* name, vtkDataSetAttributes* data, const std::vector<std::uint8_t>& isIn,
+  vtkUnstructuredGrid* grid)
+{
+  vtkNew<vtkUnsignedCharArray> marks;
+  marks->SetName(name);
+  for (const std::uint8_t mark : isIn)
+  {
+    marks->InsertNextValue(mark);
+  }
+  data->AddArray(marks);
+  auto* names =
+    vtkStringArray::SafeDownCast(grid->GetFieldData()->GetAbstractArray("SurfaceNames"));
+  if (!names)
+  {
+    vtkNew<vtkStringArray> none;
+    none->SetName("SurfaceNames");
+    grid->GetFieldData()->AddArray(none);
+    names = none;
+  }
+  names->InsertNextValue(name);
+}
+
 /// Names the cells from this one on "Walls".
 void nameWalls(vtkIdType first, vtkUnstructuredGrid* grid)
 {
-  vtkNew<vtkUnsignedCharArray> marks;
-  marks->SetName("Walls");
-  for (vtkIdType c = 0; c < grid->GetNumberOfCells(); ++c)
+  std::vector<std::uint8_t> isWall(grid->GetNumberOfCells(), 0);
+  std::fill(isWall.begin() + first, isWall.end(), 1);
+  addName("Walls", grid->GetCellData(), isWall, grid);
+}
+
+/// Names cells on two sides of a plane, or any, and the nodes that both have. Some cells have no
+/// name.
+void nameParts(Choices& choices, const morph::Mesh& mesh, vtkUnstructuredGrid* grid)
+{
+  Random random = choices.stream("parts");
+  const bool isPlane = random.happens(0.7);
+  const double some = random.happens(0.7) ? 1 : random.between(0.5, 1);
+  const double plane = mesh.points.rows() > 0 ? mesh.points.col(0).mean() : 0;
+  std::vector<std::uint8_t> isIn[2], hasNode[2];
+  for (int part = 0; part < 2; ++part)
   {
-    marks->InsertNextValue(c >= first);
+    isIn[part].assign(mesh.numberOfCells(), 0);
+    hasNode[part].assign(mesh.numberOfNodes(), 0);
   }
-  grid->GetCellData()->AddArray(marks);
-  vtkNew<vtkStringArray> names;
-  names->SetName("SurfaceNames");
-  names->InsertNextValue("Walls");
-  grid->GetFieldData()->AddArray(names);
+  for (Index c = 0; c < mesh.numberOfCells(); ++c)
+  {
+    const bool isRight = isPlane && mesh.cellSize(c) > 0 ? mesh.points(mesh.cell(c)[0], 0) > plane
+                                                         : random.happens(0.5);
+    if (random.happens(some))
+    {
+      isIn[isRight][c] = 1;
+      for (Index k = 0; k < mesh.cellSize(c); ++k)
+      {
+        hasNode[isRight][mesh.cell(c)[k]] = 1;
+      }
+    }
+  }
+  for (std::size_t n = 0; n < hasNode[0].size(); ++n)
+  {
+    hasNode[0][n] = hasNode[0][n] && hasNode[1][n];
+  }
+  addName("Left", grid->GetCellData(), isIn[0], grid);
+  addName("Right", grid->GetCellData(), isIn[1], grid);
+  addName("Between", grid->GetPointData(), hasNode[0], grid);
 }
 
 /// Node ids that do not exist, cells with too few nodes, lists that are too short.
@@ -377,6 +428,11 @@ RandomGrid randomGrid(Choices& choices)
   if (result.hasWalls)
   {
     nameWalls(firstWall, grid);
+  }
+  result.hasParts = result.isAsMesh && choices.chance("with.parts", 0.08);
+  if (result.hasParts)
+  {
+    nameParts(choices, result.mesh, grid);
   }
   if (choices.chance("with.marks", 0.2))
   {

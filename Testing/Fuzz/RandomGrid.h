@@ -23,6 +23,7 @@ struct RandomGrid
   /// false: `data` is no grid, or its cells, ids or points are not those of `mesh`
   bool isAsMesh = true;
   bool hasWalls = false; ///< the set "Walls" of two-dimensional cells inside
+  bool hasParts = false; ///< the sets of cells "Left" and "Right", and "Between", nodes of both
   bool hasGhosts = false;
   bool hasOddArrays = false; ///< arrays that are too short, too long or of unexpected types
 

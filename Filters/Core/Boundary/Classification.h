@@ -31,6 +31,9 @@ struct ClassificationOptions
   double cornerAngle = 45;
   bool featuresInside = false; ///< also find features inside surfaces whose ids are given
   GivenGeometry given;
+  /// Of a mesh: a number for each of the last faces, which lie inside and are classified apart.
+  /// Connected ones of one number are a surface, without curves; it ends at features, too.
+  std::vector<Index> sheets;
 };
 
 struct GeometryVertex
@@ -89,7 +92,8 @@ struct Classification
 /// and face nodes belong to their edge or face.
 ///
 /// Entities are numbered by node ids, as the members say; the numbers are the ids where none are
-/// given. Ids missing among given ones follow the largest given id. The shape of the result does
+/// given. Ids missing among given ones follow the largest given id. Surfaces of sheets come last,
+/// so that the others are what they are without sheets. The shape of the result does
 /// not depend on the numbering. Throws Error, with node ids, for arrays of the wrong length, angles
 /// outside their range, and contradicting dimensions or ids. Cost: a sort of the boundary's edges.
 Classification classify(const Mesh& mesh, const BoundaryFaces& faces,

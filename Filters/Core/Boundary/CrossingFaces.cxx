@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Boundary/CrossingFaces.h"
 
+#include "Boundary/Classification.h"
 #include "Boundary/SurfaceEdges.h"
-#include "Geometry/MeanOfRows.h"
 #include "Geometry/OrientationPredicate.h"
 #include "Geometry/OverlappingBoxes.h"
+#include "Support/Buckets.h"
 #include "Support/Parallel.h"
 
 #include <Eigen/Geometry>
@@ -19,10 +20,13 @@ namespace
 {
 /// Of the shortest edge at a node: how far it is pushed. Rounding of coordinates is below it.
 constexpr double Depth = 1e-3;
-/// Faces whose boxes are nearer than this part of their size are in contact. Of curved bodies whose
-/// faces do not match, facets in contact cross by their height, however small the motion.
-constexpr double Contact = 0.125;
-
+/// Faces whose boxes are nearer than this part of their size are near each other.
+constexpr double Near = 0.125;
+/// Degrees: by how much faces in contact may turn where no neighbor shows it.
+constexpr double Slight = 5;
+/// Corners move back by no more than this times the way of their faces.
+constexpr double Steep = 4;
+constexpr double Degree = 3.14159265358979323846 / 180;
 /// The boundary faces by numbers of their own corners: its arrays do not grow with the mesh.
 struct Shell
 {
@@ -62,24 +66,29 @@ struct Shell
 struct Place
 {
   Points at, inside;
+  Points normals; ///< #faces x 3, outwards, of unit length
+  /// The way outwards at a corner along which all of its faces move by 1 at least, unless they are
+  /// steeper than Steep.
+  Points outwards;
 
   Place(const Shell& shell, const ConstPoints& points)
     : at(points(shell.nodes, allColumns))
     , inside(at)
+    , normals(shell.count(), 3)
+    , outwards(Points::Zero(this->at.rows(), 3))
   {
-    Points normals = Points::Zero(this->at.rows(), 3);
     Eigen::VectorXd shortest =
       Eigen::VectorXd::Constant(this->at.rows(), std::numeric_limits<double>::infinity());
     for (Index f = 0; f < shell.count(); ++f)
     {
       const Index* nodes = shell.begin(f);
       const Index size = shell.size(f);
-      const Eigen::RowVector3d normal =
+      this->normals.row(f) =
         shell.orientation[shell.cells[f]] * vectorArea(this->at, nodes, size).normalized();
       for (Index k = 0; k < size; ++k)
       {
         const Index a = nodes[k], b = nodes[(k + 1) % size];
-        normals.row(a) += normal;
+        this->outwards.row(a) += this->normals.row(f);
         const double length = (this->at.row(a) - this->at.row(b)).norm();
         if (length > 0)
         {
@@ -88,15 +97,82 @@ struct Place
         }
       }
     }
+    this->outwards.rowwise().normalize();
     for (Index i = 0; i < this->at.rows(); ++i)
     {
       if (std::isfinite(shortest[i]))
       {
-        this->inside.row(i) -= Depth * shortest[i] * normals.row(i).normalized();
+        this->inside.row(i) -= Depth * shortest[i] * this->outwards.row(i);
+      }
+    }
+    Eigen::VectorXd least = Eigen::VectorXd::Ones(this->at.rows());
+    for (Index f = 0; f < shell.count(); ++f)
+    {
+      for (const Index* corner = shell.begin(f); corner != shell.end(f); ++corner)
+      {
+        const double along = this->normals.row(f).dot(this->outwards.row(*corner));
+        least[*corner] = std::min(least[*corner], std::max(along, 1 / Steep));
+      }
+    }
+    this->outwards.array().colwise() /= least.array();
+  }
+};
+
+/// The height of an arc over a chord, turning by an angle in radians.
+double arcHeight(double chord, double turn)
+{
+  return chord / 2 * std::tan(turn / 4);
+}
+
+/// For each face how far the faces at its corners are at most from a smooth surface that turns as
+/// they do: the height of an arc over its chord.
+Eigen::VectorXd heights(const Shell& shell, const Place& place, Monitor& monitor)
+{
+  const double feature = ClassificationOptions().featureAngle * Degree;
+  const Points& at = place.at;
+  Eigen::VectorXd size(shell.count());
+  for (Index f = 0; f < shell.count(); ++f)
+  {
+    Eigen::AlignedBox3d box;
+    std::for_each(
+      shell.begin(f), shell.end(f), [&](Index corner) { box.extend(at.row(corner).transpose()); });
+    size[f] = box.diagonal().norm();
+  }
+  const Adjacency facesAt = sortIntoBuckets(shell.count(), at.rows(), monitor,
+    [&](Index first, Index last, const auto& add)
+    {
+      for (Index f = first; f < last; ++f)
+      {
+        std::for_each(shell.begin(f), shell.end(f), [&](Index corner) { add(corner, f); });
+      }
+    });
+  Eigen::VectorXd atCorner = Eigen::VectorXd::Zero(at.rows());
+  for (Index corner = 0; corner < at.rows(); ++corner)
+  {
+    for (const Index* f = facesAt.begin(corner); f != facesAt.end(corner); ++f)
+    {
+      for (const Index* g = facesAt.begin(corner); g != f; ++g)
+      {
+        const Eigen::RowVector3d a = place.normals.row(*f), b = place.normals.row(*g);
+        const double turn = std::atan2(a.cross(b).norm(), a.dot(b));
+        if (turn <= feature)
+        {
+          const double height = arcHeight(std::max(size[*f], size[*g]), turn);
+          atCorner[corner] = std::max(atCorner[corner], height);
+        }
       }
     }
   }
-};
+  Eigen::VectorXd result = Eigen::VectorXd::Zero(shell.count());
+  for (Index f = 0; f < shell.count(); ++f)
+  {
+    for (const Index* corner = shell.begin(f); corner != shell.end(f); ++corner)
+    {
+      result[f] = std::max(result[f], atCorner[*corner]);
+    }
+  }
+  return result;
+}
 
 struct Facet
 {
@@ -104,10 +180,10 @@ struct Facet
   Eigen::AlignedBox3d box;
 };
 
-/// Fills `triangles` with those of a face.
-void makeFacets(const Shell& shell, Index face, const Points& points, std::vector<Facet>& triangles)
+/// Fills `triangles` with those of a face. `at`: the place of a corner.
+template <typename At>
+void makeFacets(const Shell& shell, Index face, const At& at, std::vector<Facet>& triangles)
 {
-  const auto at = [&](Index corner) -> Eigen::Vector3d { return points.row(corner).transpose(); };
   const Index* nodes = shell.begin(face);
   const Index size = shell.size(face);
   triangles.clear();
@@ -126,7 +202,11 @@ void makeFacets(const Shell& shell, Index face, const Points& points, std::vecto
     add(at(nodes[0]), nodes[1], nodes[2]);
     return;
   }
-  const Eigen::Vector3d mean = meanOfRows(points, nodes, nodes + size).transpose();
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  for (Index k = 0; k < size; ++k)
+  {
+    mean += at(nodes[k]) / static_cast<double>(size);
+  }
   for (Index k = 0; k < size; ++k)
   {
     add(mean, nodes[k], nodes[(k + 1) % size]);
@@ -176,20 +256,32 @@ bool anyCross(const std::vector<Facet>& first, const std::vector<Facet>& second)
   return false;
 }
 
-/// Whether two faces cross with one of them pushed.
-bool facesCross(const Shell& shell, const Place& place, const std::array<Index, 2>& pair,
-  std::vector<Facet>& first, std::vector<Facet>& second)
+/// Whether two faces cross with one of them pushed, and one moved back by `length`: as a whole, and
+/// also with the faces at its corners.
+bool crossPushed(const Shell& shell, const Place& place, const std::array<Index, 2>& pair,
+  double length, std::array<std::vector<Facet>, 2>& facets)
 {
-  for (const bool isFirstPushed : { true, false })
+  const auto cross = [&](int pushed, int movedBack, bool asAWhole)
   {
-    makeFacets(shell, pair[0], isFirstPushed ? place.inside : place.at, first);
-    makeFacets(shell, pair[1], isFirstPushed ? place.at : place.inside, second);
-    if (anyCross(first, second))
+    for (const int side : { 0, 1 })
     {
-      return true;
+      const Index face = pair[side];
+      const Points& corners = side == pushed ? place.inside : place.at;
+      const auto at = [&](Index corner) -> Eigen::Vector3d
+      {
+        const Eigen::RowVector3d x = corners.row(corner);
+        const Eigen::RowVector3d way =
+          asAWhole ? place.normals.row(face) : place.outwards.row(corner);
+        return (side == movedBack ? Eigen::RowVector3d(x - length * way) : x).transpose();
+      };
+      makeFacets(shell, face, at, facets[side]);
     }
-  }
-  return false;
+    return anyCross(facets[0], facets[1]);
+  };
+  const auto crossIf = [&](int movedBack, bool asAWhole)
+  { return cross(0, movedBack, asAWhole) || cross(1, movedBack, asAWhole); };
+  return (crossIf(0, true) && (length == 0 || crossIf(0, false))) ||
+         (length > 0 && crossIf(1, true) && crossIf(1, false));
 }
 }
 
@@ -198,7 +290,6 @@ std::vector<std::array<Index, 2>> crossingFaces(const ConstPoints& rest, const C
 {
   const Shell shell(faces, orientation);
   std::vector<Eigen::AlignedBox3d> boxes(static_cast<std::size_t>(shell.count()));
-  std::vector<Eigen::AlignedBox3d> boxesAtRest(boxes.size());
   std::vector<std::uint8_t> isMoved(boxes.size());
   for (Index f = 0; f < shell.count(); ++f)
   {
@@ -206,34 +297,34 @@ std::vector<std::array<Index, 2>> crossingFaces(const ConstPoints& rest, const C
     {
       const Index node = shell.nodes[*corner];
       boxes[f].extend(moved.row(node).transpose());
-      boxesAtRest[f].extend(rest.row(node).transpose());
       isMoved[f] |= rest.row(node) != moved.row(node);
     }
   }
   monitor.check();
-  // Faces that share a node are 0 apart, so they are in contact, too.
   const auto areApart = [&](Index f, Index g)
   {
-    const Eigen::AlignedBox3d &first = boxesAtRest[f], &second = boxesAtRest[g];
-    const double reach = Contact * (first.diagonal().norm() + second.diagonal().norm());
-    return first.exteriorDistance(second) > reach;
+    return std::none_of(shell.begin(f), shell.end(f),
+      [&](Index corner)
+      { return std::find(shell.begin(g), shell.end(g), corner) != shell.end(g); });
   };
   std::vector<std::array<Index, 2>> pairs = overlappingBoxes(boxes, isMoved, areApart);
   if (pairs.empty())
   {
     return pairs;
   }
-  const auto keepCrossing = [&](const Place& place, bool isKept)
+  const auto keep = [&](const auto& isKept)
   {
     constexpr Index Batch = 1 << 16, Grain = 256;
     std::vector<std::uint8_t> areKept(pairs.size());
     parallelBatches(monitor, static_cast<Index>(pairs.size()), Batch, Grain,
       [&](Index begin, Index end)
       {
-        std::vector<Facet> first, second;
+        std::array<std::vector<Facet>, 2> facets;
+        const auto crossAt = [&](const Place& place, const auto& pair, double length)
+        { return crossPushed(shell, place, pair, length, facets); };
         for (Index i = begin; i < end; ++i)
         {
-          areKept[i] = facesCross(shell, place, pairs[i], first, second) == isKept;
+          areKept[i] = isKept(pairs[i], crossAt);
         }
       });
     std::size_t kept = 0;
@@ -246,11 +337,43 @@ std::vector<std::array<Index, 2>> crossingFaces(const ConstPoints& rest, const C
     }
     pairs.resize(kept);
   };
-  keepCrossing(Place(shell, moved), true);
-  if (!pairs.empty())
+  const Place now(shell, moved);
+  keep([&](const auto& pair, const auto& crossAt) { return crossAt(now, pair, 0); });
+  if (pairs.empty())
   {
-    keepCrossing(Place(shell, rest), false);
+    return pairs;
   }
+  const Place before(shell, rest);
+  const Eigen::VectorXd height =
+    heights(shell, before, monitor).cwiseMax(heights(shell, now, monitor));
+  const auto restBox = [&](Index f)
+  {
+    Eigen::AlignedBox3d box;
+    std::for_each(shell.begin(f), shell.end(f),
+      [&](Index corner) { box.extend(before.at.row(corner).transpose()); });
+    return box;
+  };
+  // Of faces in contact before the motion, the height is at least that of a slight turn.
+  const auto heightOf = [&](const std::array<Index, 2>& pair)
+  {
+    const auto size = [](const Eigen::AlignedBox3d& box) { return box.diagonal().norm(); };
+    const Eigen::AlignedBox3d first = restBox(pair[0]), second = restBox(pair[1]);
+    const bool isNear = first.exteriorDistance(second) <= Near * (size(first) + size(second));
+    double sum = 0;
+    for (const Index f : pair)
+    {
+      const double least = isNear ? arcHeight(size(boxes[f]), Slight * Degree) : 0;
+      sum += std::max(height[f], least);
+    }
+    return sum;
+  };
+  keep(
+    [&](const auto& pair, const auto& crossAt)
+    {
+      const double length = heightOf(pair);
+      return crossAt(now, pair, length) &&
+             !(crossAt(before, pair, 0) && crossAt(before, pair, length));
+    });
   return pairs;
 }
 }

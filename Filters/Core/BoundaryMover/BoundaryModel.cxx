@@ -51,6 +51,25 @@ void sortUnique(std::vector<Index>& list)
   list.erase(std::unique(list.begin(), list.end()), list.end());
 }
 
+/// As a set of inner faces, which are the last ones of the boundary.
+NamedSet setAt(const InnerSurface& surface, const BoundaryFaces& faces, std::size_t inside)
+{
+  NamedSet set;
+  set.name = surface.name;
+  for (std::size_t f = faces.cells.size() - inside; f < faces.cells.size(); ++f)
+  {
+    if (std::binary_search(surface.places.begin(), surface.places.end(),
+          std::make_pair(faces.cells[f], faces.sides[f])))
+    {
+      const auto begin = faces.connectivity.begin();
+      set.faces.push_back(static_cast<Index>(f));
+      set.nodes.insert(set.nodes.end(), begin + faces.offsets[f], begin + faces.offsets[f + 1]);
+    }
+  }
+  sortUnique(set.nodes);
+  return set;
+}
+
 /// The diagonal of the box around these nodes; 0 for none.
 double sizeOf(const Points& points, const std::vector<Index>& nodes)
 {
@@ -81,9 +100,22 @@ NamedSet boundarySet(const std::string& name, const Mesh& mesh, const BoundaryFa
   }
   if (!isNode.empty())
   {
+    const std::size_t outer = faces.offsets.size() - 1 - inside;
+    std::vector<std::uint8_t> isOuter(isNode.size(), 0);
+    std::for_each(begin, begin + faces.offsets[outer], [&](Index node) { isOuter[node] = 1; });
+    for (std::size_t i = 0; i < faces.nodes.size(); ++i)
+    {
+      const Index node = faces.nodes[i], k = static_cast<Index>(i);
+      const Index *first = faces.between.begin(k), *last = faces.between.end(k);
+      const bool isBetween =
+        first != last && std::all_of(first, last, [&](Index n) { return isOuter[n] != 0; });
+      if (isNode[node] && (isOuter[node] || isBetween))
+      {
+        set.nodes.push_back(node);
+      }
+    }
     const auto isMarked = [&](Index node) { return isNode[node] != 0; };
-    std::copy_if(faces.nodes.begin(), faces.nodes.end(), std::back_inserter(set.nodes), isMarked);
-    for (std::size_t f = 0; f + 1 < faces.offsets.size(); ++f)
+    for (std::size_t f = 0; f < outer; ++f)
     {
       if (std::all_of(begin + faces.offsets[f], begin + faces.offsets[f + 1], isMarked))
       {
@@ -154,6 +186,21 @@ void BoundaryModel::findFaces(const std::vector<std::uint8_t>& isNamed, Monitor&
   this->bodyOfNode = bodyOfNodes(this->mesh, bodies);
   this->faces = boundaryFaces(this->mesh, monitor);
   this->inner = innerFaces(this->mesh, this->faces, isNamed, monitor);
+  InnerFaces::Places& sheets = this->inner.sheets;
+  for (const InnerSurface& surface : this->innerSurfaces)
+  {
+    for (const auto& place : surface.places)
+    {
+      const InnerFaces::Places& baffles = this->inner.baffles;
+      if (this->asked.count(surface.name) > 0 &&
+          !std::binary_search(baffles.begin(), baffles.end(), place))
+      {
+        sheets.push_back(place);
+      }
+    }
+  }
+  std::sort(sheets.begin(), sheets.end());
+  sheets.erase(std::unique(sheets.begin(), sheets.end()), sheets.end());
   if (this->inner.size() > 0)
   {
     InnerFaces::Places places;
@@ -176,13 +223,47 @@ void BoundaryModel::findFaces(const std::vector<std::uint8_t>& isNamed, Monitor&
   monitor.check();
 }
 
+std::vector<Index> BoundaryModel::sheetNumbers() const
+{
+  std::map<std::vector<std::size_t>, Index> numberOf;
+  std::vector<Index> numbers;
+  for (const auto& place : this->inner.sheets)
+  {
+    std::vector<std::size_t> on;
+    for (std::size_t i = 0; i < this->innerSurfaces.size(); ++i)
+    {
+      const InnerSurface& surface = this->innerSurfaces[i];
+      if (this->asked.count(surface.name) > 0 &&
+          std::binary_search(surface.places.begin(), surface.places.end(), place))
+      {
+        on.push_back(i);
+      }
+    }
+    numbers.push_back(numberOf.emplace(std::move(on), Index(numberOf.size())).first->second);
+  }
+  return numbers;
+}
+
 void BoundaryModel::takeSets(std::vector<NamedSet> sets)
 {
+  const auto isInside = [this](const NamedSet& set)
+  {
+    return std::any_of(this->innerSurfaces.begin(), this->innerSurfaces.end(),
+      [&](const InnerSurface& surface) { return surface.name == set.name; });
+  };
+  sets.erase(std::remove_if(sets.begin(), sets.end(), isInside), sets.end());
+  for (const InnerSurface& surface : this->innerSurfaces)
+  {
+    if (this->asked.count(surface.name) > 0)
+    {
+      sets.push_back(setAt(surface, this->faces, this->inner.size()));
+    }
+  }
   const auto onBoundary = [](const NamedSet& set) { return !set.nodes.empty(); };
   const auto isOuter = [this](const NamedSet& set) { return !this->areInner(set.faces); };
-  const auto inside = std::stable_partition(sets.begin(), sets.end(), onBoundary);
-  this->setsInside.assign(inside, sets.end());
-  sets.erase(inside, sets.end());
+  const auto others = std::stable_partition(sets.begin(), sets.end(), onBoundary);
+  this->setsInside.assign(others, sets.end());
+  sets.erase(others, sets.end());
   std::stable_partition(sets.begin(), sets.end(), isOuter);
   this->namedSets = std::move(sets);
   this->size = sizeOf(this->points(), this->faces.nodes);

@@ -8,6 +8,7 @@
 #include "Support/Monitor.h"
 
 #include <cstdint>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -21,11 +22,11 @@ struct NamedSet
   std::vector<Index> faces; ///< ascending
 };
 
-/// Returns what a set of nodes and cells has of a boundary. A node belongs to it if it is marked,
-/// and a face if all of its corners are. A face belongs, too, if a marked two-dimensional cell lies
-/// on it or, where no two-dimensional cell is marked, if the volume cell behind it is; then
-/// `inside` faces, the last ones, do not. `isNode`: #nodes, `isCell`: #cells or, of a boundary
-/// alone, #faces; either may be empty.
+/// Returns what a set of nodes and cells has of a boundary. A node of an outer face belongs to it if
+/// it is marked, and an outer face if all of its corners are. A face belongs, too, if a marked
+/// two-dimensional cell lies on it. Where no two-dimensional cell is marked, an outer face does if
+/// the volume cell behind it is. The `inside` last faces are not outer ones. `isNode`: #nodes,
+/// `isCell`: #cells or, of a boundary alone, #faces; either may be empty.
 NamedSet boundarySet(const std::string& name, const Mesh& mesh, const BoundaryFaces& faces,
   std::size_t inside, const std::vector<std::uint8_t>& isNode,
   const std::vector<std::uint8_t>& isCell);
@@ -38,7 +39,10 @@ struct BoundaryModel
   Points undeformed; ///< of a boundary alone: #nodes x 3
   /// The outer faces, then those of baffles, then those of sheets; see innerFaces().
   BoundaryFaces faces;
-  InnerFaces inner;                     ///< the last ones of `faces`
+  InnerFaces inner;                        ///< the last ones of `faces`
+  std::vector<InnerSurface> innerSurfaces; ///< of its parts and of sets of nodes
+  /// The names of those that are sheets, too. Others are listed alone.
+  std::set<std::string> asked;
   std::vector<std::int8_t> orientation; ///< #faces: -1 where the cell behind is wound inside out
   std::vector<Index> bodyOfNode;        ///< see bodyOfNodes()
   Classification geometry;              ///< found at undeformed positions
@@ -70,11 +74,14 @@ struct BoundaryModel
   Points outwardAreas(const Points& at) const;
 
   /// Finds faces, inner faces, orientation and bodies of `mesh`. `isNamed`: #cells, those of named
-  /// sets: two-dimensional ones are inner faces where they lie inside. Cost: that of
-  /// boundaryFaces() and connectedComponents().
+  /// sets: two-dimensional ones are inner faces where they lie inside. So are the inner
+  /// surfaces that are asked for. Cost: that of boundaryFaces() and connectedComponents().
   void findFaces(const std::vector<std::uint8_t>& isNamed, Monitor& monitor);
-  /// Takes the sets, with their nodes on the boundary alone, and sets `size`. Moves those without
-  /// nodes to `setsInside`.
+  /// See ClassificationOptions::sheets: the same number for faces of the same inner surfaces.
+  std::vector<Index> sheetNumbers() const;
+  /// Takes the sets, with their nodes on the boundary alone, and the inner surfaces that are asked
+  /// for, which go before sets of their names. Moves those without nodes to `setsInside`, and sets
+  /// `size`.
   void takeSets(std::vector<NamedSet> sets);
 };
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "BoundaryMover/BoundaryMover.h"
 
-#include "BoundaryMover/Unmet.h"
 #include "Support/ProgressRange.h"
 
 #include <functional>
@@ -73,6 +72,7 @@ const Surroundings::Result& BoundaryMover::move(const BoundaryModel& model, cons
           model, choice, targets, options.rest.sliding, result, this->surroundings_, monitor);
       });
   }
+  alike([&] { this->touching_.warnOfParted(model, result, monitor); });
   if (options.contact.distance > 0)
   {
     this->contact_.setRoles(result);

@@ -6,6 +6,7 @@
 #include "BoundaryMover/PeriodicSides.h"
 #include "BoundaryMover/SlideRounds.h"
 #include "BoundaryMover/Surroundings.h"
+#include "BoundaryMover/Unmet.h"
 
 #include <vector>
 
@@ -37,9 +38,10 @@ public:
 
   /// `targets`: of choice.moving, #moving x 3, finite. `pieces`: of a mesh on several processes,
   /// whose boundary alone `model` is; else null. Then this is collective. Warns of what is not met
-  /// where zones, sliding and periodic surfaces win over what else is asked. Throws Error as InnerNodes,
-  /// SlideRounds, Contact and PeriodicSides do; then there is no result. Cost: passes over the boundary and, the
-  /// first time, the weights of surfaces that follow.
+  /// where zones, sliding and periodic surfaces win over what else is asked, and of bodies that
+  /// part. Throws Error as InnerNodes, SlideRounds, Contact and PeriodicSides do; then there is no
+  /// result. Cost: passes over the boundary and, the first time, the weights of surfaces that
+  /// follow.
   const Surroundings::Result& move(const BoundaryModel& model, const Choice& choice,
     const Points& targets, const Options& options, const InnerPieces* pieces, Monitor& monitor);
 
@@ -56,6 +58,7 @@ private:
   SlideRounds rounds_;
   Contact contact_;
   PeriodicSides periodic_;
+  TouchingNodes touching_;
   Surroundings::Result result_;
 };
 }

@@ -2,6 +2,7 @@
 #include "BoundaryMover/Patches.h"
 
 #include "Boundary/FaceAreas.h"
+#include "Mesh/FacesOfCells.h"
 #include "Mesh/PlaneLayer.h"
 #include "Support/Error.h"
 
@@ -23,12 +24,13 @@ std::string curveName(Index id)
 }
 
 template <typename Patches>
-void addNames(const Patches& patches, std::string (*name)(Index), std::vector<std::string>& names)
+void addNames(const Patches& patches, std::size_t count, std::string (*name)(Index),
+  std::vector<std::string>& names)
 {
   std::set<Index> ids;
-  for (const auto& patch : patches)
+  for (std::size_t i = 0; i < count; ++i)
   {
-    ids.insert(patch.id);
+    ids.insert(patches[i].id);
   }
   for (Index id : ids)
   {
@@ -105,12 +107,20 @@ std::vector<std::string> patchNames(const BoundaryModel& model)
   std::vector<std::string> names;
   for (const NamedSet& set : model.namedSets)
   {
-    names.push_back(set.name);
+    if (model.asked.count(set.name) == 0) // which come with the other inner surfaces
+    {
+      names.push_back(set.name);
+    }
   }
-  addNames(geometry.surfaces, surfaceName, names);
+  for (const InnerSurface& surface : model.innerSurfaces)
+  {
+    names.push_back(surface.name);
+  }
+  const std::vector<Index> sheets = model.sheets(); // which have names, and come last
+  addNames(geometry.surfaces, geometry.surfaces.size() - sheets.size(), surfaceName, names);
   if (model.mesh.layer.nodes == 0) // those of a layer are corners, and its surfaces twice
   {
-    addNames(geometry.curves, curveName, names);
+    addNames(geometry.curves, geometry.curves.size(), curveName, names);
   }
   return names;
 }
@@ -147,6 +157,16 @@ std::vector<PatchSize> patchSizes(const BoundaryModel& model)
   {
     addFaces(set.faces, sizes[set.name]);
     addNodes(set.nodes, sizes[set.name]);
+  }
+  for (const InnerSurface& surface : model.innerSurfaces)
+  {
+    const BoundaryFaces faces = facesAt(model.mesh, surface.places);
+    PatchSize size;
+    size.isInner = true;
+    size.count = static_cast<Index>(surface.places.size());
+    size.measure = perArea * faceAreas(points, faces).rowwise().norm().sum();
+    addNodes(faces.nodes, size);
+    sizes[surface.name] = size;
   }
   for (const GeometrySurface& surface : geometry.surfaces)
   {

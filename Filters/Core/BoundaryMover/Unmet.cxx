@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <sstream>
+#include <string>
+#include <tuple>
 
 namespace morph
 {
@@ -82,5 +84,75 @@ void warnOfUnmet(const BoundaryModel& model, const Choice& choice, const Points&
       "Zones, sliding and periodic surfaces win over what else is asked of the boundary." +
       text.str() + " Leave these nodes out of one or the other if that is not meant.");
   }
+}
+
+void TouchingNodes::warnOfParted(
+  const BoundaryModel& model, const Surroundings::Result& result, Monitor& monitor)
+{
+  if (this->version_ != model.motionVersion)
+  {
+    this->version_ = model.motionVersion;
+    this->pairs_.clear();
+    const auto key = [&](Index n)
+    {
+      const auto x = model.points().row(n);
+      return std::make_tuple(x[0], x[1], x[2], model.bodyOfNode[n], n);
+    };
+    std::vector<Index> nodes = model.faces.nodes;
+    const auto body = [&](Index n) { return model.bodyOfNode[n]; };
+    const bool isOne = std::all_of(
+      nodes.begin(), nodes.end(), [&](Index n) { return body(n) == body(nodes.front()); });
+    if (!isOne)
+    {
+      std::sort(nodes.begin(), nodes.end(), [&](Index a, Index b) { return key(a) < key(b); });
+    }
+    for (std::size_t i = 1; !isOne && i < nodes.size(); ++i)
+    {
+      const Index a = nodes[i - 1], b = nodes[i];
+      if (body(a) != body(b) && model.points().row(a) == model.points().row(b))
+      {
+        this->pairs_.push_back({ a, b });
+      }
+    }
+  }
+  double most = 0;
+  std::vector<Index> parted;
+  for (const auto& [a, b] : this->pairs_)
+  {
+    const double distance = (result.moved.row(a) - result.moved.row(b)).norm();
+    if (distance > Rounding * model.size)
+    {
+      most = std::max(most, distance);
+      parted.insert(parted.end(), { a, b });
+    }
+  }
+  if (parted.empty())
+  {
+    return;
+  }
+  std::sort(parted.begin(), parted.end());
+  std::string surfaces;
+  for (const GeometrySurface& surface : model.geometry.surfaces)
+  {
+    const auto isParted = [&](Index n)
+    { return std::binary_search(parted.begin(), parted.end(), n); };
+    const auto corner = model.faces.connectivity.begin();
+    if (std::any_of(surface.faces.begin(), surface.faces.end(),
+          [&](Index f)
+          {
+            return std::all_of(
+              corner + model.faces.offsets[f], corner + model.faces.offsets[f + 1], isParted);
+          }))
+    {
+      surfaces += (surfaces.empty() ? "Surface " : ", Surface ") + std::to_string(surface.id);
+    }
+  }
+  std::ostringstream text;
+  text << "Bodies touch and are not tied: " << parted.size()
+       << " nodes part from nodes of other bodies at their places, by up to " << most
+       << (surfaces.empty() ? "" : ", on ") << surfaces
+       << ". `ContactDistance` lets a body follow one that it touches: a length above 0 ties "
+          "nodes at one place.";
+  monitor.warn(text.str());
 }
 }

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -36,4 +37,37 @@ std::map<Corners, int> flatCells(const Mesh& mesh, const std::vector<std::uint8_
 /// some lie inside, that of faceTable().
 InnerFaces innerFaces(const Mesh& mesh, const BoundaryFaces& outer,
   const std::vector<std::uint8_t>& isMarked, Monitor& monitor);
+
+/// Cells with a name: a block, a region or an element set.
+struct NamedCells
+{
+  std::string name;
+  std::vector<Index> cells; ///< volume cells, ascending
+};
+
+/// A set of nodes with a name.
+struct NamedNodes
+{
+  std::string name;
+  std::vector<std::uint8_t> isNode; ///< #nodes
+
+  bool operator==(const NamedNodes& other) const
+  {
+    return this->name == other.name && this->isNode == other.isNode;
+  }
+};
+
+/// Faces inside of a mesh that a name stands for.
+struct InnerSurface
+{
+  std::string name;
+  InnerFaces::Places places; ///< ascending
+};
+
+/// Returns those between two parts, "a | b", by the numbers of the parts, which have no common
+/// cell. Then those of the sets that mark nodes inside, all of them on inner faces whose corners
+/// are marked, and neither a whole cell nor a whole outer face. Cost: a pass over the parts' cells
+/// and faceTable(), if there are two parts or a set, and a pass over the faces for each set.
+std::vector<InnerSurface> innerSurfaces(const Mesh& mesh, const std::vector<NamedCells>& parts,
+  const std::vector<NamedNodes>& sets, Monitor& monitor);
 }

@@ -239,7 +239,7 @@ Validity::Outcome Validity::subStep(
   {
     return ofSubSteps(result, "", "");
   }
-  Outcome outcome = ofSubSteps(result, "folds, or leaves",
+  Outcome outcome = ofSubSteps(result, "folds, runs into itself, or leaves",
     ", at the result's places:" +
       this->describe(result.inverted,
         measureQuality(this->mesh, result.moved, this->orientation, {}, monitor), result.moved));
@@ -253,7 +253,13 @@ Validity::Outcome Validity::subStep(
 Validity::Outcome Validity::ensure(Points& moved, Monitor& monitor) const
 {
   Quality quality = measureQuality(this->mesh, moved, this->orientation, {}, monitor);
-  if (this->inverted(quality, moved).empty())
+  const auto crosses = [&]
+  {
+    return !crossingCells(
+      this->mesh, this->partition, this->orientation, this->faces, moved, monitor)
+              .empty();
+  };
+  if (this->inverted(quality, moved).empty() && !(this->mode == Mode::SubStep && crosses()))
   {
     Outcome valid;
     valid.measured = std::move(quality);

@@ -26,7 +26,7 @@ public:
   {
     None,     ///< they are counted
     Report,   ///< the worst are named
-    SubStep,  ///< the motion is halved, and goes on from the last valid mesh
+    SubStep,  ///< the motion is halved, and ends before the boundary crosses itself, too
     Repair,   ///< the inversion-free method starts from the mesh; then sub-steps
     Refuse,   ///< Error
     RepairAll ///< as Repair, and cells that were inverted before are repaired, too

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Untangling/BoundaryCheck.h"
 
+#include "Boundary/CrossingFaces.h"
 #include "Boundary/FoldedFaces.h"
+#include "Mesh/FacesOfCells.h"
 
 #include <algorithm>
 
@@ -27,8 +29,35 @@ std::vector<Index> ForbiddenCells::all(const InvertedBefore& before) const
     }
   }
   cells.insert(cells.end(), this->folded.begin(), this->folded.end());
+  cells.insert(cells.end(), this->crossing.begin(), this->crossing.end());
   makeUnique(cells);
   return before.without(cells);
+}
+
+std::vector<Index> crossingCells(const Mesh& mesh, const NodePartition& partition,
+  const std::vector<std::int8_t>& orientation, const BoundaryFaces& faces, const Points& points,
+  Monitor& monitor)
+{
+  const auto isPrescribed = [&](Index node)
+  { return std::binary_search(partition.prescribed.begin(), partition.prescribed.end(), node); };
+  std::vector<std::pair<Index, int>> places;
+  for (std::size_t f = 0; f < faces.cells.size(); ++f)
+  {
+    const auto corners = faces.connectivity.begin();
+    if (std::all_of(corners + faces.offsets[f], corners + faces.offsets[f + 1], isPrescribed))
+    {
+      places.emplace_back(faces.cells[f], faces.sides[f]);
+    }
+  }
+  const BoundaryFaces given = facesAt(mesh, places);
+  std::vector<Index> cells;
+  for (const auto& [f, g] :
+    crossingFaces(ConstPoints(mesh.points), ConstPoints(points), given, orientation, monitor))
+  {
+    cells.insert(cells.end(), { given.cells[f], given.cells[g] });
+  }
+  makeUnique(cells);
+  return cells;
 }
 
 BoundaryCheck::BoundaryCheck(const Mesh& mesh, const NodePartition& partition,
@@ -66,6 +95,8 @@ ForbiddenCells BoundaryCheck::at(const Points& boundary) const
     result.folded.push_back(this->faces_.cells[f]);
   }
   makeUnique(result.folded);
+  result.crossing = crossingCells(
+    this->mesh_, this->partition_, this->orientation_, this->faces_, points, this->monitor_);
   return result;
 }
 }

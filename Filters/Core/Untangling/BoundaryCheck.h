@@ -16,11 +16,18 @@ struct ForbiddenCells
 {
   std::vector<Index> determined;              ///< see boundaryDeterminedInversions()
   std::vector<NodeWithoutPlace> withoutPlace; ///< see nodesWithoutPlace()
-  std::vector<Index> folded; ///< behind prescribed faces that are folded, see foldedFaces()
+  std::vector<Index> folded;   ///< behind prescribed faces that are folded, see foldedFaces()
+  std::vector<Index> crossing; ///< see crossingCells()
 
   /// Returns all of these, ascending, each once: those that do not come from cells of `before`.
   std::vector<Index> all(const InvertedBefore& before = {}) const;
 };
+
+/// Returns the cells behind faces of prescribed corners alone that run into others of these,
+/// ascending; see crossingFaces(). `mesh`: before the motion, `faces`: of it. `points`: #nodes x 3.
+std::vector<Index> crossingCells(const Mesh& mesh, const NodePartition& partition,
+  const std::vector<std::int8_t>& orientation, const BoundaryFaces& faces, const Points& points,
+  Monitor& monitor);
 
 /// Finds such cells of one mesh for any positions of one set of prescribed nodes. Holds its
 /// arguments by reference.
@@ -31,7 +38,8 @@ public:
   BoundaryCheck(const Mesh& mesh, const NodePartition& partition,
     const std::vector<std::int8_t>& orientation, const BoundaryFaces& faces, Monitor& monitor);
 
-  /// `boundary`: #prescribed x 3. Cost: passes over the cells and over the boundary's faces.
+  /// `boundary`: #prescribed x 3. Cost: passes over the cells and over the boundary's faces, and
+  /// crossingFaces().
   ForbiddenCells at(const Points& boundary) const;
 
 private:

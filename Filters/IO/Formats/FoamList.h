@@ -57,8 +57,8 @@ public:
   struct Patch
   {
     std::string name, type;
-    std::string neighbour; ///< of a cyclic patch: the other one
-    std::string cyclic;    ///< of a cut through a cyclic patch: that patch
+    std::string neighbour;      ///< of a cyclic patch: the other one
+    std::string cyclic;         ///< of a cut through a cyclic patch: that patch
     Index first = 0, count = 0; ///< faces
   };
   std::vector<Patch> patches();

@@ -147,7 +147,7 @@ Found Describe(const Pairs& pairs, const std::map<Index, std::string>& names,
               place(faces, cells, points, f) + " and " + place(faces, cells, points, g);
     }
   }
-  return { static_cast<Index>(names.size()),
+  return { static_cast<Index>(names.size()), FacesOf(pairs),
     "The boundary crosses itself: " + std::to_string(names.size()) +
       " faces run into others that they did not cross before the motion. Surfaces that cross:" +
       text + (seen.size() > Most ? "\n  ...\n" : "\n") +

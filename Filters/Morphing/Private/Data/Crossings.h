@@ -23,8 +23,9 @@ namespace morph::filters::Crossings
 {
 struct Found
 {
-  morph::Index Faces = 0; ///< how many cross others
-  std::string Warning;    ///< names their surfaces; empty without any
+  morph::Index Count = 0;        ///< of faces that cross others
+  std::vector<morph::Index> Own; ///< those of this process, ascending
+  std::string Warning;           ///< names their surfaces; empty without any
 };
 
 using Pairs = std::vector<std::array<morph::Index, 2>>; ///< of faces; see crossingFaces()
@@ -44,7 +45,7 @@ std::map<morph::Index, std::string> NamesOf(const std::vector<morph::Index>& som
   vtkPointSet* boundary);
 /// The faces of all pairs, ascending.
 std::vector<morph::Index> FacesOf(const Pairs& pairs);
-/// `names`: of these faces. `cells`: #faces, what the warning calls the cell behind each.
+/// `names`: of these faces, which become Own. `cells`: #faces, what the warning calls the cell behind each.
 Found Describe(const Pairs& pairs, const std::map<morph::Index, std::string>& names,
   const morph::BoundaryFaces& faces, const std::vector<morph::Index>& cells,
   const morph::ConstPoints& points);

@@ -191,6 +191,7 @@ morph::ClassificationOptions coreOptions(const Geometry::Options& options)
   core.featureAngle = options.FeatureAngle;
   core.cornerAngle = options.CornerAngle;
   core.featuresInside = options.FeaturesInside;
+  core.sheets = options.Sheets;
   return core;
 }
 

@@ -22,8 +22,9 @@ struct Options
   double FeatureAngle = 25; ///< degrees
   double CornerAngle = 45;  ///< degrees
   bool FeaturesInside = false;
-  std::string SurfaceIdArray;    ///< a cell array; empty: none
-  bool UseGeometryArrays = true; ///< the point arrays above, where the grid has them
+  std::string SurfaceIdArray;       ///< a cell array; empty: none
+  bool UseGeometryArrays = true;    ///< the point arrays above, where the grid has them
+  std::vector<morph::Index> Sheets; ///< of the last faces, see morph::ClassificationOptions
 };
 
 /// Classifies the boundary of `grid`. `mesh`, `faces`: of `grid`. Surface ids come from

@@ -16,6 +16,7 @@
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
+#include <vtkUnsignedCharArray.h>
 #include <vtkUnstructuredGrid.h>
 
 #include <algorithm>
@@ -48,7 +49,7 @@ void MovedSurface::Make(vtkUnstructuredGrid* grid, const morph::Mesh& mesh,
   const morph::BoundaryFaces& faces, const std::vector<std::int8_t>* orientation)
 {
   vtkNew<vtkPolyData> surface;
-  Surface::Write(grid, mesh, faces, surface, orientation);
+  this->Faces = Surface::Write(grid, mesh, faces, surface, orientation);
   this->Polygons = surface->GetPolys();
   this->Nodes = vtkIdTypeArray::SafeDownCast(surface->GetPointData()->GetArray(Surface::IdName));
   this->Owners = vtkIdTypeArray::SafeDownCast(surface->GetCellData()->GetArray("MorphCellId"));
@@ -143,5 +144,20 @@ vtkIdType MovedSurface::Write(
   output->GetCellData()->SetScalars(scaledJacobian);
   return std::count_if(this->Outer.begin(), this->Outer.end(),
     [&quality](morph::Index cell) { return quality.scaledJacobian[cell] <= 0; });
+}
+
+void MovedSurface::MarkCrossing(const std::vector<morph::Index>& faces, vtkPolyData* output) const
+{
+  vtkNew<vtkUnsignedCharArray> crosses;
+  crosses->SetName("CrossesItself");
+  crosses->SetNumberOfValues(this->Owners->GetNumberOfValues());
+  crosses->FillValue(0);
+  const vtkIdType first = crosses->GetNumberOfValues() - static_cast<vtkIdType>(this->Faces.size());
+  for (std::size_t i = 0; i < this->Faces.size(); ++i)
+  {
+    const bool isOne = std::binary_search(faces.begin(), faces.end(), this->Faces[i]);
+    crosses->SetValue(first + static_cast<vtkIdType>(i), isOne);
+  }
+  output->GetCellData()->AddArray(crosses);
 }
 }

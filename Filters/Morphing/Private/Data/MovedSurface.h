@@ -45,9 +45,13 @@ public:
   /// face, NaN for lines. `quality`: of all cells, or those behind the faces at least. Returns the
   /// number of cells behind the faces without a positive value.
   vtkIdType Write(vtkPoints* moved, const morph::Quality& quality, vtkPolyData* output) const;
+  /// Adds the cell array CrossesItself to what Write() has filled: 1 on the polygons of these faces
+  /// of Make(), ascending, and 0 elsewhere.
+  void MarkCrossing(const std::vector<morph::Index>& faces, vtkPolyData* output) const;
 
 private:
   std::vector<morph::Index> Outer;
+  std::vector<morph::Index> Faces; ///< of the polygons
   vtkSmartPointer<vtkCellArray> Polygons;
   vtkSmartPointer<vtkIdTypeArray> Nodes;  ///< MorphPointId
   vtkSmartPointer<vtkIdTypeArray> Owners; ///< MorphCellId: that of the lines, then of the polygons

@@ -69,6 +69,22 @@ std::vector<std::uint8_t> CellsOfNamedSets(vtkPointSet* input)
   return result;
 }
 
+std::vector<morph::NamedNodes> NodeSets(vtkPointSet* input)
+{
+  std::vector<morph::NamedNodes> result;
+  for (const std::string& name : NamesOfSets(input))
+  {
+    const Flags isCell = marks(input->GetCellData(), name.c_str(), input->GetNumberOfCells());
+    Flags isNode = marks(input->GetPointData(), name.c_str(), input->GetNumberOfPoints());
+    if (!isNode.empty() &&
+        std::count(isCell.begin(), isCell.end(), 0) == std::ptrdiff_t(isCell.size()))
+    {
+      result.push_back({ name, std::move(isNode) });
+    }
+  }
+  return result;
+}
+
 std::vector<NamedSet> FindNamedSets(vtkPointSet* input, const morph::Mesh& mesh,
   const morph::BoundaryFaces& faces, Index firstPolygon, std::size_t inside)
 {

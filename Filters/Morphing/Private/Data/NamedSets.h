@@ -20,6 +20,9 @@ std::vector<std::string> NamesOfSets(vtkPointSet* input);
 /// For each cell of the input whether a set that its field data `SurfaceNames` lists has it.
 std::vector<std::uint8_t> CellsOfNamedSets(vtkPointSet* input);
 
+/// The sets of points alone that the input's field data `SurfaceNames` lists.
+std::vector<morph::NamedNodes> NodeSets(vtkPointSet* input);
+
 /// The sets that the input's field data `SurfaceNames` (vtkStringArray) lists, by the point and
 /// cell arrays of their names, which mark by values that are not zero; see morph::boundarySet(). A
 /// name without arrays is left out; a set that is not on the boundary has no nodes. `mesh`,

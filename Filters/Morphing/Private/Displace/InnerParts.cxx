@@ -24,14 +24,13 @@ std::vector<std::uint8_t> layerCells(vtkUnstructuredGrid* grid, const std::strin
 }
 }
 
-void vtkDisplacementAlgorithm::vtkInternals::ListZones(
-  vtkUnstructuredGrid* grid, const morph::Mesh& mesh)
+void vtkDisplacementAlgorithm::vtkInternals::ListZones()
 {
-  for (const filters::Zones::Listed& zone : filters::Zones::List(grid, mesh, this->Blocks.Merged()))
+  for (const filters::Zones::Listed& zone : this->Model.Parts())
   {
     this->ZoneList->AddArray(zone.Name.c_str(), false);
     this->ZoneSizes->InsertNextValue(zone.Name);
-    for (const morph::Index count : { zone.Cells, zone.Nodes })
+    for (const auto count : { static_cast<morph::Index>(zone.Cells.size()), zone.Nodes })
     {
       this->ZoneSizes->InsertNextValue(count > 0 ? std::to_string(count) : "");
     }

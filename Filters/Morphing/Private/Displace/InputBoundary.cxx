@@ -142,11 +142,46 @@ bool sameFaces(const morph::BoundaryFaces& a, const morph::BoundaryFaces& b)
 }
 }
 
-void InputBoundary::Update(vtkPointSet* input, const Geometry::Options& options,
-  morph::Monitor& monitor, const WholeSurface* whole)
+std::set<std::string> InputBoundary::Asked(const std::set<std::string>& names) const
+{
+  std::set<std::string> result;
+  for (const morph::InnerSurface& surface : this->innerSurfaces)
+  {
+    if (names.count(surface.name) > 0)
+    {
+      result.insert(surface.name);
+    }
+  }
+  return result;
+}
+
+void InputBoundary::FindInnerSurfaces(
+  vtkUnstructuredGrid* grid, const MergedBlocks* blocks, bool sameMesh, morph::Monitor& monitor)
+{
+  std::vector<Zones::Listed> listed = Zones::List(grid, this->mesh, blocks);
+  std::vector<morph::NamedNodes> sets = NodeSets(grid);
+  if (sameMesh && listed == this->Listed && sets == this->Sets)
+  {
+    return;
+  }
+  this->Listed = std::move(listed);
+  this->Sets = std::move(sets);
+  std::vector<morph::NamedCells> parts;
+  for (const Zones::Listed& zone : this->Listed)
+  {
+    if (!zone.Cells.empty())
+    {
+      parts.push_back({ zone.Name, zone.Cells });
+    }
+  }
+  this->innerSurfaces = morph::innerSurfaces(this->mesh, parts, this->Sets, monitor);
+}
+
+void InputBoundary::Update(vtkPointSet* input, const Options& options, morph::Monitor& monitor)
 {
   const std::string key = geometryKey(input, options);
-  if (this->Input == input && this->InputTime == input->GetMTime() && this->GeometryKey == key)
+  if (this->Input == input && this->InputTime == input->GetMTime() && this->GeometryKey == key &&
+      this->asked == this->Asked(options.Names))
   {
     return;
   }
@@ -156,7 +191,7 @@ void InputBoundary::Update(vtkPointSet* input, const Geometry::Options& options,
   next.inputVersion = ++next.Versions;
   if (auto* grid = vtkUnstructuredGrid::SafeDownCast(input))
   {
-    next.TakeGrid(grid, options, key, whole, monitor);
+    next.TakeGrid(grid, options, key, monitor);
   }
   else
   {
@@ -164,6 +199,10 @@ void InputBoundary::Update(vtkPointSet* input, const Geometry::Options& options,
   }
   next.takeSets(
     FindNamedSets(input, next.mesh, next.faces, next.FirstPolygon(), next.inner.size()));
+  if (options.Whole)
+  {
+    next.RefuseInside(input, options.Names);
+  }
   AddNamedSets(next.namedSets, next.Polygons, next.FirstPolygon(), next.Written);
   next.Input = input;
   next.InputTime = input->GetMTime();
@@ -171,9 +210,54 @@ void InputBoundary::Update(vtkPointSet* input, const Geometry::Options& options,
   *this = std::move(next);
 }
 
+void InputBoundary::RefuseInside(vtkPointSet* input, const std::set<std::string>& names) const
+{
+  const auto refuse = [](const std::string& name)
+  {
+    throw Error(
+      "The surface '" + name +
+      "' lies inside of the mesh, and on several MPI processes only the outer boundary "
+      "can be moved, held or slid. Use one process, or hold or move its nodes as a zone.");
+  };
+  std::set<std::string> unknown = names;
+  for (const NamedSet& set : this->namedSets)
+  {
+    unknown.erase(set.name);
+  }
+  for (const NamedSet& set : this->setsInside)
+  {
+    if (unknown.count(set.name) > 0)
+    {
+      refuse(set.name);
+    }
+  }
+  for (const std::string& name : unknown)
+  {
+    if (name.find(" | ") != std::string::npos)
+    {
+      refuse(name);
+    }
+  }
+  for (const morph::NamedNodes& set : NodeSets(input))
+  {
+    const auto found = std::find_if(this->namedSets.begin(), this->namedSets.end(),
+      [&](const NamedSet& other) { return other.name == set.name; });
+    const auto marked = std::count(set.isNode.begin(), set.isNode.end(), 1);
+    if (names.count(set.name) > 0 && found != this->namedSets.end() && found->faces.empty() &&
+        marked > static_cast<std::ptrdiff_t>(found->nodes.size()))
+    {
+      refuse(set.name);
+    }
+  }
+}
+
 void InputBoundary::TakeFaces(const WholeSurface& whole)
 {
   this->inner = {};
+  this->innerSurfaces.clear();
+  this->asked.clear();
+  this->Listed.clear();
+  this->Sets.clear();
   this->mesh = whole.Mesh();
   this->bodyOfNode = whole.BodyOfNode();
   this->faces = whole.Faces();
@@ -184,27 +268,40 @@ void InputBoundary::TakeFaces(const WholeSurface& whole)
   }
 }
 
-void InputBoundary::TakeGrid(vtkUnstructuredGrid* grid, const Geometry::Options& options,
-  const std::string& key, const WholeSurface* whole, morph::Monitor& monitor)
+void InputBoundary::TakeGrid(vtkUnstructuredGrid* grid, const Options& options,
+  const std::string& key, morph::Monitor& monitor)
 {
-  const bool sameMesh =
-    this->mesh.numberOfCells() > 0 && GridMesh::SameCells(grid, this->mesh) &&
-    GridMesh::SamePoints(grid, this->mesh) &&
-    (whole ? sameFaces(this->faces, whole->Faces()) : this->IsNamed == CellsOfNamedSets(grid));
-  if (!sameMesh && whole)
+  const WholeSurface* whole = options.Whole;
+  const bool sameMesh = this->mesh.numberOfCells() > 0 && GridMesh::SameCells(grid, this->mesh) &&
+                        GridMesh::SamePoints(grid, this->mesh);
+  bool sameBoundary = sameMesh && whole && sameFaces(this->faces, whole->Faces());
+  if (!sameBoundary && whole)
   {
     this->TakeFaces(*whole);
   }
-  else if (!sameMesh)
+  else if (!whole)
   {
-    this->mesh = GridMesh::FromGrid(grid);
-    morph::requireVolumeCells(this->mesh);
-    this->IsNamed = CellsOfNamedSets(grid);
-    this->findFaces(this->IsNamed, monitor);
+    if (!sameMesh)
+    {
+      this->mesh = GridMesh::FromGrid(grid);
+      morph::requireVolumeCells(this->mesh);
+    }
+    this->FindInnerSurfaces(grid, options.Blocks, sameMesh, monitor);
+    std::vector<std::uint8_t> isNamed = CellsOfNamedSets(grid);
+    std::set<std::string> asked = this->Asked(options.Names);
+    sameBoundary = sameMesh && this->IsNamed == isNamed && this->asked == asked;
+    this->IsNamed = std::move(isNamed);
+    this->asked = std::move(asked);
+    if (!sameBoundary)
+    {
+      this->findFaces(this->IsNamed, monitor);
+    }
   }
-  if (!sameMesh || this->GeometryKey != key)
+  if (!sameBoundary || this->GeometryKey != key)
   {
-    this->geometry = Geometry::Classify(grid, this->mesh, this->faces, options, monitor);
+    Geometry::Options geometry = options;
+    geometry.Sheets = this->sheetNumbers();
+    this->geometry = Geometry::Classify(grid, this->mesh, this->faces, geometry, monitor);
     this->motionVersion = ++this->Versions;
     ++this->Classified;
   }
@@ -231,6 +328,10 @@ void InputBoundary::TakeSurface(vtkPolyData* surface, const Geometry::Options& o
   const std::string& key, morph::Monitor& monitor)
 {
   this->inner = {};
+  this->innerSurfaces.clear();
+  this->asked.clear();
+  this->Listed.clear();
+  this->Sets.clear();
   morph::BoundaryFaces given = polygons(surface);
   requireExtracted(surface, Surface::IdName, 1);
   morph::Points at =

@@ -4,10 +4,13 @@
 #include "BoundaryMover/BoundaryModel.h"
 #include "Private/Data/Geometry.h"
 #include "Private/Data/NamedSets.h"
+#include "Private/Displace/Zones.h"
 
 #include <vtkSmartPointer.h>
 #include <vtkType.h>
 
+#include <set>
+#include <string>
 #include <vector>
 
 class vtkPointSet;
@@ -23,13 +26,20 @@ class WholeSurface;
 class InputBoundary : public morph::BoundaryModel
 {
 public:
+  struct Options : Geometry::Options
+  {
+    std::set<std::string> Names;          ///< that are asked for
+    const MergedBlocks* Blocks = nullptr; ///< that the input was merged from, or null
+    const WholeSurface* Whole = nullptr;  ///< of a mesh on several MPI processes, or null
+  };
+
   /// Copies the input, a grid or polygonal data. An unmodified input costs nothing. The geometry is
   /// reused where a modified input has the same boundary and the same arrays that define its
   /// geometry. Throws morph::Error as Geometry::Classify() does, for a grid without volume cells,
-  /// and for a surface without polygons, MorphPointId or RestPosition; then nothing is kept.
-  /// `whole`: of a mesh on several MPI processes, whose Grid() is the input; else null.
-  void Update(vtkPointSet* input, const Geometry::Options& options, morph::Monitor& monitor,
-    const WholeSurface* whole = nullptr);
+  /// for a surface without polygons, MorphPointId or RestPosition and, with Whole, for names of inner
+  /// surfaces; then nothing is kept.
+  /// With Whole, its Grid() is the input.
+  void Update(vtkPointSet* input, const Options& options, morph::Monitor& monitor);
 
   /// The boundary as vtkClassifyBoundary writes it, at the input's points, with the input's arrays.
   vtkPolyData* Surface() const { return this->Written; }
@@ -39,16 +49,27 @@ public:
   const std::vector<morph::Index>& FaceOfPolygon() const { return this->Polygons; }
   morph::Index FirstPolygon() const;
 
+  /// The parts of the input that can be zones; of a grid on one process.
+  const std::vector<Zones::Listed>& Parts() const { return this->Listed; }
+
   /// How often the geometry was found so far.
   int ClassifyCount() const { return this->Classified; }
 
 private:
-  void TakeGrid(vtkUnstructuredGrid* grid, const Geometry::Options& options, const std::string& key,
-    const WholeSurface* whole, morph::Monitor& monitor);
+  void TakeGrid(vtkUnstructuredGrid* grid, const Options& options, const std::string& key,
+    morph::Monitor& monitor);
   void TakeSurface(vtkPolyData* surface, const Geometry::Options& options, const std::string& key,
     morph::Monitor& monitor);
   void TakeFaces(const WholeSurface& whole);
+  void FindInnerSurfaces(
+    vtkUnstructuredGrid* grid, const MergedBlocks* blocks, bool sameMesh, morph::Monitor& monitor);
+  /// Throws where one of the names is of something inside, which other processes have, too.
+  void RefuseInside(vtkPointSet* input, const std::set<std::string>& names) const;
+  /// Those of the names that inner surfaces have.
+  std::set<std::string> Asked(const std::set<std::string>& names) const;
 
+  std::vector<Zones::Listed> Listed;
+  std::vector<morph::NamedNodes> Sets;
   std::vector<std::uint8_t> IsNamed; ///< #cells: those of named sets
   std::string GeometryKey;           ///< empty: nothing is kept
   vtkSmartPointer<vtkPolyData> Written;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Private/Displace/Internals.h"
 
+#include "BoundaryMover/FitToTarget.h"
 #include "BoundaryMover/Patches.h"
 #include "Private/Data/AffineArrays.h"
 #include "Private/Data/Output.h"
@@ -169,13 +170,20 @@ void vtkDisplacementAlgorithm::vtkInternals::Displace(const Options& options,
 void vtkDisplacementAlgorithm::vtkInternals::Classify(
   const Options& options, vtkPointSet* input, morph::Monitor& monitor)
 {
-  filters::Geometry::Options geometry;
+  filters::InputBoundary::Options geometry;
   geometry.FeatureAngle = options.FeatureAngle;
   geometry.CornerAngle = options.CornerAngle;
   geometry.SurfaceIdArray = filters::Input::ArrayName(options.SurfaceIdArray);
   geometry.UseGeometryArrays = options.UseGeometryArrays;
+  for (const auto* names : { &options.Surfaces, &options.FixedSurfaces, &options.SlidingSurfaces,
+         &options.FreeSurfaces, &options.ContactSurfaces })
+  {
+    geometry.Names.insert(names->begin(), names->end());
+  }
+  geometry.Blocks = this->Blocks.Merged();
+  geometry.Whole = this->Whole.get();
   const int before = this->Model.ClassifyCount();
-  this->Model.Update(input, geometry, monitor, this->Whole.get());
+  this->Model.Update(input, geometry, monitor);
   if (this->Model.ClassifyCount() != before)
   {
     this->Warnings.clear();
@@ -195,11 +203,7 @@ void vtkDisplacementAlgorithm::vtkInternals::Classify(
     const auto &low = size.box.min(), &high = size.box.max();
     this->SurfaceBounds->InsertNextTuple6(low[0], high[0], low[1], high[1], low[2], high[2]);
   }
-  auto* grid = vtkUnstructuredGrid::SafeDownCast(input);
-  if (grid && !this->Whole)
-  {
-    this->ListZones(grid, this->Model.mesh);
-  }
+  this->ListZones();
   this->ListedVersion = this->Model.inputVersion;
 }
 

@@ -136,7 +136,7 @@ private:
     morph::PeriodicSides::Names Periodic;
   };
   void Classify(const Options& options, vtkPointSet* input, morph::Monitor& monitor);
-  void ListZones(vtkUnstructuredGrid* grid, const morph::Mesh& mesh);
+  void ListZones();
   /// `input`: with the whole boundary; `grid`: the mesh, or this process's piece of it; null for a
   /// surface. `target`: null for other displacements. With Whole, collective.
   void Displace(const Options& options, vtkPointSet* input, vtkUnstructuredGrid* grid,

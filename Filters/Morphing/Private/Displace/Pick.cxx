@@ -2,6 +2,7 @@
 #include "Private/Displace/Pick.h"
 
 #include "BoundaryMover/Patches.h"
+#include "Mesh/FacesOfCells.h"
 #include "Private/Data/Surface.h"
 #include "Private/Displace/Selection.h"
 #include "Support/Error.h"
@@ -24,6 +25,7 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
+#include <map>
 #include <set>
 #include <string>
 
@@ -250,6 +252,38 @@ void writeCurves(const InputBoundary& model, const std::vector<Index>& curves, v
   }
   output->SetLines(lines);
 }
+
+/// Adds an inner surface that is not among the faces of the boundary.
+void addInner(const InputBoundary& model, const morph::InnerSurface& inner, vtkCellArray* polygons,
+  vtkPolyData* output)
+{
+  const morph::BoundaryFaces faces = morph::facesAt(model.mesh, inner.places);
+  vtkNew<vtkPoints> points;
+  points->DeepCopy(output->GetPoints());
+  vtkDataArray* known = output->GetPointData()->GetArray(Surface::IdName);
+  const auto ids = vtkSmartPointer<vtkDataArray>::Take(known->NewInstance());
+  ids->DeepCopy(known);
+  std::map<Index, vtkIdType> pointOf;
+  for (std::size_t f = 0; f + 1 < faces.offsets.size(); ++f)
+  {
+    std::vector<vtkIdType> corners;
+    for (Index k = faces.offsets[f]; k < faces.offsets[f + 1]; ++k)
+    {
+      const Index node = faces.connectivity[k];
+      const auto [at, isNew] = pointOf.emplace(node, points->GetNumberOfPoints());
+      if (isNew)
+      {
+        points->InsertNextPoint(model.points().row(node).data());
+        const double id = static_cast<double>(node);
+        ids->InsertNextTuple(&id);
+      }
+      corners.push_back(at->second);
+    }
+    polygons->InsertNextCell(static_cast<vtkIdType>(corners.size()), corners.data());
+  }
+  output->SetPoints(points);
+  output->GetPointData()->AddArray(ids);
+}
 }
 
 namespace Pick
@@ -293,7 +327,20 @@ void Find(vtkDataObject* shown, vtkSelection* selection, vtkExtractSelection* ex
   }
   for (Index surface : Surfaces(data, selection, extractor, model))
   {
-    names->EnableArray(morph::surfaceName(model.geometry, surface).c_str());
+    const std::string name = morph::surfaceName(model.geometry, surface);
+    if (names->ArrayExists(name.c_str()))
+    {
+      names->EnableArray(name.c_str());
+      continue;
+    }
+    const Index face = model.geometry.surfaces[surface].faces.front();
+    for (const NamedSet& set : model.namedSets) // a sheet has their names alone
+    {
+      if (std::binary_search(set.faces.begin(), set.faces.end(), face))
+      {
+        names->EnableArray(set.name.c_str());
+      }
+    }
   }
 }
 
@@ -317,8 +364,15 @@ void Write(const InputBoundary& model, vtkDataArraySelection* names, vtkPolyData
   const bool isMoved = positions && positions->GetNumberOfPoints() == surface->GetNumberOfPoints();
   output->SetPoints((isMoved ? positions : surface)->GetPoints());
   output->GetPointData()->AddArray(surface->GetPointData()->GetArray(Surface::IdName));
-  const morph::PatchPart part = morph::findPatches(model, enabled, "the list");
   vtkNew<vtkCellArray> polygons;
+  for (const morph::InnerSurface& inner : model.innerSurfaces)
+  {
+    if (model.asked.count(inner.name) == 0 && enabled.erase(inner.name) > 0)
+    {
+      addInner(model, inner, polygons, output);
+    }
+  }
+  const morph::PatchPart part = morph::findPatches(model, enabled, "the list");
   vtkNew<vtkIdList> points;
   for (vtkIdType i = 0; i < surface->GetPolys()->GetNumberOfCells(); ++i)
   {

@@ -225,16 +225,20 @@ std::vector<Listed> List(
   std::vector<Listed> zones;
   for (const std::string& name : candidates(grid, blocks))
   {
-    Listed zone{ name, 0, 0 };
+    Listed zone;
+    zone.Name = name;
     const std::optional<Marked> marked = findNamed(grid, mesh, blocks, name);
     for (std::size_t i = 0; marked && i < marked->Flags.size(); ++i)
     {
       const morph::CellShape* shape = marked->AreNodes ? nullptr : morph::cellShape(mesh.types[i]);
       const bool isImage = mesh.layer.nodes > 0 && static_cast<Index>(i) >= mesh.layer.nodes;
       zone.Nodes += marked->AreNodes && marked->Flags[i] && !isImage;
-      zone.Cells += shape && shape->dimension == 3 && marked->Flags[i];
+      if (shape && shape->dimension == 3 && marked->Flags[i])
+      {
+        zone.Cells.push_back(static_cast<Index>(i));
+      }
     }
-    if (zone.Cells + zone.Nodes > 0)
+    if (!zone.Cells.empty() || zone.Nodes > 0)
     {
       zones.push_back(zone);
     }

@@ -56,11 +56,17 @@ struct Part : morph::Zone
   bool IsKnown = true;  ///< whether this process has an array or a block of the name
 };
 
-/// A zone that can be named, and its size: cells, or nodes where it is a set of nodes.
+/// A zone that can be named: volume cells or, where it is a set of nodes, a number of them.
 struct Listed
 {
   std::string Name;
-  morph::Index Cells = 0, Nodes = 0;
+  std::vector<morph::Index> Cells; ///< ascending
+  morph::Index Nodes = 0;
+
+  bool operator==(const Listed& other) const
+  {
+    return this->Name == other.Name && this->Cells == other.Cells && this->Nodes == other.Nodes;
+  }
 };
 /// What can be named, for users to choose from: the sets that the field data SurfaceNames lists,
 /// with volume cells or nodes, the blocks, and other arrays of two values, one of them 0. Each

@@ -126,9 +126,10 @@ struct Gathered
   }
 };
 
-/// The names of the surfaces of some faces. Each process names its own.
+/// The names of the surfaces of some faces. Each process names its own, whose numbers among its
+/// outer faces go to `own`.
 std::map<Index, std::string> namesOf(const std::vector<Index>& some, const Gathered& gathered,
-  const RankMesh& mesh, vtkUnstructuredGrid* output)
+  const RankMesh& mesh, vtkUnstructuredGrid* output, std::vector<Index>& own)
 {
   const auto& whole = mesh.Whole();
   const morph::BoundaryFaces& outer = whole.outerFaces();
@@ -137,7 +138,6 @@ std::map<Index, std::string> namesOf(const std::vector<Index>& some, const Gathe
     [&]
     {
       std::map<Index, Index> faceOf;
-      std::vector<Index> own;
       for (std::size_t f = 0; f < outer.cells.size(); ++f)
       {
         const Index face = gathered.FaceAt(whole.cellId(outer.cells[f]), outer.sides[f]);
@@ -183,7 +183,11 @@ Crossings::Found Find(const RankMesh& mesh, vtkUnstructuredGrid* output, morph::
         gathered.rest, gathered.moved, gathered.faces, gathered.orientation, monitor);
     });
   const std::vector<Index> faces = Crossings::FacesOf(pairs);
-  return Crossings::Describe(
-    pairs, namesOf(faces, gathered, mesh, output), gathered.faces, gathered.cells, gathered.moved);
+  std::vector<Index> own;
+  const auto names = namesOf(faces, gathered, mesh, output, own);
+  Crossings::Found found =
+    Crossings::Describe(pairs, names, gathered.faces, gathered.cells, gathered.moved);
+  found.Own = std::move(own);
+  return found;
 }
 }

@@ -19,8 +19,8 @@ namespace morph::filters::RankOutput
 {
 namespace
 {
-/// Writes what follows from the quality of all cells.
-void writeMeasured(const RankMesh& mesh, const OnRanks::Morphing::Task& task,
+/// Writes what follows from the quality of all cells. Returns the crossings.
+Crossings::Found writeMeasured(const RankMesh& mesh, const OnRanks::Morphing::Task& task,
   const morph::StepResult& step, const morph::Quality& mine, Results& results,
   morph::Monitor& monitor)
 {
@@ -40,15 +40,17 @@ void writeMeasured(const RankMesh& mesh, const OnRanks::Morphing::Task& task,
     Quality::Write(report, task.Outputs.Mesh);
     results.Set(report);
   }
+  Crossings::Found found;
   if (task.Measures.Cross)
   {
-    const Crossings::Found found = RankCrossings::Find(mesh, task.Outputs.Mesh, monitor);
-    if (found.Faces > 0 && ranks.rank() == 0)
+    found = RankCrossings::Find(mesh, task.Outputs.Mesh, monitor);
+    if (found.Count > 0 && ranks.rank() == 0)
     {
       monitor.warn(found.Warning);
     }
     MorphOutput::SetCrossings(found, results);
   }
+  return found;
 }
 }
 
@@ -125,15 +127,20 @@ void Write(const RankMesh& mesh, const OnRanks::Morphing::Task& task, const morp
   const bool all = task.Measures.All;
   const morph::Quality mine =
     WritePoints(mesh, task.Grid, step.moved, task.Precision, all, task.Outputs.Mesh, monitor);
+  Crossings::Found found;
   if (all)
   {
-    writeMeasured(mesh, task, step, mine, results, monitor);
+    found = writeMeasured(mesh, task, step, mine, results, monitor);
   }
   else
   {
     results.SetText("MorphStatus", "Unmeasured");
   }
   results.SetInteger("SurfaceInvertedCells", WriteParts(mesh, mine, all, task.Outputs));
+  if (found.Count > 0)
+  {
+    mesh.Ranks().together([&] { mesh.Surface().MarkCrossing(found.Own, task.Outputs.Surface); });
+  }
   if (mesh.Ranks().rank() == 0)
   {
     morph::warnOfLoose(step.loose, monitor);

@@ -48,11 +48,12 @@ void measureAll(const KeptMesh& kept, const morph::StepResult& step, Measures me
     Quality::Write(report, output);
     results.Set(report);
   }
+  Crossings::Found found;
   if (measures.Cross)
   {
-    const Crossings::Found found = Crossings::Find(
+    found = Crossings::Find(
       rest.mesh(), rest.outerFaces(), rest.orientation(), output, boundary, monitor);
-    if (found.Faces > 0)
+    if (found.Count > 0)
     {
       monitor.warn(found.Warning);
     }
@@ -61,6 +62,10 @@ void measureAll(const KeptMesh& kept, const morph::StepResult& step, Measures me
   BadCells::Extract(quality, output, outputs.BadCells);
   results.SetInteger(
     "SurfaceInvertedCells", kept.Surface().Write(output->GetPoints(), quality, outputs.Surface));
+  if (found.Count > 0)
+  {
+    kept.Surface().MarkCrossing(found.Own, outputs.Surface);
+  }
 }
 
 /// Measures the cells behind the outer faces alone.
@@ -116,9 +121,9 @@ void SetStatus(
 
 void SetCrossings(const Crossings::Found& found, Results& results)
 {
-  results.SetInteger("CrossingFaces", found.Faces);
+  results.SetInteger("CrossingFaces", found.Count);
   const std::string status = results.Text("MorphStatus");
-  if (found.Faces > 0 && status != "Inverted" && status != "Partial")
+  if (found.Count > 0 && status != "Inverted" && status != "Partial")
   {
     results.SetText("MorphStatus", "CrossesItself");
     results.SetNumber("LargestValidStep", std::numeric_limits<double>::quiet_NaN());
