@@ -214,7 +214,7 @@ TEST(Mesh, ValidateNamesWhatIsWrong)
   EXPECT_NO_THROW(validate(good));
 
   Mesh mesh = good;
-  mesh.types[1] = 72;
+  mesh.types[1] = 74; // Lagrange pyramid
   EXPECT_NE(messageOf([&] { validate(mesh); }).find("higher order"), std::string::npos);
   EXPECT_NE(messageOf([&] { validate(mesh); }).find("cell ids 1"), std::string::npos);
 

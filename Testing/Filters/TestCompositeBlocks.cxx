@@ -678,7 +678,7 @@ TEST(CompositeBlocks, ErrorsNameTheBlock)
            [](vtkUnstructuredGrid* piece)
            {
              const vtkIdType ids[] = { 0, 1, 2, 9 };
-             piece->InsertNextCell(VTK_LAGRANGE_TETRAHEDRON, 4, ids);
+             piece->InsertNextCell(VTK_LAGRANGE_PYRAMID, 4, ids);
              piece->GetCellData()->Initialize();
            }),
     { "Block 'Solid/B'", "cannot be morphed" });

@@ -312,7 +312,8 @@ void LsDynaFile::takeSet(std::size_t part, Span span)
   {
     static const std::map<Block, std::string> kinds = { { Block::NodeSet, "Node set " },
       { Block::SegmentSet, "Segment set " }, { Block::SolidSet, "Solid set " },
-      { Block::ShellSet, "Shell set " }, { Block::PartSet, "Part set " } };
+      { Block::ThickShellSet, "Thick shell set " }, { Block::ShellSet, "Shell set " },
+      { Block::BeamSet, "Beam set " }, { Block::PartSet, "Part set " } };
     const std::string number = std::to_string(this->integersOf(part, span, 10, 1)[0]);
     this->sets_.push_back({ this->block_,
       this->title_.empty() ? kinds.at(this->block_) + number : this->title_, this->isRange_, {} });
