@@ -12,6 +12,7 @@
 #include <vtkBoundaryDisplacement.h>
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
+#include <vtkDataArraySelection.h>
 #include <vtkDoubleArray.h>
 #include <vtkExtractMorphBoundary.h>
 #include <vtkFieldData.h>
@@ -452,6 +453,20 @@ void printSurfaces(vtkUnstructuredGrid* grid, const std::string& path, int threa
   filter->SetMovingToNothing();
   filter->SetNumberOfThreads(threads);
   Messages messages(filter);
+  filter->UpdateInformation();
+  vtkStringArray* sizes = filter->GetSurfaceSizes();
+  std::vector<std::string> inside; // which are in the output only if they are asked for
+  for (vtkIdType i = 0; i + 2 < sizes->GetNumberOfValues(); i += 3)
+  {
+    if (sizes->GetValue(i + 1).find("inner") != std::string::npos)
+    {
+      inside.push_back(sizes->GetValue(i));
+    }
+  }
+  for (const std::string& name : inside)
+  {
+    filter->AddFixedSurface(name.c_str());
+  }
   messages.update("Cannot list the surfaces of " + path);
   vtkPolyData* boundary = filter->GetOutput();
   vtkDataArray* surfaces = boundary->GetCellData()->GetArray("GeometryId");
@@ -504,7 +519,11 @@ void printSurfaces(vtkUnstructuredGrid* grid, const std::string& path, int threa
   }
   for (const auto& [id, sum] : sums)
   {
-    named.push_back({ "Surface " + std::to_string(id), sum });
+    const std::string name = "Surface " + std::to_string(id);
+    if (filter->GetSurfaceList()->ArrayExists(name.c_str()))
+    {
+      named.push_back({ name, sum });
+    }
   }
   std::cout << std::left << std::setw(14) << "name" << std::right << std::setw(10) << "faces"
             << std::setw(14) << (isPlane ? "length" : "area") << "  center\n";

@@ -11,12 +11,15 @@
 #include <vtkDataArray.h>
 #include <vtkDataArraySelection.h>
 #include <vtkFEMWarpMorph.h>
+#include <vtkFieldData.h>
 #include <vtkMorphMesh.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
 #include <vtkSphereSource.h>
+#include <vtkStringArray.h>
 #include <vtkTransform.h>
+#include <vtkUnsignedCharArray.h>
 #include <vtkUnstructuredGrid.h>
 
 #include <gtest/gtest.h>
@@ -236,6 +239,17 @@ TEST(RankMorphMesh, OneErrorEndsAllRanks)
   const Ranks ranks = pieces::world();
   const morph::Mesh mesh = meshes::hexes(5, 4, 3);
   const auto piece = rank_grids::piece(ranks, mesh);
+  vtkNew<vtkUnsignedCharArray> middle;
+  middle->SetName("MIDDLE");
+  for (vtkIdType i = 0; i < piece->GetNumberOfPoints(); ++i)
+  {
+    middle->InsertNextValue(piece->GetPoint(i)[0] == 2);
+  }
+  piece->GetPointData()->AddArray(middle);
+  vtkNew<vtkStringArray> names;
+  names->SetName("SurfaceNames");
+  names->InsertNextValue("MIDDLE");
+  piece->GetFieldData()->AddArray(names);
   const bool isSeveral = ranks.count() > 1;
   const std::vector<std::pair<std::string, Configure>> cases = {
     { "Surface 77", [](vtkMorphMesh* filter) { filter->AddSurface("Surface 77"); } },
@@ -245,6 +259,8 @@ TEST(RankMorphMesh, OneErrorEndsAllRanks)
         filter->AddSurface("Surface 1");
         filter->AddFixedSurface("Surface 77");
       } },
+    { "'MIDDLE' lies inside", [](vtkMorphMesh* filter) { filter->AddSurface("MIDDLE"); } },
+    { "'a | b' lies inside", [](vtkMorphMesh* filter) { filter->AddSurface("a | b"); } },
   };
   for (const auto& [message, configure] : cases)
   {

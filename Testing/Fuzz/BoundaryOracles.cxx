@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "BoundaryOracles.h"
 
+#include "Mesh/Topology.h"
 #include "RandomMesh.h"
 #include "Recount.h"
 #include "Support/UnionFind.h"
@@ -242,6 +243,45 @@ Finding checkMovedBoundary(const Case& made, vtkAlgorithm* algorithm, const Run&
   return {};
 }
 
+namespace
+{
+/// A body in which nothing moves or is free stays, unless contact or a sliding surface takes it
+/// along.
+Finding checkBodies(const Case& made, vtkPointSet* output, vtkDataArray* roles, vtkDataArray* ids)
+{
+  if (made.choices.value("property.ContactDistance") != 0 ||
+      made.choices.value("property.SlideRounds") != 0)
+  {
+    return {};
+  }
+  const morph::Mesh& mesh = made.grid.mesh;
+  const std::vector<Index> bodyOf = morph::bodyOfNodes(mesh, morph::connectedComponents(mesh));
+  std::set<Index> moving;
+  const auto bodyAt = [&](vtkIdType p)
+  { return bodyOf[static_cast<Index>(ids->GetComponent(p, 0))]; };
+  for (vtkIdType p = 0; p < output->GetNumberOfPoints(); ++p)
+  {
+    const double role = roles->GetComponent(p, 0);
+    if (role == 1 || role > 3)
+    {
+      moving.insert(bodyAt(p));
+    }
+  }
+  for (vtkIdType p = 0; p < output->GetNumberOfPoints(); ++p)
+  {
+    const auto node = static_cast<Index>(ids->GetComponent(p, 0));
+    const Row rest = mesh.points.row(node);
+    Row x;
+    output->GetPoint(p, x.data());
+    if (moving.count(bodyAt(p)) == 0 && (x - rest).cwiseAbs().maxCoeff() > roundingOf(output, rest))
+    {
+      return { "bodies", nodeText(node) + " moves in a body of which nothing is asked" };
+    }
+  }
+  return {};
+}
+}
+
 Finding checkDisplaced(const Case& made, vtkPointSet* output)
 {
   vtkDataArray* roles = arrayOf(output, "Role");
@@ -267,6 +307,6 @@ Finding checkDisplaced(const Case& made, vtkPointSet* output)
       return { "displaced boundary", nodeText(node) + " is to stay, and moves" };
     }
   }
-  return {};
+  return isGrid && made.grid.isAsMesh ? checkBodies(made, output, roles, ids) : Finding{};
 }
 }

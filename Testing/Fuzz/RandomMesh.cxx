@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "RandomMesh.h"
 
+#include "../Core/BoundaryShapes.h"
 #include "../Core/Meshes.h"
 #include "Mesh/CellShape.h"
 #include "Quadratic.h"
@@ -292,6 +293,21 @@ void jitter(Choices& choices, Mesh& mesh, bool hostile)
   }
 }
 
+/// Adds a copy beside the mesh, which shares no node and touches it or leaves a gap. Boxes round
+/// both have no more than a side in common.
+void addTwin(Choices& choices, Mesh& mesh)
+{
+  if (mesh.numberOfNodes() == 0 || !choices.chance("with.twin", 0.05))
+  {
+    return;
+  }
+  const double size = mesh.points.col(0).maxCoeff() - mesh.points.col(0).minCoeff();
+  const int gap = choices.pick("twin.gap", { "none", "small", "large" }, { 2, 1, 1 });
+  Mesh twin = mesh;
+  twin.points.col(0).array() += size * (gap == 0 ? 1 : gap == 1 ? 1.01 : 1.5);
+  mesh = shapes::together(mesh, twin);
+}
+
 /// Turns, stretches, mirrors, scales and moves the mesh.
 void place(Choices& choices, Mesh& mesh, bool hostile)
 {
@@ -506,6 +522,7 @@ Mesh randomMesh(Choices& choices)
   Mesh mesh = lattice(choices);
   changeCells(choices, mesh, hostile);
   jitter(choices, mesh, hostile);
+  addTwin(choices, mesh);
   place(choices, mesh, hostile);
   spoilPoints(choices, mesh, hostile);
   return mesh;

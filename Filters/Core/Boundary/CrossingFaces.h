@@ -22,14 +22,14 @@ namespace morph
 ///
 /// The facets of curved sides in contact cross when bodies slide. So faces have to cross also if
 /// one of them moves back into its body by the heights of both: as a whole, and also with the faces
-/// at its corners. The height of a facet is how far it is from a smooth surface that turns by the same
-/// angles a from face to face at its corners: c / 2 tan(a / 4) for faces of the size c. Angles of
-/// more than 25 degrees are features, and do not count. Faces that are near each other at `rest` may
-/// turn by 5 degrees where no face shows it.
+/// at its corners. The height of a facet is how far it is from a smooth surface that turns by the
+/// same angles a from face to face at its corners: c / 2 tan(a / 4) for faces of the size c. Angles
+/// of more than 25 degrees are features, and do not count. Faces that are near each other at `rest`
+/// may turn by 5 degrees where no face shows it.
 ///
-/// The signs of the predicates are exact. Cost: a pass over the boundary, n log^3 n for n faces, some
-/// 100 predicates for each pair of faces whose boxes overlap and, if some cross, a pass over the
-/// pairs of faces at each corner. Threads come from `monitor`.
+/// The signs of the predicates are exact. Cost: a pass over the boundary, n log^3 n for n faces,
+/// some 100 predicates for each pair of faces whose boxes overlap and, if some cross, a pass over
+/// the pairs of faces at each corner. Threads come from `monitor`.
 std::vector<std::array<Index, 2>> crossingFaces(const ConstPoints& rest, const ConstPoints& moved,
   const BoundaryFaces& faces, const std::vector<std::int8_t>& orientation, Monitor& monitor);
 }

@@ -22,8 +22,8 @@ struct NamedSet
   std::vector<Index> faces; ///< ascending
 };
 
-/// Returns what a set of nodes and cells has of a boundary. A node of an outer face belongs to it if
-/// it is marked, and an outer face if all of its corners are. A face belongs, too, if a marked
+/// Returns what a set of nodes and cells has of a boundary. A node of an outer face belongs to it
+/// if it is marked, and an outer face if all of its corners are. A face belongs, too, if a marked
 /// two-dimensional cell lies on it. Where no two-dimensional cell is marked, an outer face does if
 /// the volume cell behind it is. The `inside` last faces are not outer ones. `isNode`: #nodes,
 /// `isCell`: #cells or, of a boundary alone, #faces; either may be empty.

@@ -13,9 +13,9 @@ namespace morph
 {
 /// Returns the names of the surfaces and curves of a boundary, for users to choose from: those that
 /// the mesh's file gives, those of inner surfaces, as "a | b" of two parts, and "Surface 3",
-/// "Curve 7", with the ids of the geometry. Those of the file come first, then inner surfaces, asked
-/// for or not, then surfaces, then curves, each ascending by id. Several patches with one id have
-/// one name. Surfaces of sheets have no such number.
+/// "Curve 7", with the ids of the geometry. Those of the file come first. Inner surfaces follow,
+/// asked for or not, then surfaces, then curves, each ascending by id. Several patches with one id
+/// have one name. Surfaces of sheets have no such number.
 std::vector<std::string> patchNames(const BoundaryModel& model);
 
 /// How large what has a name is.

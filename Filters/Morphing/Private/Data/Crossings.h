@@ -45,7 +45,8 @@ std::map<morph::Index, std::string> NamesOf(const std::vector<morph::Index>& som
   vtkPointSet* boundary);
 /// The faces of all pairs, ascending.
 std::vector<morph::Index> FacesOf(const Pairs& pairs);
-/// `names`: of these faces, which become Own. `cells`: #faces, what the warning calls the cell behind each.
+/// `names`: of these faces, which become Own. `cells`: #faces, what the warning calls the cell
+/// behind each.
 Found Describe(const Pairs& pairs, const std::map<morph::Index, std::string>& names,
   const morph::BoundaryFaces& faces, const std::vector<morph::Index>& cells,
   const morph::ConstPoints& points);

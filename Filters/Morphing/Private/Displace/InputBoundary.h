@@ -33,12 +33,11 @@ public:
     const WholeSurface* Whole = nullptr;  ///< of a mesh on several MPI processes, or null
   };
 
-  /// Copies the input, a grid or polygonal data. An unmodified input costs nothing. The geometry is
-  /// reused where a modified input has the same boundary and the same arrays that define its
-  /// geometry. Throws morph::Error as Geometry::Classify() does, for a grid without volume cells,
-  /// for a surface without polygons, MorphPointId or RestPosition and, with Whole, for names of inner
-  /// surfaces; then nothing is kept.
-  /// With Whole, its Grid() is the input.
+  /// Copies the input, a grid or polygonal data; with Whole, its Grid(). An unmodified input costs
+  /// nothing. The geometry is reused where a modified input has the same boundary and the same
+  /// arrays that define its geometry. Throws morph::Error as Geometry::Classify() does, for a grid
+  /// without volume cells, and for a surface without polygons, MorphPointId or RestPosition. So it
+  /// does, with Whole, for names of inner surfaces. Then nothing is kept.
   void Update(vtkPointSet* input, const Options& options, morph::Monitor& monitor);
 
   /// The boundary as vtkClassifyBoundary writes it, at the input's points, with the input's arrays.
