@@ -52,7 +52,7 @@ struct Box
   unsigned shuffle = 0;          ///< seed of the numbering; 0: as made
 };
 
-/// Layers start 1 / aspect high and grow until they are as slender the other way as any cell may be.
+/// Layers start 1 / aspect high. They grow until they are as slender the other way as is allowed.
 std::vector<double> heights(const Box& box)
 {
   std::vector<double> places = { 0 };
@@ -160,6 +160,25 @@ Box randomBox(int number, double nodes, std::mt19937& random)
   return box;
 }
 
+/// What boxes took beside the cube: ratios of seconds a node, and iterations.
+struct Taken
+{
+  std::vector<double> ratios, iterations;
+
+  void print(const char* cells) const
+  {
+    const auto median = [](std::vector<double> values)
+    {
+      std::sort(values.begin(), values.end());
+      return (values[(values.size() - 1) / 2] + values[values.size() / 2]) / 2;
+    };
+    const auto most = [](const std::vector<double>& values)
+    { return *std::max_element(values.begin(), values.end()); };
+    std::printf("%s,%zu,%.2f,%.2f,%.1f,%.0f\n", cells, this->ratios.size(), median(this->ratios),
+      most(this->ratios), median(this->iterations), most(this->iterations));
+  }
+};
+
 void compare(bool isLbWarp, int boxes, double nodes, unsigned seed)
 {
   std::mt19937 random(seed);
@@ -171,7 +190,8 @@ void compare(bool isLbWarp, int boxes, double nodes, unsigned seed)
     isLbWarp ? "LBWARP" : "FEMWARP", seed, cube.nodes, cube.iterations, 1e6 * cube.step());
   std::printf("%-12s%8s%8s%8s%8s%12s%10s%10s%8s\n", "cells", "nodes", "aspect", "across", "growth",
     "iterations", "prepare/s", "us/node", "ratio");
-  std::vector<double> ratios, iterations;
+  std::array<Taken, Kinds.size()> byKind;
+  Taken all;
   for (int number = 0; number < boxes; ++number)
   {
     const Box box = randomBox(number, nodes, random);
@@ -182,22 +202,22 @@ void compare(bool isLbWarp, int boxes, double nodes, unsigned seed)
       own = std::min(own, problem.step());
       cubes = std::min(cubes, cube.step());
     }
-    ratios.push_back(own / cubes);
-    iterations.push_back(problem.iterations);
+    for (Taken* taken : { &byKind[number % Kinds.size()], &all })
+    {
+      taken->ratios.push_back(own / cubes);
+      taken->iterations.push_back(problem.iterations);
+    }
     std::printf("%-12s%8.0f%8.1f%8.1f%8.2f%12d%10.3f%10.3f%8.2f\n", box.kind->name, problem.nodes,
       box.aspect, box.across, box.growth, problem.iterations, problem.prepareSeconds, 1e6 * own,
       own / cubes);
     std::fflush(stdout);
   }
-  const auto median = [](std::vector<double> values)
+  std::printf("cells,boxes,median_ratio,worst_ratio,median_iterations,most_iterations\n");
+  for (std::size_t k = 0; k < Kinds.size() && static_cast<int>(k) < boxes; ++k)
   {
-    std::sort(values.begin(), values.end());
-    return (values[(values.size() - 1) / 2] + values[values.size() / 2]) / 2;
-  };
-  std::printf("seconds of a later step by those of the cube: median %.2f, worst %.2f; iterations: "
-              "median %.1f, most %.0f\n",
-    median(ratios), *std::max_element(ratios.begin(), ratios.end()), median(iterations),
-    *std::max_element(iterations.begin(), iterations.end()));
+    byKind[k].print(Kinds[k].name);
+  }
+  all.print("all");
 }
 }
 

@@ -135,11 +135,11 @@ TEST(Multigrid, AnApexFollowsTheColumnsAroundItWithoutJoiningThem)
   A.makeCompressed();
   Monitor monitor;
   const std::vector<Nearness> near = nearNeighbors(A, places, monitor);
-  std::vector<int> group;
-  ASSERT_EQ(aggregate(A, places, near, group), 2);
-  EXPECT_EQ(group[0], group[1]);
-  EXPECT_EQ(group[2], group[3]);
-  const CsrMatrixOf<float> P = smoothedProlongation(A, near, group, 2, monitor);
+  const Aggregates aggregates = aggregate(A, places, near);
+  ASSERT_EQ(aggregates.count, 2);
+  EXPECT_EQ(aggregates.of[0], aggregates.of[1]);
+  EXPECT_EQ(aggregates.of[2], aggregates.of[3]);
+  const CsrMatrixOf<float> P = smoothedProlongation(A, near, aggregates, monitor);
   EXPECT_FLOAT_EQ(P.coeff(4, 0), 0.5f);
   EXPECT_FLOAT_EQ(P.coeff(4, 1), 0.5f);
 }

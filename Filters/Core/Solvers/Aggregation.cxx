@@ -52,13 +52,15 @@ std::vector<Nearness> nearNeighbors(
   return near;
 }
 
-int aggregate(const CsrRows<float>& A, const Points& coordinates, const std::vector<Nearness>& near,
-  std::vector<int>& group)
+Aggregates aggregate(
+  const CsrRows<float>& A, const Points& coordinates, const std::vector<Nearness>& near)
 {
+  Aggregates result;
+  std::vector<int>& group = result.of;
+  int& groups = result.count;
   const int n = static_cast<int>(A.rows);
   constexpr int None = -1;
   group.assign(n, None);
-  int groups = 0;
   // First, whole neighborhoods without a grouped node.
   std::vector<int> neighbors;
   for (int i = 0; i < n; ++i)
@@ -90,6 +92,7 @@ int aggregate(const CsrRows<float>& A, const Points& coordinates, const std::vec
   // Then each remaining node joins the group of its nearest grouped neighbor; nodes without one
   // form groups.
   const std::vector<int> first = group;
+  result.ofMutual = groups;
   for (int i = 0; i < n; ++i)
   {
     if (group[i] != None)
@@ -123,23 +126,23 @@ int aggregate(const CsrRows<float>& A, const Points& coordinates, const std::vec
     }
     ++groups;
   }
-  return groups;
+  return result;
 }
 
 CsrMatrixOf<float> smoothedProlongation(const CsrRows<float>& A, const std::vector<Nearness>& near,
-  const std::vector<int>& group, int groups, Monitor& monitor)
+  const Aggregates& aggregates, Monitor& monitor)
 {
+  const std::vector<int>& group = aggregates.of;
   const MakeRow makeRow = [&](Index i, SparseRow& row)
   {
     float diagonal = 0, size = 0;
-    bool hasMutual = false;
+    bool isHarmonic = group[i] < aggregates.ofMutual;
     for (int k = A.start[i]; k < A.start[i + 1]; ++k)
     {
       diagonal += near[k] == Nearness::Far ? A.value[k] : 0;
       size += near[k] == Nearness::Far ? 0 : std::abs(A.value[k]);
-      hasMutual = hasMutual || near[k] == Nearness::Mutual;
+      isHarmonic = isHarmonic && near[k] != Nearness::Mutual;
     }
-    const bool isHarmonic = size > 0 && !hasMutual;
     const float omega = (isHarmonic ? 2 : 4.f / 3) / (size + std::abs(diagonal));
     row.add(group[i], 1 - omega * diagonal);
     for (int k = A.start[i]; k < A.start[i + 1]; ++k)
@@ -150,7 +153,10 @@ CsrMatrixOf<float> smoothedProlongation(const CsrRows<float>& A, const std::vect
       }
     }
   };
-  return rounded(assembleRows(A.rows, groups, groups, monitor, [&] { return makeRow; }).inside);
+  return rounded(assembleRows(A.rows, aggregates.count, aggregates.count, monitor,
+    [&] {
+      return makeRow;
+    }).inside);
 }
 
 CsrMatrix tripleProduct(const CsrMatrixOf<float>& R, const CsrMatrix& A,

@@ -12,10 +12,10 @@
 namespace morph
 {
 /// Gauss-Seidel sweeps over at most 16 blocks of rows at once, whatever the number of threads. With
-/// A = L + D + U + F, where F has the entries that join two blocks, a sweep solves by D* + L or D* +
-/// U. D* is D plus half of the sum of |F| along each row. So D* + L and its transpose converge for
-/// every symmetric positive definite A. Source: Baker, Falgout, Kolev, Yang, SIAM J. Sci. Comput.
-/// 33 (2011) 2864-2887.
+/// A = L + D + U + F, where F has the entries that join two blocks, a sweep solves by D* + L, or
+/// D* + U. D* is D plus half of the sum of |F| along each row. So D* + L and its transpose converge
+/// for every symmetric positive definite A. Source: Baker, Falgout, Kolev, Yang, SIAM J. Scientific
+/// Computing 33 (2011) 2864-2887.
 class GaussSeidel
 {
 public:

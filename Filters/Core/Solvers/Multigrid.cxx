@@ -37,17 +37,17 @@ Eigen::MatrixXd inverseOf(const Eigen::MatrixXd& A, Multigrid::Symmetry symmetry
   return factors.rcond() > LeastReciprocalCondition ? factors.inverse() : Eigen::MatrixXd();
 }
 
-/// The mean places of the rows of each group.
-Points centersOf(const Points& places, const std::vector<int>& group, int groups)
+/// The mean places of the rows of each aggregate.
+Points centersOf(const Points& places, const Aggregates& aggregates)
 {
-  Points centers = Points::Zero(groups, 3);
-  std::vector<int> members(groups, 0);
-  for (std::size_t i = 0; i < group.size(); ++i)
+  Points centers = Points::Zero(aggregates.count, 3);
+  std::vector<int> members(aggregates.count, 0);
+  for (Index i = 0; i < places.rows(); ++i)
   {
-    centers.row(group[i]) += places.row(static_cast<Index>(i));
-    ++members[group[i]];
+    centers.row(aggregates.of[i]) += places.row(i);
+    ++members[aggregates.of[i]];
   }
-  for (int g = 0; g < groups; ++g)
+  for (int g = 0; g < aggregates.count; ++g)
   {
     centers.row(g) /= members[g];
   }
@@ -118,15 +118,14 @@ void Multigrid::prepare(
     monitor.check();
     Level& level = this->levels_.back();
     const CsrRows<float> A = this->matrix(this->levels_.size() - 1);
-    std::vector<int> group;
     std::vector<Nearness> near = nearNeighbors(A, places, monitor);
-    const int groups = aggregate(A, places, near, group);
-    if (groups > 0.8 * static_cast<double>(level.rows))
+    const Aggregates aggregates = aggregate(A, places, near);
+    if (aggregates.count > 0.8 * static_cast<double>(level.rows))
     {
       break; // nothing left to group: this level only has the smoother
     }
     progress(0.3);
-    level.P = smoothedProlongation(A, near, group, groups, monitor);
+    level.P = smoothedProlongation(A, near, aggregates, monitor);
     level.R = level.P.transpose();
     near = {};
     progress(0.4);
@@ -143,7 +142,7 @@ void Multigrid::prepare(
     }
     this->levels_.back().A.swap(single);
     exact.swap(coarse);
-    places = centersOf(places, group, groups);
+    places = centersOf(places, aggregates);
   }
 
   Level& last = this->levels_.back();
