@@ -8,7 +8,8 @@
 namespace morph::distributed
 {
 std::vector<NodeSliding::Round> SlidingWarp::slide(const std::vector<Index>& sliding,
-  const NodeSliding::Surfaces& surfaces, int rounds, Points& moved, Monitor& monitor) const
+  const NodeSliding::Surfaces& surfaces, const NodeSliding::Limits& limits, Points& moved,
+  Monitor& monitor) const
 {
   const DistributedMesh& mesh = this->mesh();
   const Points& rest = mesh.mesh().points;
@@ -26,7 +27,7 @@ std::vector<NodeSliding::Round> SlidingWarp::slide(const std::vector<Index>& sli
     }
   }
   nodes.rest = rest(own, allColumns);
-  if (rounds <= 0 || mesh.ranks().sum(static_cast<Index>(own.size())) == 0)
+  if (limits.rounds <= 0 || mesh.ranks().sum(static_cast<Index>(own.size())) == 0)
   {
     return {};
   }
@@ -46,7 +47,7 @@ std::vector<NodeSliding::Round> SlidingWarp::slide(const std::vector<Index>& sli
       {
         x.row(nodes.rows[i]) = moved.row(own[i]) - nodes.rest.row(static_cast<Index>(i));
       }
-      result = NodeSliding(this->solver(), b, nodes, ofOwn, communicator).run(rounds, x, monitor);
+      result = NodeSliding(this->solver(), b, nodes, ofOwn, communicator).run(limits, x, monitor);
       for (std::size_t k = 0; !result.empty() && k < own.size(); ++k)
       {
         const auto i = static_cast<Index>(k);

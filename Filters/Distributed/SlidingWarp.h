@@ -19,6 +19,7 @@ public:
   /// unknowns. `surfaces`: by the index in `sliding`. Returns what each round has done. Throws
   /// Error on all ranks. Collective.
   std::vector<NodeSliding::Round> slide(const std::vector<Index>& sliding,
-    const NodeSliding::Surfaces& surfaces, int rounds, Points& moved, Monitor& monitor) const;
+    const NodeSliding::Surfaces& surfaces, const NodeSliding::Limits& limits, Points& moved,
+    Monitor& monitor) const;
 };
 }

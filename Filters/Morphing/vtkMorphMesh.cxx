@@ -2,6 +2,8 @@
 #include "vtkMorphMesh.h"
 
 #include "LinearMethods/FemWarp.h"
+#include "LinearMethods/LogBarrierWarp.h"
+#include "Private/Data/AffineArrays.h"
 #include "Private/Displace/Internals.h"
 #include "Private/Displace/SurfaceGrid.h"
 #include "Private/GridMorpher/GridMorpher.h"
@@ -126,8 +128,9 @@ private:
   /// The factors of soft zones, one a cell; none without such zones. Throws morph::Error.
   /// Collective on ranks.
   std::vector<double> SoftCells(vtkUnstructuredGrid* grid, const Inputs& inputs) const;
-  filters::GridMorpher::Method MethodOf(
-    vtkUnstructuredGrid* grid, const std::vector<double>& soft, morph::Monitor& monitor) const;
+  /// `isRough`: solves to DragTolerance.
+  filters::GridMorpher::Method MethodOf(vtkUnstructuredGrid* grid, const std::vector<double>& soft,
+    bool isRough, morph::Monitor& monitor) const;
   /// The boundary with the ids of this process's mesh.
   vtkSmartPointer<vtkPolyData> BoundaryOfGrid() const;
   /// Adds the distances from the target, as they are on `output`.
@@ -370,6 +373,7 @@ vtkMorphMesh::vtkMorphing::Origin vtkMorphMesh::vtkMorphing::OriginOf(
   {
     objects.emplace_back(object, object ? object->GetMTime() : 0);
   }
+  objects.emplace_back(nullptr, mover.IsDragged && options.SlideRounds > 0); // rougher
   return { options, objects, mover.Handles, mover.LatticeDisplacements };
 }
 
@@ -377,6 +381,7 @@ void vtkMorphMesh::vtkMorphing::Displace(const morph::DisplacementOptions& optio
   const filters::Input::Mesh& mesh, const Inputs& inputs, filters::Monitor& monitor)
 {
   vtkInternals& mover = this->Mover();
+  mover.IsDragged = this->Filter->MeshOptions->Live;
   Origin origin = this->OriginOf(options, mesh, inputs);
   // On several processes all displace it or none: it communicates.
   if (filters::Ranks::Processes() > 1 || this->BoundaryOrigin != origin)
@@ -436,8 +441,8 @@ std::vector<double> vtkMorphMesh::vtkMorphing::SoftCells(
   return factors;
 }
 
-filters::GridMorpher::Method vtkMorphMesh::vtkMorphing::MethodOf(
-  vtkUnstructuredGrid* grid, const std::vector<double>& soft, morph::Monitor& monitor) const
+filters::GridMorpher::Method vtkMorphMesh::vtkMorphing::MethodOf(vtkUnstructuredGrid* grid,
+  const std::vector<double>& soft, bool isRough, morph::Monitor& monitor) const
 {
   const morph::MorphMeshOptions& own = *this->Filter->MeshOptions;
   vtkMorphAlgorithm* method = this->Filter->GetMethodFilter();
@@ -460,15 +465,28 @@ filters::GridMorpher::Method vtkMorphMesh::vtkMorphing::MethodOf(
     {
       monitor.warn("This method has no stiffness: `Stiffness` counts for FEMWARP alone.");
     }
-    return { options, [method] { return method->CreateMorpher(); } };
+    return { options, [method, isRough]
+      {
+        std::unique_ptr<morph::Morpher> morpher = method->CreateMorpher();
+        if (auto* lbwarp = dynamic_cast<morph::LogBarrierWarp*>(morpher.get()); lbwarp && isRough)
+        {
+          lbwarp->setTolerance(std::max(lbwarp->tolerance(), vtkInternals::DragTolerance));
+        }
+        return morpher;
+      } };
   }
   auto stiffness = filters::Stiffness::Take(
     { own.Stiffness, own.StiffnessExponent, own.StiffnessArray, own.WallArray }, grid,
     this->Boundary, soft);
-  return { options, [method, stiffness = std::move(stiffness)]
+  return { options, [method, isRough, stiffness = std::move(stiffness)]
     {
       std::unique_ptr<morph::Morpher> morpher = method->CreateMorpher();
-      dynamic_cast<morph::FemWarp&>(*morpher).setStiffness(stiffness);
+      auto& femwarp = dynamic_cast<morph::FemWarp&>(*morpher);
+      femwarp.setStiffness(stiffness);
+      if (isRough)
+      {
+        femwarp.setTolerance(std::max(femwarp.tolerance(), vtkInternals::DragTolerance));
+      }
       return morpher;
     } };
 }
@@ -479,7 +497,12 @@ std::string vtkMorphMesh::vtkMorphing::Morph(const filters::Input::Mesh& mesh, c
   auto* grid = vtkUnstructuredGrid::SafeDownCast(mesh.Data);
   const std::vector<double> soft = this->SoftCells(grid, inputs);
   filters::GridMorpher::Method method;
-  const auto take = [&] { method = this->MethodOf(grid, soft, monitor); };
+  // The solution of an affine motion serves all steps of a drag, and what is there on release.
+  const bool isAffine = filters::AffineArrays::Read(this->Boundary).has_value();
+  const bool isAffineSomewhere =
+    mesh.IsDistributed ? filters::Ranks::Count(isAffine) > 0 : isAffine;
+  const bool isRough = this->Filter->MeshOptions->Live && !isAffineSomewhere;
+  const auto take = [&] { method = this->MethodOf(grid, soft, isRough, monitor); };
   mesh.IsDistributed ? filters::Ranks::Together(take) : take();
   std::string partial = this->Morpher.Morph(
     grid, this->Boundary, mesh.IsDistributed, this->Motion, method, outputs, monitor);

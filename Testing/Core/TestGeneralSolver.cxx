@@ -237,7 +237,9 @@ TEST(Solvers, TakeASystemOfNoRows)
   SpdSolver symmetric;
   symmetric.prepare({ CsrMatrix(0, 0), none }, monitor);
   EXPECT_EQ(symmetric.solve(none, x, 1e-10, 100, monitor).iterations, 0);
-  EXPECT_EQ(solveConstrained(symmetric, none, {}, x, 1e-10, 100, monitor).relativeResidual, 0);
+  PointsVectors work;
+  EXPECT_EQ(
+    solveConstrained(symmetric, none, {}, x, 1e-10, 100, work, monitor).relativeResidual, 0);
   symmetric.precondition(none, x, monitor);
   GeneralSolver general;
   general.prepare({ CsrMatrix(0, 0), none }, monitor);

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Meshes.h"
 #include "Solvers/Aggregation.h"
+#include "Solvers/GaussSeidel.h"
 #include "Solvers/Multigrid.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 #include <vector>
@@ -13,7 +15,7 @@ using namespace morph;
 
 namespace
 {
-/// The Laplacian of a line. D^-1 A has the eigenvalues 1 - cos(k pi / (rows + 1)) and sines.
+/// The Laplacian of a line, whose eigenvectors are sines.
 CsrMatrix line(int rows, double size)
 {
   CsrMatrix A(rows, rows);
@@ -56,15 +58,90 @@ CsrMatrixOf<Number> randomMatrix(int rows, int columns, std::mt19937& random)
 }
 }
 
-TEST(Multigrid, EstimatesTheLargestEigenvalue)
+// A sweep and a sweep back, whose blocks are the same for any number of threads.
+TEST(GaussSeidel, ASweepForthAndBackDampsEveryErrorForAnyNumberOfThreads)
 {
-  constexpr int Rows = 300;
-  Monitor monitor;
+  constexpr int Rows = 5000; // several blocks
   const CsrMatrixOf<float> A = rounded(line(Rows, 1));
-  const float found = largestEigenvalue(A, std::vector<float>(Rows, 0.5f), monitor);
-  const double largest = 1 + std::cos(M_PI / (Rows + 1));
-  EXPECT_GE(1.25 * found, largest);
-  EXPECT_LE(found, 2);
+  const auto energy = [&](const FloatMultiVector& x)
+  {
+    double sum = 0;
+    for (int i = 0; i < Rows; ++i)
+    {
+      sum +=
+        x[i][0] * (2. * x[i][0] - (i > 0 ? x[i - 1][0] : 0) - (i + 1 < Rows ? x[i + 1][0] : 0));
+    }
+    return sum;
+  };
+  std::mt19937 random(meshes::seed());
+  std::uniform_real_distribution<float> number(-1, 1);
+  FloatMultiVector error(Rows), zero(Rows, Eigen::Vector4f::Zero()), after[2];
+  std::generate(
+    error.begin(), error.end(), [&] { return Eigen::Vector4f::Constant(number(random)); });
+  for (const int threads : { 1, 3 })
+  {
+    meshes::ThreadedMonitor monitor(threads);
+    GaussSeidel smoother;
+    ASSERT_TRUE(smoother.prepare(A, 0, monitor));
+    // The error of an iterate e is e - B A e; the sweep back from e does the same for A x = 0.
+    FloatMultiVector rhs(Rows), x(Rows), residual(Rows), back(Rows);
+    smoother.sweepBack(A, zero.data(), error.data(), back.data(), monitor);
+    EXPECT_LT(energy(back), 0.7 * energy(error));
+    for (int i = 0; i < Rows; ++i)
+    {
+      rhs[i] =
+        2 * back[i] - (i > 0 ? back[i - 1] : zero[0]) - (i + 1 < Rows ? back[i + 1] : zero[0]);
+    }
+    smoother.sweep(A, rhs.data(), x.data(), monitor);
+    smoother.residual(A, x.data(), residual.data(), monitor);
+    for (int i = 0; i < Rows; ++i)
+    {
+      back[i] -= x[i];
+    }
+    EXPECT_LT(energy(back), 0.3 * energy(error));
+    for (int i = 1; i + 1 < Rows; ++i)
+    {
+      EXPECT_NEAR(residual[i][3], 2 * back[i][3] - back[i - 1][3] - back[i + 1][3], 1e-5);
+    }
+    after[threads == 3] = residual;
+  }
+  EXPECT_EQ(after[0], after[1]);
+}
+
+TEST(GaussSeidel, RefusesADiagonalThatHasNoInverse)
+{
+  Monitor monitor;
+  CsrMatrixOf<float> A = rounded(line(3, 1));
+  A.coeffRef(1, 1) = 1e-30f;
+  EXPECT_FALSE(GaussSeidel().prepare(A, 1e-20f, monitor));
+  EXPECT_TRUE(GaussSeidel().prepare(A, 1e-31f, monitor));
+}
+
+// The apex of a flat pyramid is near its corners, which have nearer neighbors above and below.
+TEST(Multigrid, AnApexFollowsTheColumnsAroundItWithoutJoiningThem)
+{
+  Points places(5, 3);
+  places << 0, 0, 0, 0, 0, .1, 1, 0, 0, 1, 0, .1, .5, 0, .05;
+  CsrMatrixOf<float> A(5, 5);
+  const std::vector<std::vector<float>> rows = { { 5, -4, 0, 0, -1 }, { -4, 5, 0, 0, -1 },
+    { 0, 0, 5, -4, -1 }, { 0, 0, -4, 5, -1 }, { -1, -1, -1, -1, 4 } };
+  for (int i = 0; i < 5; ++i)
+  {
+    for (int j = 0; j < 5; ++j)
+    {
+      A.insert(i, j) = rows[i][j];
+    }
+  }
+  A.makeCompressed();
+  Monitor monitor;
+  const std::vector<Nearness> near = nearNeighbors(A, places, monitor);
+  const Aggregates aggregates = aggregate(A, places, near);
+  ASSERT_EQ(aggregates.count, 2);
+  EXPECT_EQ(aggregates.of[0], aggregates.of[1]);
+  EXPECT_EQ(aggregates.of[2], aggregates.of[3]);
+  const CsrMatrixOf<float> P = smoothedProlongation(A, near, aggregates, monitor);
+  EXPECT_FLOAT_EQ(P.coeff(4, 0), 0.5f);
+  EXPECT_FLOAT_EQ(P.coeff(4, 1), 0.5f);
 }
 
 // The error is damped much more by a cycle than by its smoother, whatever the matrix's size.

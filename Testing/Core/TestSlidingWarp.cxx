@@ -157,7 +157,7 @@ TEST(SlidingWarp, AgreesOnPlanesWithADenseSolution)
       method.prepare(block.mesh, block.prescribed, block.sliding, monitor);
       EXPECT_EQ(method.slidingNodes(), block.sliding);
       Points moved = block.moved;
-      const auto rounds = method.slide(block.surfaces(), 3, moved, monitor);
+      const auto rounds = method.slide(block.surfaces(), { 3 }, moved, monitor);
       ASSERT_FALSE(rounds.empty());
       EXPECT_GT(rounds[0].change, 0.05);
       double last = 1;
@@ -182,6 +182,23 @@ TEST(SlidingWarp, AgreesOnPlanesWithADenseSolution)
   }
 }
 
+// As while something is dragged. Afterwards the answer is the same as if it had not been.
+TEST(SlidingWarp, ALooserToleranceComesAsNearAsItSays)
+{
+  const Block block(Eigen::Matrix3d::Identity());
+  ThreadedMonitor monitor;
+  SlidingWarp method, other;
+  method.prepare(block.mesh, block.prescribed, block.sliding, monitor);
+  other.prepare(block.mesh, block.prescribed, block.sliding, monitor);
+  Points rough = block.moved, fine = block.moved, fresh = block.moved;
+  method.slide(block.surfaces(), { 3, 1e-5 }, rough, monitor);
+  method.slide(block.surfaces(), { 3 }, fine, monitor);
+  other.slide(block.surfaces(), { 3 }, fresh, monitor);
+  EXPECT_LT((rough - fine).cwiseAbs().maxCoeff(), 1e-4 * Side);
+  EXPECT_GT((rough - fine).cwiseAbs().maxCoeff(), 1e-9 * Side);
+  EXPECT_TRUE(fine == fresh); // the same bits
+}
+
 TEST(SlidingWarp, WithoutMotionKeepsTheBits)
 {
   Block block(Eigen::Matrix3d::Identity());
@@ -189,6 +206,6 @@ TEST(SlidingWarp, WithoutMotionKeepsTheBits)
   ThreadedMonitor monitor;
   SlidingWarp method;
   method.prepare(block.mesh, block.prescribed, block.sliding, monitor);
-  EXPECT_TRUE(method.slide(block.surfaces(), 3, moved, monitor).empty());
+  EXPECT_TRUE(method.slide(block.surfaces(), { 3 }, moved, monitor).empty());
   EXPECT_TRUE(moved == block.mesh.points);
 }

@@ -24,7 +24,7 @@ const Surroundings::Result& BoundaryMover::move(const BoundaryModel& model, cons
   {
     this->inner_.take(model, options.fixedZones, options.rigidZones, pieces);
   }
-  ProgressRange spreading(monitor, 0, options.slideRounds > 0 ? 0.8 : 1);
+  ProgressRange spreading(monitor, 0, options.slide.rounds > 0 ? 0.8 : 1);
   alike(
     [&]
     {
@@ -56,11 +56,11 @@ const Surroundings::Result& BoundaryMover::move(const BoundaryModel& model, cons
     alike([&] { this->inner_.spreadAround(model, chosen, places, options.rest, result, monitor); });
   }
   this->rounds_.clear();
-  if (options.slideRounds > 0)
+  if (options.slide.rounds > 0)
   {
     ProgressRange sliding(monitor, 0.8, 1);
-    this->rounds_.run(model, chosen.held, options.rest.sliding, options.slideRounds,
-      this->surroundings_, pieces, this->inner_, result, sliding);
+    this->rounds_.run(model, chosen.held, options.rest.sliding, options.slide, this->surroundings_,
+      pieces, this->inner_, result, sliding);
   }
   alike([&] { this->periodic_.tie(model, result); });
   if (hasInner || !options.rest.sliding.empty() || !options.periodic.empty())

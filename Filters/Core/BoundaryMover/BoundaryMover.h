@@ -26,7 +26,7 @@ public:
     Surroundings::Options rest;
     std::vector<Zone> fixedZones, rigidZones; ///< of the mesh or, with pieces, of the piece
     InnerNodes::Options inner;
-    int slideRounds = 0; ///< see SlideRounds
+    SlidingWarp::Limits slide; ///< see SlideRounds
     Contact::Options contact;
     PeriodicSides::Names periodic;
 

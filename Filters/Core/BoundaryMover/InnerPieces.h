@@ -63,7 +63,7 @@ public:
   /// SlidingWarp. `sliding`: nodes, ascending; `surfaces`: by their index; `places`: of `sliding`,
   /// become those after the rounds on all processes.
   virtual std::vector<NodeSliding::Round> slide(const Prescribed& given,
-    const std::vector<Index>& sliding, const NodeSliding::Surfaces& surfaces, int rounds,
-    Points& places, Monitor& monitor) const = 0;
+    const std::vector<Index>& sliding, const NodeSliding::Surfaces& surfaces,
+    const NodeSliding::Limits& limits, Points& places, Monitor& monitor) const = 0;
 };
 }

@@ -131,8 +131,9 @@ void SlideRounds::prepare(const BoundaryModel& model, const std::vector<Index>& 
 }
 
 void SlideRounds::run(const BoundaryModel& model, const std::vector<Index>& held,
-  const std::vector<Index>& surfaces, int rounds, Surroundings& shapes, const InnerPieces* pieces,
-  const InnerNodes& inner, Surroundings::Result& result, Monitor& monitor)
+  const std::vector<Index>& surfaces, const SlidingWarp::Limits& limits, Surroundings& shapes,
+  const InnerPieces* pieces, const InnerNodes& inner, Surroundings::Result& result,
+  Monitor& monitor)
 {
   this->rounds_.clear();
   if (surfaces.empty())
@@ -160,14 +161,14 @@ void SlideRounds::run(const BoundaryModel& model, const std::vector<Index>& held
     pieces->requireNoPolyhedra("`SlideRounds` of vtkBoundaryDisplacement");
     Points places = before(nodes, allColumns);
     this->rounds_ = pieces->slide(
-      inner.prescribedOnRanks(model, result, nodes), nodes, along(nodes), rounds, places, monitor);
+      inner.prescribedOnRanks(model, result, nodes), nodes, along(nodes), limits, places, monitor);
     result.moved(nodes, allColumns) = places;
   }
   else
   {
     this->prepare(model, nodes, result, monitor);
     this->rounds_ =
-      this->method_->slide(along(this->method_->slidingNodes()), rounds, result.moved, monitor);
+      this->method_->slide(along(this->method_->slidingNodes()), limits, result.moved, monitor);
   }
   moveBetween(model, sliding, before, shapes, result.moved);
   for (const Index node : nodes)

@@ -23,8 +23,9 @@ public:
   /// Error for a model without cells, and for polyhedra. `pieces`: of a mesh on several
   /// processes, of which `inner` has the inner nodes; else null. Then this is collective.
   void run(const BoundaryModel& model, const std::vector<Index>& held,
-    const std::vector<Index>& surfaces, int rounds, Surroundings& shapes, const InnerPieces* pieces,
-    const InnerNodes& inner, Surroundings::Result& result, Monitor& monitor);
+    const std::vector<Index>& surfaces, const SlidingWarp::Limits& limits, Surroundings& shapes,
+    const InnerPieces* pieces, const InnerNodes& inner, Surroundings::Result& result,
+    Monitor& monitor);
 
   void clear() { this->rounds_.clear(); } ///< forgets what was done
   /// What each round has done.

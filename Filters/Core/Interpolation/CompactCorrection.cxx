@@ -105,9 +105,10 @@ Points solved(const WeightMatrix& matrix, const Points& b, Monitor& monitor)
   constexpr double Tolerance = 1e-14;
   constexpr int MostIterations = 10000;
   Points x = Points::Zero(b.rows(), 3);
+  PointsVectors work;
   PointsSystem system{ [&](const Points& from, Points& to) { matrix.multiply(from, to, monitor); },
     [](const Points& from, Points& to) { to = from; },
-    [](const Points& p, const Points& q) { return p.cwiseProduct(q).sum(); }, b, x, monitor };
+    [](const Points& p, const Points& q) { return p.cwiseProduct(q).sum(); }, b, x, monitor, work };
   Sums norm2 = system.residual();
   SolverGoal goal = solverGoal(norm2, norm2, Tolerance, MostIterations);
   goal.atStart = 0; // it is one solution of several

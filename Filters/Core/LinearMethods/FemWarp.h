@@ -29,9 +29,9 @@ namespace morph
 ///
 /// prepare(): one pass over the cells. It keeps about 0.5 kB a node of a hexahedral mesh and 0.35
 /// of a tetrahedral one. evaluate(): conjugate gradients to 1e-10, nearly independent of the mesh's
-/// size. On a cube twisted by 45 degrees they take 9 iterations for hexahedra, 10 for tetrahedra
-/// and 12 for wedges. They take 13 where layers of hexahedra grow by 1.2, and hundreds where many
-/// slivers have a height of 1e-6.
+/// size. With 10^5 nodes they take 12 iterations on a cube of hexahedra. On boxes of stretched
+/// cells of all types they take 12 to 27, with aspect ratios up to 100 in layers that grow by up to
+/// 1.3; and they take hundreds where many slivers have a height of 1e-6.
 class FemWarp : public StiffMorpher
 {
 public:

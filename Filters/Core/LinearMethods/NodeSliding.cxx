@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "LinearMethods/NodeSliding.h"
 
+#include "Support/Parallel.h"
+
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace morph
 {
 namespace
 {
 constexpr int MostHalvings = 4;
-constexpr double Tolerance = 1e-11;
 constexpr int MaxIterations = 5000;
 }
 
@@ -33,19 +35,20 @@ double NodeSliding::norm(const Points& rows) const
   return std::sqrt(this->communicator_.sum(rows.squaredNorm()));
 }
 
-void NodeSliding::solve(const RowConstraints& constraints, Points& x, Monitor& monitor) const
+void NodeSliding::solve(const RowConstraints& constraints, Points& x, Monitor& monitor)
 {
-  solveConstrained(this->solver_, this->b_, constraints, x, Tolerance, MaxIterations, monitor,
-    this->communicator_);
+  solveConstrained(this->solver_, this->b_, constraints, x, this->tolerance_, MaxIterations,
+    this->work_, monitor, this->communicator_);
 }
 
-void NodeSliding::settle(State& state, Monitor& monitor) const
+void NodeSliding::settle(State& state, Monitor& monitor)
 {
   const RowConstraints held = { this->nodes_.rows,
     std::vector<Eigen::Matrix3d>(this->nodes_.rows.size(), Eigen::Matrix3d::Zero()) };
   this->solve(held, state.x, monitor);
   this->solver_.product(state.x, state.force, monitor);
-  state.force = this->b_ - state.force;
+  parallel(this->b_.rows(), monitor,
+    [&](Index i) { state.force.row(i) = this->b_.row(i) - state.force.row(i); });
   double sum = 0;
   for (std::size_t k = 0; k < this->nodes_.rows.size(); ++k)
   {
@@ -57,16 +60,19 @@ void NodeSliding::settle(State& state, Monitor& monitor) const
   state.pull = std::sqrt(this->communicator_.sum(sum));
 }
 
-std::vector<NodeSliding::Round> NodeSliding::run(int rounds, Points& x, Monitor& monitor) const
+std::vector<NodeSliding::Round> NodeSliding::run(const Limits& limits, Points& x, Monitor& monitor)
 {
+  this->tolerance_ = limits.tolerance;
   const auto count = static_cast<Index>(this->nodes_.rows.size());
   std::vector<Round> result;
-  State now;
+  State now, next;
+  Points wanted;
   now.x = x;
   this->settle(now, monitor);
   const double before = now.pull;
-  const double rounding = 10 * Tolerance * std::max(this->norm(this->b_), this->norm(now.force));
-  for (int round = 0; round < rounds && now.pull > rounding; ++round)
+  const double rounding =
+    10 * limits.tolerance * std::max(this->norm(this->b_), this->norm(now.force));
+  for (int round = 0; round < limits.rounds && now.pull > rounding; ++round)
   {
     monitor.check();
     RowConstraints along = { this->nodes_.rows, {} };
@@ -74,15 +80,18 @@ std::vector<NodeSliding::Round> NodeSliding::run(int rounds, Points& x, Monitor&
     {
       along.directions.push_back(this->surfaces_.directions(i, this->place(i, now.x)));
     }
-    Points wanted = now.x;
+    wanted = now.x;
     this->solve(along, wanted, monitor);
 
     Round done;
     bool isBetter = false;
-    State next;
     for (int halvings = 0; halvings <= MostHalvings && !isBetter; ++halvings)
     {
-      next.x = now.x + std::ldexp(1., -halvings) * (wanted - now.x);
+      next.x.resize(now.x.rows(), 3);
+      parallel(now.x.rows(), monitor,
+        [&](Index i) {
+          next.x.row(i) = now.x.row(i) + std::ldexp(1., -halvings) * (wanted.row(i) - now.x.row(i));
+        });
       done.change = 0;
       for (Index i = 0; i < count; ++i)
       {
@@ -102,10 +111,10 @@ std::vector<NodeSliding::Round> NodeSliding::run(int rounds, Points& x, Monitor&
     {
       break;
     }
-    now = next;
+    std::swap(now, next);
     done.force = now.pull / before;
     result.push_back(done);
-    monitor.progress((round + 1.) / rounds);
+    monitor.progress((round + 1.) / limits.rounds);
   }
   x = now.x;
   return result;

@@ -28,6 +28,12 @@ public:
     std::function<Row(Index i, const Row& x)> closest;
   };
 
+  struct Limits
+  {
+    int rounds = 0;           ///< at most so many
+    double tolerance = 1e-11; ///< of the solutions, see solveConstrained(); in (0, 1)
+  };
+
   /// What one round has done.
   struct Round
   {
@@ -46,9 +52,9 @@ public:
   NodeSliding(const LinearSolver& solver, const Points& b, const Nodes& nodes,
     const Surfaces& surfaces, const Communicator& communicator = Communicator::alone());
 
-  /// Takes at most so many rounds. `x`: #rows x 3 displacements, which are read at the sliding
-  /// nodes. Nodes without a pull keep their bits.
-  std::vector<Round> run(int rounds, Points& x, Monitor& monitor) const;
+  /// `x`: #rows x 3 displacements, which are read at the sliding nodes. Nodes without a pull keep
+  /// their bits.
+  std::vector<Round> run(const Limits& limits, Points& x, Monitor& monitor);
 
 private:
   /// The displacements, and the force on all nodes.
@@ -57,9 +63,9 @@ private:
     Points x, force; ///< #rows x 3
     double pull = 0; ///< the norm of the force along the surfaces
   };
-  void solve(const RowConstraints& constraints, Points& x, Monitor& monitor) const;
+  void solve(const RowConstraints& constraints, Points& x, Monitor& monitor);
   /// Finds the other unknowns, the sliding nodes' being given.
-  void settle(State& state, Monitor& monitor) const;
+  void settle(State& state, Monitor& monitor);
   Row place(Index i, const Points& x) const;
   double norm(const Points& rows) const;
 
@@ -68,5 +74,7 @@ private:
   const Nodes& nodes_;
   const Surfaces& surfaces_;
   const Communicator& communicator_;
+  double tolerance_ = 0;
+  PointsVectors work_;
 };
 }

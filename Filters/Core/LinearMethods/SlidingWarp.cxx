@@ -56,10 +56,10 @@ void SlidingWarp::prepare(const Mesh& rest, const std::vector<Index>& prescribed
 }
 
 std::vector<SlidingWarp::Round> SlidingWarp::slide(
-  const Surfaces& surfaces, int rounds, Points& moved, Monitor& monitor) const
+  const Surfaces& surfaces, const Limits& limits, Points& moved, Monitor& monitor) const
 {
   const auto count = static_cast<Index>(this->sliding_.size());
-  if (count == 0 || rounds <= 0)
+  if (count == 0 || limits.rounds <= 0)
   {
     return {};
   }
@@ -73,7 +73,7 @@ std::vector<SlidingWarp::Round> SlidingWarp::slide(
     x.row(this->slidingRow_[i]) = moved.row(this->sliding_[i]) - nodes.rest.row(i);
   }
   std::vector<Round> result =
-    NodeSliding(this->solver_, b, nodes, surfaces).run(rounds, x, monitor);
+    NodeSliding(this->solver_, b, nodes, surfaces).run(limits, x, monitor);
   for (Index i = 0; !result.empty() && i < count; ++i)
   {
     const Row displacement = x.row(this->slidingRow_[i]);

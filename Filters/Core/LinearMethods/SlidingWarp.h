@@ -21,6 +21,7 @@ public:
   using Row = NodeSliding::Row;
   using Surfaces = NodeSliding::Surfaces;
   using Round = NodeSliding::Round;
+  using Limits = NodeSliding::Limits;
 
   /// Makes the equations of FEMWARP, for which `sliding` nodes are unknowns. `prescribed`: all
   /// nodes whose displacement is known, sorted. Sliding nodes that are no corner of a cell are
@@ -36,10 +37,9 @@ public:
   /// surface at their present place, and puts them back onto the surface. If the pull has not
   /// become less, the move is halved, up to four times; then the rounds end. They end, too, where
   /// the pull is that of rounding. So it falls each round. Nodes without a pull keep their bits.
-  /// `rounds`: at most so many. Returns what each has done. Cost: one solution, and two to six a
-  /// round.
+  /// Returns what each round has done. Cost: one solution, and two to six a round.
   std::vector<Round> slide(
-    const Surfaces& surfaces, int rounds, Points& moved, Monitor& monitor) const;
+    const Surfaces& surfaces, const Limits& limits, Points& moved, Monitor& monitor) const;
 
 private:
   Points points_; ///< undeformed

@@ -310,15 +310,16 @@ int BlockCsr3f::solve(const Points& b, Points& x, double tolerance, int most, Mo
   const auto run = [&](const PointsSystem::Operator& precondition, double part)
   {
     x.setZero(this->rows(), 3);
+    PointsVectors work;
     PointsSystem system = { [&](const Points& from, Points& to)
       {
         this->multiply(from, to, monitor);
         copies.add(to);
       },
       precondition, [&](const Points& v, const Points& w) { return copies.dot(v, w, monitor); }, b,
-      x, monitor };
-    system.r = b;
-    system.z.resize(this->rows(), 3);
+      x, monitor, work };
+    work.r = b;
+    work.z.resize(this->rows(), 3);
     Sums norm2 = system.one(copies.dot(b, b, monitor));
     SolverGoal goal;
     goal.goal2 = part * part * norm2;
@@ -327,7 +328,7 @@ int BlockCsr3f::solve(const Points& b, Points& x, double tolerance, int most, Mo
     const bool isDefinite = runConjugateGradients(system, norm2, goal, made, monitor);
     if (!isDefinite && made == 0)
     {
-      x = system.z; // no curvature at all: the preconditioned gradient is still a direction
+      x = work.z; // no curvature at all: the preconditioned gradient is still a direction
     }
     iterations += made;
     return isDefinite;

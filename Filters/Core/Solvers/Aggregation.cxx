@@ -11,8 +11,6 @@ namespace morph
 {
 namespace
 {
-constexpr float LeastDiagonal = 0.25f; // of a filtered row, in units of the matrix's own
-
 double distance2(const Points& points, Index i, Index j)
 {
   const double* a = points.data() + 3 * i;
@@ -22,36 +20,47 @@ double distance2(const Points& points, Index i, Index j)
 }
 }
 
-std::vector<std::uint8_t> nearNeighbors(
-  const CsrRows<float>& A, const Points& coordinates, double share, Monitor& monitor)
+std::vector<Nearness> nearNeighbors(
+  const CsrRows<float>& A, const Points& coordinates, Monitor& monitor)
 {
-  std::vector<std::uint8_t> near(A.entries());
+  // Coarsens along the short side from an aspect ratio of 1.6 on.
+  constexpr double Share = 0.4;
+  const auto distanceTo = [&](Index i, int k)
+  { return A.column[k] == i ? HUGE_VAL : distance2(coordinates, i, A.column[k]); };
+  std::vector<double> nearest(A.rows, HUGE_VAL);
   parallel(A.rows, monitor,
     [&](Index i)
     {
-      const auto distanceTo = [&](int k)
-      { return A.column[k] == i ? HUGE_VAL : distance2(coordinates, i, A.column[k]); };
-      double nearest = HUGE_VAL;
       for (int k = A.start[i]; k < A.start[i + 1]; ++k)
       {
-        nearest = std::min(nearest, distanceTo(k));
+        nearest[i] = std::min(nearest[i], distanceTo(i, k));
       }
+    });
+  std::vector<Nearness> near(A.entries(), Nearness::Far);
+  parallel(A.rows, monitor,
+    [&](Index i)
+    {
       for (int k = A.start[i]; k < A.start[i + 1]; ++k)
       {
-        const double distance = distanceTo(k);
-        near[k] = distance < HUGE_VAL && distance * share <= nearest;
+        const double part = Share * distanceTo(i, k);
+        if (part < HUGE_VAL && part <= nearest[i])
+        {
+          near[k] = part <= nearest[A.column[k]] ? Nearness::Mutual : Nearness::OneSided;
+        }
       }
     });
   return near;
 }
 
-int aggregate(const CsrRows<float>& A, const Points& coordinates,
-  const std::vector<std::uint8_t>& near, std::vector<int>& group)
+Aggregates aggregate(
+  const CsrRows<float>& A, const Points& coordinates, const std::vector<Nearness>& near)
 {
+  Aggregates result;
+  std::vector<int>& group = result.of;
+  int& groups = result.count;
   const int n = static_cast<int>(A.rows);
   constexpr int None = -1;
   group.assign(n, None);
-  int groups = 0;
   // First, whole neighborhoods without a grouped node.
   std::vector<int> neighbors;
   for (int i = 0; i < n; ++i)
@@ -64,7 +73,7 @@ int aggregate(const CsrRows<float>& A, const Points& coordinates,
     bool free = true;
     for (int k = A.start[i]; k < A.start[i + 1] && free; ++k)
     {
-      if (near[k])
+      if (near[k] == Nearness::Mutual)
       {
         free = group[A.column[k]] == None;
         neighbors.push_back(A.column[k]);
@@ -83,6 +92,7 @@ int aggregate(const CsrRows<float>& A, const Points& coordinates,
   // Then each remaining node joins the group of its nearest grouped neighbor; nodes without one
   // form groups.
   const std::vector<int> first = group;
+  result.ofMutual = groups;
   for (int i = 0; i < n; ++i)
   {
     if (group[i] != None)
@@ -93,7 +103,7 @@ int aggregate(const CsrRows<float>& A, const Points& coordinates,
     for (int k = A.start[i]; k < A.start[i + 1]; ++k)
     {
       const int j = A.column[k];
-      if (near[k] && first[j] != None && distance2(coordinates, i, j) < best)
+      if (near[k] != Nearness::Far && first[j] != None && distance2(coordinates, i, j) < best)
       {
         best = distance2(coordinates, i, j);
         group[i] = first[j];
@@ -109,43 +119,44 @@ int aggregate(const CsrRows<float>& A, const Points& coordinates,
     group[i] = groups;
     for (int k = A.start[i]; k < A.start[i + 1]; ++k)
     {
-      if (near[k] && group[A.column[k]] == None)
+      if (near[k] != Nearness::Far && group[A.column[k]] == None)
       {
         group[A.column[k]] = groups;
       }
     }
     ++groups;
   }
-  return groups;
+  return result;
 }
 
-CsrMatrixOf<float> smoothedProlongation(const CsrRows<float>& A, float eigenvalue,
-  const std::vector<std::uint8_t>& near, const std::vector<int>& group, int groups,
-  Monitor& monitor)
+CsrMatrixOf<float> smoothedProlongation(const CsrRows<float>& A, const std::vector<Nearness>& near,
+  const Aggregates& aggregates, Monitor& monitor)
 {
-  const float omega = 4.f / 3.f / eigenvalue;
+  const std::vector<int>& group = aggregates.of;
   const MakeRow makeRow = [&](Index i, SparseRow& row)
   {
-    float diagonal = 0, own = 0;
+    float diagonal = 0, size = 0;
+    bool isHarmonic = group[i] < aggregates.ofMutual;
     for (int k = A.start[i]; k < A.start[i + 1]; ++k)
     {
-      diagonal += near[k] ? 0 : A.value[k];
-      own += A.column[k] == i ? A.value[k] : 0;
+      diagonal += near[k] == Nearness::Far ? A.value[k] : 0;
+      size += near[k] == Nearness::Far ? 0 : std::abs(A.value[k]);
+      isHarmonic = isHarmonic && near[k] != Nearness::Mutual;
     }
-    // The far neighbors nearly outweigh it: smoothing the row would blow it up, and the next level
-    // would be singular to rounding. Layers of hexahedra have such rows where their height comes
-    // near their width.
-    const bool isSmoothed = diagonal > LeastDiagonal * own;
-    row.add(group[i], isSmoothed ? 1 - omega : 1);
-    for (int k = A.start[i]; isSmoothed && k < A.start[i + 1]; ++k)
+    const float omega = (isHarmonic ? 2 : 4.f / 3) / (size + std::abs(diagonal));
+    row.add(group[i], 1 - omega * diagonal);
+    for (int k = A.start[i]; k < A.start[i + 1]; ++k)
     {
-      if (near[k])
+      if (near[k] != Nearness::Far)
       {
-        row.add(group[A.column[k]], -omega / diagonal * A.value[k]);
+        row.add(group[A.column[k]], -omega * A.value[k]);
       }
     }
   };
-  return rounded(assembleRows(A.rows, groups, groups, monitor, [&] { return makeRow; }).inside);
+  return rounded(assembleRows(A.rows, aggregates.count, aggregates.count, monitor,
+    [&] {
+      return makeRow;
+    }).inside);
 }
 
 CsrMatrix tripleProduct(const CsrMatrixOf<float>& R, const CsrMatrix& A,

@@ -85,32 +85,33 @@ void SolverGoal::throwTooManyIterations(const Sums& norm2, int iterations) const
 
 Sums PointsSystem::residual()
 {
-  this->A(this->x, this->r);
-  this->r = this->b - this->r;
-  this->project(this->r);
-  return this->one(this->dot(this->r, this->r));
+  this->A(this->x, this->work.r);
+  parallel(this->b.rows(), this->monitor,
+    [&](Index i) { this->work.r.row(i) = this->b.row(i) - this->work.r.row(i); });
+  this->project(this->work.r);
+  return this->one(this->dot(this->work.r, this->work.r));
 }
 
 // Dot products with r and p are those of the unprojected vectors: both lie in the range of P.
 
 Sums PointsSystem::precondition()
 {
-  this->B(this->r, this->z);
-  this->project(this->z);
-  return this->one(this->dot(this->r, this->z));
+  this->B(this->work.r, this->work.z);
+  this->project(this->work.z);
+  return this->one(this->dot(this->work.r, this->work.z));
 }
 
 void PointsSystem::turn(const Sums& beta)
 {
   parallel(this->b.rows(), this->monitor,
-    [&](Index i) { this->p.row(i) = this->z.row(i) + beta(0, 0) * this->p.row(i); });
+    [&](Index i) { this->work.p.row(i) = this->work.z.row(i) + beta(0, 0) * this->work.p.row(i); });
 }
 
 Sums PointsSystem::apply()
 {
-  this->A(this->p, this->Ap);
-  this->project(this->Ap);
-  return this->one(this->dot(this->p, this->Ap));
+  this->A(this->work.p, this->work.Ap);
+  this->project(this->work.Ap);
+  return this->one(this->dot(this->work.p, this->work.Ap));
 }
 
 Sums PointsSystem::step(const Sums& alpha)
@@ -118,9 +119,9 @@ Sums PointsSystem::step(const Sums& alpha)
   parallel(this->b.rows(), this->monitor,
     [&](Index i)
     {
-      this->x.row(i) += alpha(0, 0) * this->p.row(i);
-      this->r.row(i) -= alpha(0, 0) * this->Ap.row(i);
+      this->x.row(i) += alpha(0, 0) * this->work.p.row(i);
+      this->work.r.row(i) -= alpha(0, 0) * this->work.Ap.row(i);
     });
-  return this->one(this->dot(this->r, this->r));
+  return this->one(this->dot(this->work.r, this->work.r));
 }
 }

@@ -110,6 +110,13 @@ int conjugateGradients(System& system, Sums& norm2, const SolverGoal& goal, Moni
   return iterations;
 }
 
+/// The vectors of a PointsSystem, #rows x 3 each, for one run after another: new memory would cost
+/// as much as an iteration where pages are dear.
+struct PointsVectors
+{
+  Points r, z, p, Ap;
+};
+
 /// A system for conjugate gradients whose three columns are iterated as one, by any operators. With
 /// `project`, an orthogonal projection P, it solves P A x = P b for x that differ from the guess by
 /// vectors of P's range.
@@ -121,12 +128,12 @@ struct PointsSystem
   const Points& b;
   Points& x; ///< the guess
   Monitor& monitor;
+  PointsVectors& work;
   std::function<void(Points& x)> project = [](Points&) {};
-  Points r = {}, z = {}, p = {}, Ap = {};
 
   Sums one(double value) const { return Sums::Constant(1, 1, value); }
   Sums residual();
-  void begin(const Sums&, const SumsMask&) { this->p.setZero(this->b.rows(), 3); }
+  void begin(const Sums&, const SumsMask&) { this->work.p.setZero(this->b.rows(), 3); }
   Sums precondition();
   void turn(const Sums& beta);
   Sums apply();

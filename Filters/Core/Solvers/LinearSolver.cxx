@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solvers/LinearSolver.h"
 
-#include "Solvers/ConjugateGradients.h"
+#include "Support/Parallel.h"
 #include "Support/ReproducibleSum.h"
 
 #include <algorithm>
@@ -10,7 +10,7 @@ namespace morph
 {
 SolveReport solveConstrained(const LinearSolver& solver, const Points& b,
   const RowConstraints& constraints, Points& x, double tolerance, int maxIterations,
-  Monitor& monitor, const Communicator& communicator)
+  PointsVectors& work, Monitor& monitor, const Communicator& communicator)
 {
   const auto product = [&](const Points& from, Points& to) { solver.product(from, to, monitor); };
   const auto precondition = [&](const Points& from, Points& to)
@@ -20,17 +20,15 @@ SolveReport solveConstrained(const LinearSolver& solver, const Points& b,
   };
   PointsSystem system = { product, precondition,
     [&](const Points& v, const Points& w) { return communicator.sum(dot(v, w, monitor)); }, b, x,
-    monitor,
+    monitor, work,
     [&](Points& v)
     {
-      for (std::size_t k = 0; k < constraints.rows.size(); ++k)
-      {
-        v.row(constraints.rows[k]) *= constraints.directions[k];
-      }
+      parallel(static_cast<Index>(constraints.rows.size()), monitor,
+        [&](Index k) { v.row(constraints.rows[k]) *= constraints.directions[k]; });
     } };
   communicator.sum(0.);
-  solver.product(x, system.Ap, monitor);
-  const double given2 = std::max(system.dot(b, b), system.dot(system.Ap, system.Ap));
+  solver.product(x, work.Ap, monitor);
+  const double given2 = std::max(system.dot(b, b), system.dot(work.Ap, work.Ap));
   Sums norm2 = system.residual();
   const SolverGoal goal = solverGoal(system.one(given2), norm2, tolerance, maxIterations);
   SolveReport report;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Solvers/ConjugateGradients.h"
 #include "Solvers/CsrMatrix.h"
 #include "Solvers/SolveReport.h"
 #include "Support/Communicator.h"
@@ -51,9 +52,9 @@ struct RowConstraints
 /// projects the constrained rows onto their directions. The columns are coupled there, so all
 /// three are iterated as one. Stops at |P (b - A x)| <= tolerance max(|b|, |A guess|), norms over
 /// all rows. A is symmetric and positive definite. The preconditioner knows no constraints:
-/// iterations grow with the square root of the number of cells across the mesh. Throws Error of
-/// kind NoConvergence.
+/// iterations grow with the square root of the number of cells across the mesh. `work`: of any
+/// content, perhaps from the last call. Throws Error of kind NoConvergence.
 SolveReport solveConstrained(const LinearSolver& solver, const Points& b,
   const RowConstraints& constraints, Points& x, double tolerance, int maxIterations,
-  Monitor& monitor, const Communicator& communicator = Communicator::alone());
+  PointsVectors& work, Monitor& monitor, const Communicator& communicator = Communicator::alone());
 }

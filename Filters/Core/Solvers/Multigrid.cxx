@@ -5,10 +5,8 @@
 #include "Solvers/RowProducts.h"
 #include "Support/Error.h"
 #include "Support/Parallel.h"
-#include "Support/ReproducibleSum.h"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
 #include <algorithm>
@@ -23,9 +21,6 @@ namespace
 constexpr int CoarsestSize = 200; // maximum number of rows for a dense factorisation
 constexpr int MostLevels = 20;
 constexpr Index Grain = 4096;
-constexpr float SmoothedRange = 4; // smooths eigenvalues in [largest / range, largest]
-constexpr int LanczosSteps = 10;
-constexpr float LanczosMargin = 1.1f; // covers the error of the Lanczos result
 
 /// The inverse of a dense matrix; empty where it is singular to rounding, or not positive definite
 /// though it should be.
@@ -42,92 +37,22 @@ Eigen::MatrixXd inverseOf(const Eigen::MatrixXd& A, Multigrid::Symmetry symmetry
   return factors.rcond() > LeastReciprocalCondition ? factors.inverse() : Eigen::MatrixXd();
 }
 
-/// The mean places of the rows of each group.
-Points centersOf(const Points& places, const std::vector<int>& group, int groups)
+/// The mean places of the rows of each aggregate.
+Points centersOf(const Points& places, const Aggregates& aggregates)
 {
-  Points centers = Points::Zero(groups, 3);
-  std::vector<int> members(groups, 0);
-  for (std::size_t i = 0; i < group.size(); ++i)
+  Points centers = Points::Zero(aggregates.count, 3);
+  std::vector<int> members(aggregates.count, 0);
+  for (Index i = 0; i < places.rows(); ++i)
   {
-    centers.row(group[i]) += places.row(static_cast<Index>(i));
-    ++members[group[i]];
+    centers.row(aggregates.of[i]) += places.row(i);
+    ++members[aggregates.of[i]];
   }
-  for (int g = 0; g < groups; ++g)
+  for (int g = 0; g < aggregates.count; ++g)
   {
     centers.row(g) /= members[g];
   }
   return centers;
 }
-}
-
-float largestEigenvalue(
-  const CsrRows<float>& A, const std::vector<float>& inverseDiagonal, Monitor& monitor)
-{
-  // Lanczos on D^-1/2 A D^-1/2, whose spectrum is that of D^-1 A. Ten steps come within some
-  // percent of the largest eigenvalue; the power method is then still far below.
-  std::vector<float> root(A.rows), before(A.rows), now(A.rows), next(A.rows), scaled(A.rows);
-  std::uint32_t state = 1; // a fixed random start
-  for (Index i = 0; i < A.rows; ++i)
-  {
-    root[i] = std::sqrt(inverseDiagonal[i]);
-    state = state * 1664525u + 1013904223u;
-    now[i] = static_cast<float>(state >> 8) / (1 << 24) - 0.5f;
-  }
-
-  const int steps = static_cast<int>(std::min<Index>(LanczosSteps, A.rows));
-  Eigen::VectorXd diagonal(steps), off(steps);
-  double norm = std::sqrt(reproducibleSum(
-    A.rows, monitor, 0., [&](Index i) { return static_cast<double>(now[i]) * now[i]; }));
-  int made = 0;
-  while (made < steps && norm > 0)
-  {
-    const float scale = static_cast<float>(1 / norm);
-    const float back = made > 0 ? static_cast<float>(norm) : 0.f;
-    parallel(A.rows, monitor,
-      [&](Index i)
-      {
-        now[i] *= scale;
-        scaled[i] = root[i] * now[i];
-      });
-    const double along = reproducibleSum(A.rows, monitor, 0.,
-      [&](Index i)
-      {
-        float sum = 0;
-        for (int k = A.start[i]; k < A.start[i + 1]; ++k)
-        {
-          sum += A.value[k] * scaled[A.column[k]];
-        }
-        next[i] = root[i] * sum - back * before[i];
-        return static_cast<double>(next[i]) * now[i];
-      });
-    norm = std::sqrt(reproducibleSum(A.rows, monitor, 0.,
-      [&](Index i)
-      {
-        next[i] -= static_cast<float>(along) * now[i];
-        return static_cast<double>(next[i]) * next[i];
-      }));
-    diagonal[made] = along;
-    off[made] = norm;
-    ++made;
-    before.swap(now);
-    now.swap(next);
-  }
-  Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> tridiagonal;
-  tridiagonal.computeFromTridiagonal(
-    diagonal.head(made), off.head(std::max(made - 1, 0)), Eigen::EigenvaluesOnly);
-  const float estimate = LanczosMargin * static_cast<float>(tridiagonal.eigenvalues().maxCoeff());
-  // No eigenvalue exceeds the largest row sum.
-  float bound = 0;
-  for (Index i = 0; i < A.rows; ++i)
-  {
-    float sum = 0;
-    for (int k = A.start[i]; k < A.start[i + 1]; ++k)
-    {
-      sum += std::abs(A.value[k]);
-    }
-    bound = std::max(bound, sum * inverseDiagonal[i]);
-  }
-  return estimate > 0 && std::isfinite(estimate) ? std::min(estimate, bound) : bound;
 }
 
 void Multigrid::round(const CsrMatrix& matrix, Monitor& monitor)
@@ -151,32 +76,19 @@ void Multigrid::round(const CsrMatrix& matrix, Monitor& monitor)
     [&](Index k) { this->finestValues_[k] = static_cast<float>(scale * value[k]); });
 }
 
-float Multigrid::addLevel(const CsrRows<float>& A, Monitor& monitor)
+bool Multigrid::addLevel(const CsrRows<float>& A, Monitor& monitor)
 {
   // Single precision has room for 2^-60 of such an entry and for its inverse.
   const float least = std::ldexp(1.f, LargestExponent - 126);
-  std::vector<float> inverseDiagonal(A.rows);
-  parallel(A.rows, monitor,
-    [&](Index i)
-    {
-      const int *row = A.column + A.start[i], *end = A.column + A.start[i + 1];
-      const int* found = std::find(row, end, static_cast<int>(i));
-      const float diagonal = found != end ? A.value[found - A.column] : 0.f;
-      inverseDiagonal[i] = diagonal >= least && std::isfinite(diagonal) ? 1 / diagonal : 0;
-    });
-  if (std::find(inverseDiagonal.begin(), inverseDiagonal.end(), 0) != inverseDiagonal.end())
+  GaussSeidel smoother;
+  if (!smoother.prepare(A, least, monitor))
   {
-    return 0;
+    return false;
   }
-  const float largest = largestEigenvalue(A, inverseDiagonal, monitor);
   Level& level = this->levels_.emplace_back();
   level.rows = A.rows;
-  level.weight.swap(inverseDiagonal);
-  for (float& weight : level.weight)
-  {
-    weight /= largest * (1 + 1 / SmoothedRange) / 2; // the middle of the range
-  }
-  return largest;
+  level.smoother = std::move(smoother);
+  return true;
 }
 
 void Multigrid::prepare(
@@ -189,16 +101,12 @@ void Multigrid::prepare(
   {
     return; // no level: see apply()
   }
-  float largest = this->addLevel(this->matrix(0), monitor);
-  if (largest == 0)
+  if (!this->addLevel(this->matrix(0), monitor))
   {
     throw Error(Error::Kind::Singular,
       "The cells' sizes differ by more than 1e38: their stiffness cannot be solved for together.");
   }
   Points places = coordinates;
-  // Of the squared distances. 0.4 coarsens along the short side from an aspect ratio of 1.6 on.
-  // That saves up to half of the iterations of FEMWARP there, and costs LBWARP some.
-  const double share = symmetry == Symmetry::Symmetric ? 0.4 : 0.2;
 
   // A level has about an eighth of the rows of the finer one.
   double left = 1;
@@ -210,15 +118,14 @@ void Multigrid::prepare(
     monitor.check();
     Level& level = this->levels_.back();
     const CsrRows<float> A = this->matrix(this->levels_.size() - 1);
-    std::vector<int> group;
-    std::vector<std::uint8_t> near = nearNeighbors(A, places, share, monitor);
-    const int groups = aggregate(A, places, near, group);
-    if (groups > 0.8 * static_cast<double>(level.rows))
+    std::vector<Nearness> near = nearNeighbors(A, places, monitor);
+    const Aggregates aggregates = aggregate(A, places, near);
+    if (aggregates.count > 0.8 * static_cast<double>(level.rows))
     {
       break; // nothing left to group: this level only has the smoother
     }
     progress(0.3);
-    level.P = smoothedProlongation(A, largest, near, group, groups, monitor);
+    level.P = smoothedProlongation(A, near, aggregates, monitor);
     level.R = level.P.transpose();
     near = {};
     progress(0.4);
@@ -229,14 +136,13 @@ void Multigrid::prepare(
     progress(1);
     left *= 0.125;
     CsrMatrixOf<float> single = rounded(coarse);
-    largest = this->addLevel(single, monitor);
-    if (largest == 0)
+    if (!this->addLevel(single, monitor))
     {
       break; // rounding near flat cells spoiled the level
     }
     this->levels_.back().A.swap(single);
     exact.swap(coarse);
-    places = centersOf(places, group, groups);
+    places = centersOf(places, aggregates);
   }
 
   Level& last = this->levels_.back();
@@ -251,16 +157,18 @@ void Multigrid::prepare(
 
 void Multigrid::prepareTransposed(const Multigrid& other, const CsrMatrix& matrix)
 {
-  // The cycle smooths alike before and after the coarse correction, so transposing the matrices
-  // transposes it.
+  // The sweep back is the transpose of the first one, so transposing the matrices transposes the
+  // cycle.
   *this = other;
-  for (Level& level : this->levels_)
-  {
-    level.A = CsrMatrixOf<float>(level.A.transpose());
-  }
-  this->coarsestInverse_ = other.coarsestInverse_.transpose();
   Monitor silent;
   this->round(matrix, silent);
+  for (std::size_t k = 0; k < this->levels_.size(); ++k)
+  {
+    Level& level = this->levels_[k];
+    level.A = CsrMatrixOf<float>(level.A.transpose());
+    level.smoother.prepareTransposed(other.levels_[k].smoother, this->matrix(k), silent);
+  }
+  this->coarsestInverse_ = other.coarsestInverse_.transpose();
 }
 
 Multigrid::Workspace::Workspace(const Multigrid& multigrid)
@@ -285,28 +193,11 @@ void Multigrid::apply(const Row* rhs, Row* x, Workspace& workspace, Monitor& mon
   }
 }
 
-void Multigrid::smoothFromZero(const Level& level, const Row* rhs, Row* x, Monitor& monitor) const
-{
-  parallel(level.rows, monitor, [&](Index i) { x[i] = level.weight[i] * rhs[i]; });
-}
-
-void Multigrid::smooth(
-  std::size_t k, const Row* rhs, const Row* from, Row* to, Monitor& monitor) const
-{
-  const CsrRows<float> A = this->matrix(k);
-  const std::vector<float>& weight = this->levels_[k].weight;
-  monitor.parallelFor(A.rows, Grain,
-    [&](Index first, Index last)
-    {
-      forRowProducts(A, from, first, last,
-        [&](Index i, const Row& product) { to[i] = from[i] + weight[i] * (rhs[i] - product); });
-    });
-}
-
 void Multigrid::cycle(
   std::size_t k, const Row* rhs, Row* x, Workspace& workspace, Monitor& monitor) const
 {
   const Level& level = this->levels_[k];
+  const CsrRows<float> A = this->matrix(k);
   Row* work = workspace.levels_[k].work.data();
   if (k + 1 == this->levels_.size())
   {
@@ -318,20 +209,15 @@ void Multigrid::cycle(
         (this->coarsestInverse_ * right.cast<double>()).cast<float>();
       return;
     }
-    this->smoothFromZero(level, rhs, work, monitor);
-    this->smooth(k, rhs, work, x, monitor);
+    level.smoother.sweep(A, rhs, work, monitor);
+    level.smoother.sweepBack(A, rhs, work, x, monitor);
     return;
   }
 
   Workspace::Level& below = workspace.levels_[k + 1];
-  this->smoothFromZero(level, rhs, work, monitor);
+  level.smoother.sweep(A, rhs, work, monitor);
   Row* residual = x;
-  monitor.parallelFor(level.rows, Grain,
-    [&](Index first, Index last)
-    {
-      forRowProducts(this->matrix(k), work, first, last,
-        [&](Index i, const Row& product) { residual[i] = rhs[i] - product; });
-    });
+  level.smoother.residual(A, work, residual, monitor);
   monitor.parallelFor(level.R.rows(), Grain / 8,
     [&](Index first, Index last)
     { rowProducts(level.R, residual, first, last, below.rhs.data() + first); });
@@ -342,6 +228,6 @@ void Multigrid::cycle(
       forRowProducts(CsrRows<float>(level.P), below.x.data(), first, last,
         [&](Index i, const Row& product) { work[i] += product; });
     });
-  this->smooth(k, rhs, work, x, monitor);
+  level.smoother.sweepBack(A, rhs, work, x, monitor);
 }
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "Solvers/CsrMatrix.h"
+#include "Solvers/GaussSeidel.h"
 #include "Solvers/MultiVector.h"
 #include "Support/Monitor.h"
 #include "Support/Types.h"
@@ -17,9 +18,9 @@ namespace morph
 /// symmetric for a symmetric matrix. It has single precision, which halves memory traffic. Source:
 /// Vanek, Mandel, Brezina, Computing 56 (1996) 179-196.
 ///
-/// The smoother is x <- x + w D^-1 (rhs - A x), once before the coarse correction and once after
-/// it. w damps the eigenvalues of D^-1 A in [largest / 4, largest] best. Two steps on each side, by
-/// Chebyshev's polynomial, take fewer iterations and more time.
+/// The smoother is a Gauss-Seidel sweep before the coarse correction, and one backward after it.
+/// Flat hexahedra need it: they couple in their plane by a mass matrix, of which Jacobi steps, or
+/// Chebyshev's, damp some waves hardly at all.
 ///
 /// A matrix that is not symmetric is coarsened by P^T A P. On log-barrier weights this took 4
 /// BiCGSTAB iterations, and a hierarchy of the symmetrised matrix 4 to 9.
@@ -75,9 +76,9 @@ private:
   struct Level
   {
     Index rows = 0;
-    CsrMatrixOf<float> A;      ///< empty in the finest level
-    CsrMatrixOf<float> P, R;   ///< prolongation to this level from the next; its transpose
-    std::vector<float> weight; ///< of the smoother: w D^-1
+    CsrMatrixOf<float> A;    ///< empty in the finest level
+    CsrMatrixOf<float> P, R; ///< prolongation to this level from the next; its transpose
+    GaussSeidel smoother;
   };
 
   CsrRows<float> matrix(std::size_t level) const
@@ -87,14 +88,12 @@ private:
   }
   /// Sets the finest level's values.
   void round(const CsrMatrix& matrix, Monitor& monitor);
-  /// Appends a level without its matrix. Returns the largest eigenvalue of D^-1 A. Where single
-  /// precision cannot smooth by the diagonal, appends nothing and returns 0.
-  float addLevel(const CsrRows<float>& A, Monitor& monitor);
+  /// Appends a level without its matrix. Returns false, and appends nothing, if single precision
+  /// cannot smooth by the diagonal.
+  bool addLevel(const CsrRows<float>& A, Monitor& monitor);
 
   /// apply() from level k down.
   void cycle(std::size_t k, const Row* rhs, Row* x, Workspace& workspace, Monitor&) const;
-  void smoothFromZero(const Level& level, const Row* rhs, Row* x, Monitor& monitor) const;
-  void smooth(std::size_t k, const Row* rhs, const Row* from, Row* to, Monitor& monitor) const;
 
   const CsrMatrix* finest_ = nullptr;
   std::vector<float> finestValues_; ///< of its entries, in units of unit()
@@ -103,11 +102,4 @@ private:
   /// Of the coarsest level, in double precision. Empty where its smoother is used.
   Eigen::MatrixXd coarsestInverse_;
 };
-
-/// Estimates the largest eigenvalue of D^-1 A by ten Lanczos steps, times 1.1. The result is at
-/// most the largest row sum, which bounds every eigenvalue. Lanczos converges from below, so this
-/// is no bound; the smoother damps all eigenvalues up to 1.25 times its argument. For a matrix that
-/// is not symmetric the recurrence is the same, and only the row sums are a bound.
-float largestEigenvalue(
-  const CsrRows<float>& A, const std::vector<float>& inverseDiagonal, Monitor& monitor);
 }

@@ -48,7 +48,9 @@ SolveReport MultigridSolver::solve(
 void MultigridSolver::product(const Points& from, Points& to, Monitor& monitor) const
 {
   constexpr Index Grain = 4096;
-  const MultiVector rows = toRows(from, monitor);
+  const auto kept = this->parts_->workspace();
+  MultiVector& rows = kept->residual;
+  parallel(from.rows(), monitor, [&](Index i) { rows[i] = toRow(from.row(i)); });
   to.resize(from.rows(), 3);
   monitor.parallelFor(from.rows(), Grain,
     [&](Index first, Index last)

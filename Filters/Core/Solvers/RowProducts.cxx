@@ -1,27 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solvers/RowProducts.h"
 
-#include "Support/Simd.h"
+#include "Solvers/RowSum.h"
 
 namespace morph
 {
 namespace
 {
-MORPH_SIMD_INLINE void read(const float* x, SimdFloat4& row)
-{
-  row = load(x);
-}
-MORPH_SIMD_INLINE void read(const float* x, SimdDouble4& row)
-{
-  row = widened(x);
-}
-MORPH_SIMD_INLINE void read(const double* x, SimdDouble4& row)
-{
-  row = load(x);
-}
-
-/// `Vector`: of the products. Four sums hide the latency of an addition. They are added as
-/// (0 + 2) + (1 + 3), and then the entries that are left.
+/// `Vector`: of the products.
 template <typename Vector>
 struct Product
 {
@@ -31,28 +17,8 @@ struct Product
   {
     for (Index i = first; i < last; ++i)
     {
-      // Written out: GCC 12 leaves a loop over the sums as one, and keeps them in memory.
-      Vector sum0 = {}, sum1 = {}, sum2 = {}, sum3 = {}, row;
-      Index k = start[i];
-      const Index end = start[i + 1];
-      for (; end - k > 3; k += 4)
-      {
-        read(x + SimdWidth * column[k], row);
-        sum0 += value[k] * row;
-        read(x + SimdWidth * column[k + 1], row);
-        sum1 += value[k + 1] * row;
-        read(x + SimdWidth * column[k + 2], row);
-        sum2 += value[k + 2] * row;
-        read(x + SimdWidth * column[k + 3], row);
-        sum3 += value[k + 3] * row;
-      }
-      sum0 = (sum0 + sum2) + (sum1 + sum3);
-      for (; k < end; ++k)
-      {
-        read(x + SimdWidth * column[k], row);
-        sum0 += value[k] * row;
-      }
-      store(sum0, products + SimdWidth * (i - first));
+      store(rowSum<Vector>(start[i], start[i + 1], column, value, x),
+        products + SimdWidth * (i - first));
     }
   }
 };

@@ -390,7 +390,11 @@ void vtkDisplacementAlgorithm::vtkInternals::Displace(const Options& options, vt
   if (options.Moving != MOVING_NOTHING)
   {
     this->FindInner(options, grid, zones, mover);
-    mover.slideRounds = options.SlideRounds;
+    mover.slide.rounds = options.SlideRounds;
+    if (this->IsDragged)
+    {
+      mover.slide.tolerance = DragTolerance;
+    }
     mover.contact = moves.Contact;
     mover.periodic = moves.Periodic;
   }
@@ -434,7 +438,7 @@ void vtkDisplacementAlgorithm::vtkInternals::Write(const Options& options, vtkPo
   }
   filters::DisplacedSurface::Write(
     this->Model, result, input, options.OutputPointsPrecision, output);
-  if (mover.slideRounds > 0)
+  if (mover.slide.rounds > 0)
   {
     writeRounds(this->Mover.rounds().rounds(), this->Model.size, output->GetFieldData());
     this->SlideReport = this->Mover.rounds().report(this->Model.size);
@@ -447,7 +451,7 @@ void vtkDisplacementAlgorithm::vtkInternals::Write(const Options& options, vtkPo
     writeGaps(before, after, output->GetFieldData());
     this->ContactReport = contact.report(before, after);
   }
-  if (mover.hasInner() || mover.slideRounds > 0 || mover.contact.distance > 0 ||
+  if (mover.hasInner() || mover.slide.rounds > 0 || mover.contact.distance > 0 ||
       !mover.periodic.empty())
   {
     filters::AffineArrays::Remove(output);

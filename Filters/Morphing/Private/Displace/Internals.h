@@ -75,6 +75,10 @@ struct vtkDisplacementAlgorithm::vtkInternals
   int ChooseCount = 0; ///< of all executions
   ///@}
 
+  /// Solutions while something is dragged need be no finer than a picture.
+  static constexpr double DragTolerance = 1e-5;
+  bool IsDragged = false;
+
   vtkInternals() { this->ResetResults(); }
   void ResetResults();
   void ClearList();

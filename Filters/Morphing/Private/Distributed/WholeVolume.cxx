@@ -223,8 +223,8 @@ InnerPieces::Moved WholeVolume::warp(
 }
 
 std::vector<morph::NodeSliding::Round> WholeVolume::slide(const Prescribed& given,
-  const std::vector<Index>& sliding, const morph::NodeSliding::Surfaces& surfaces, int rounds,
-  morph::Points& places, morph::Monitor& monitor) const
+  const std::vector<Index>& sliding, const morph::NodeSliding::Surfaces& surfaces,
+  const morph::NodeSliding::Limits& limits, morph::Points& places, morph::Monitor& monitor) const
 {
   const DistributedMesh& mesh = this->Surface.Pieces().Whole();
   morph::Points moved;
@@ -251,7 +251,7 @@ std::vector<morph::NodeSliding::Round> WholeVolume::slide(const Prescribed& give
     { return surfaces.directions(local[i].second, x); },
     [&](Index i, const morph::NodeSliding::Row& x)
     { return surfaces.closest(local[i].second, x); } };
-  const auto done = method.slide(nodes, ofLocal, rounds, moved, monitor);
+  const auto done = method.slide(nodes, ofLocal, limits, moved, monitor);
   struct Place
   {
     Index index;

@@ -26,7 +26,8 @@ public:
   Moved warp(const Prescribed& given, const Flags& ofPiece, morph::Monitor& monitor) const override;
   std::vector<morph::NodeSliding::Round> slide(const Prescribed& given,
     const std::vector<morph::Index>& sliding, const morph::NodeSliding::Surfaces& surfaces,
-    int rounds, morph::Points& places, morph::Monitor& monitor) const override;
+    const morph::NodeSliding::Limits& limits, morph::Points& places,
+    morph::Monitor& monitor) const override;
 
 private:
   /// The nodes of the distributed mesh that are prescribed, and the places of all. Collective.
