@@ -415,18 +415,36 @@ std::vector<Index> outerNodes(const Mesh& mesh)
     {
       continue;
     }
-    cell->SetCellType(mesh.types[c]);
-    for (Index k = 0; k < mesh.cellSize(c); ++k)
+    // VTK's faces of third order assert; those of corners are alike.
+    const bool isAnyOrder = mesh.types[c] >= morph::LagrangeCurve;
+    constexpr std::uint8_t linear[] = { morph::Tetra, morph::Hexahedron, morph::Wedge };
+    cell->SetCellType(
+      isAnyOrder ? linear[(mesh.types[c] - morph::LagrangeTetrahedron) % 7] : mesh.types[c]);
+    for (Index k = 0; k < (isAnyOrder ? shape->numberOfCorners : mesh.cellSize(c)); ++k)
     {
       cell->PointIds->SetId(k, mesh.cell(c)[k]);
     }
     for (int f = 0; f < cell->GetNumberOfFaces(); ++f)
     {
       vtkIdList* ids = cell->GetFace(f)->GetPointIds();
-      const std::vector<vtkIdType> nodes(ids->begin(), ids->end());
+      std::vector<vtkIdType> nodes(ids->begin(), ids->end());
       // Corners come first.
       std::set<vtkIdType> corners(
         nodes.begin(), nodes.begin() + std::min<std::size_t>(nodes.size(), shape->faces[f].size));
+      for (int k = shape->numberOfCorners; isAnyOrder && k < mesh.cellSize(c); ++k)
+      {
+        double N[8], share = 0;
+        const morph::CellShape& own = *morph::cellShape(mesh, c);
+        morph::shapeFunctions(own.shape, own.extraNodes[k - own.numberOfCorners], N, nullptr);
+        for (int a = 0; a < own.numberOfCorners; ++a)
+        {
+          share += corners.count(mesh.cell(c)[a]) > 0 ? N[a] : 0;
+        }
+        if (share > 1 - 1e-9)
+        {
+          nodes.push_back(mesh.cell(c)[k]);
+        }
+      }
       auto& [uses, all] = faces[std::vector<vtkIdType>(corners.begin(), corners.end())];
       ++uses;
       all = nodes;

@@ -174,9 +174,16 @@ MORPH_SIMD_INLINE void addTet(const Vector3<T>& x0, const Vector3<T>& x1, const 
   const Vector3<T> edges[6] = { x1 - x0, x2 - x0, x3 - x0, x2 - x1, x3 - x1, x3 - x2 };
   T l[6];
   const T shortest = lengthsOf(edges, l);
+  // Products of three lengths would underflow in tiny cells: all are in units of one.
+  const T unit = greatest(greatest(l[0], l[1]), l[2]);
+  for (T& length : l)
+  {
+    length = length / unit;
+  }
   const T longest = greatest(greatest(l[0] * l[1] * l[2], l[0] * l[3] * l[4]),
     greatest(l[1] * l[3] * l[5], l[2] * l[4] * l[5]));
-  const T value = std::sqrt(2.) * T(dot(edges[0], cross(edges[1], edges[2]))) / longest;
+  const T value =
+    std::sqrt(2.) * T(dot(edges[0] / unit, cross(edges[1] / unit, edges[2] / unit))) / longest;
   minimum.add(value, shortest);
 }
 
