@@ -170,6 +170,23 @@ TEST(CrossingFaces, NotOfMatchingBodiesThatBendTogether)
   EXPECT_TRUE(crossings(both, bent.points).empty());
 }
 
+TEST(CrossingFaces, NotOfAnAffineMapOfBodiesInContact)
+{
+  std::mt19937 engine(3);
+  std::uniform_real_distribution<double> number(-1, 1);
+  const Mesh box = meshes::hexes(1, 1, 1);
+  const Mesh rest = together(box, mapped(box, shift(1, 0, 0)));
+  for (int i = 0; i < 500; ++i)
+  {
+    Eigen::Matrix3d A;
+    std::generate(A.data(), A.data() + 9, [&] { return number(engine); });
+    A *= A.determinant() < 0 ? -1 : 1;
+    const Points points =
+      moved(rest, rest.numberOfNodes(), [&](const Row& x) { return Row(x * A + Row(3, -2, 1)); });
+    EXPECT_TRUE(crossings(rest, points).empty()) << "seed 3, map " << i;
+  }
+}
+
 TEST(CrossingFaces, NotOfPairsThatCrossedAtRest)
 {
   const Mesh box = meshes::hexes(2, 2, 2);

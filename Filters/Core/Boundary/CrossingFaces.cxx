@@ -9,6 +9,7 @@
 #include "Support/Parallel.h"
 
 #include <Eigen/Geometry>
+#include <Eigen/QR>
 
 #include <algorithm>
 #include <cmath>
@@ -283,6 +284,24 @@ bool crossPushed(const Shell& shell, const Place& place, const std::array<Index,
   return (crossIf(0, true) && (length == 0 || crossIf(0, false))) ||
          (length > 0 && crossIf(1, true) && crossIf(1, false));
 }
+
+/// Whether one affine map moves the corners of both faces. It lets none cross that did not, but
+/// sharp corners of sheared faces in contact look as if it did.
+bool moveAffinely(const Shell& shell, const ConstPoints& rest, const ConstPoints& moved,
+  const std::array<Index, 2>& pair)
+{
+  std::vector<Index> nodes;
+  for (const Index face : pair)
+  {
+    std::for_each(shell.begin(face), shell.end(face),
+      [&](Index corner) { nodes.push_back(shell.nodes[corner]); });
+  }
+  const Points from = rest(nodes, allColumns), to = moved(nodes, allColumns);
+  const Eigen::MatrixXd x = from.rowwise() - from.row(0), y = to.rowwise() - to.row(0);
+  constexpr double Rounding = 1e-9;
+  const Eigen::MatrixXd map = x.completeOrthogonalDecomposition().solve(y);
+  return (x * map - y).cwiseAbs().maxCoeff() <= Rounding * y.cwiseAbs().maxCoeff();
+}
 }
 
 std::vector<std::array<Index, 2>> crossingFaces(const ConstPoints& rest, const ConstPoints& moved,
@@ -338,7 +357,8 @@ std::vector<std::array<Index, 2>> crossingFaces(const ConstPoints& rest, const C
     pairs.resize(kept);
   };
   const Place now(shell, moved);
-  keep([&](const auto& pair, const auto& crossAt) { return crossAt(now, pair, 0); });
+  keep([&](const auto& pair, const auto& crossAt)
+    { return crossAt(now, pair, 0) && !moveAffinely(shell, rest, moved, pair); });
   if (pairs.empty())
   {
     return pairs;
