@@ -86,6 +86,12 @@ class Figures(unittest.TestCase):
                          lambda cells: (cells[0].replace(",", ""), cells[1]),
                          [("nodes", "method"), "first_step_s", "later_step_s", "memory_GB"])
 
+    def test_shapes_of_cells(self):
+        self.check_table(table("WhatToExpect.md", "## By the shape of cells"),
+                         rows(RESULTS / "boxes.csv"), lambda cells: (cells[0],),
+                         [("cells",), "median_ratio", "worst_ratio", "median_iterations",
+                          "most_iterations"])
+
     def test_dragging(self):
         self.check_table(table("WhatToExpect.md", "## While dragging"),
                          rows(RESULTS / "dragging.csv"),
