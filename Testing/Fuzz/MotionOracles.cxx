@@ -509,12 +509,12 @@ Finding checkRanges(Case& made, vtkAlgorithm* filter, const Run& run)
     }
     const Run again = execute(shapes, made.time);
     // Of places that are too far, and of cells without volume, the determinants are rounding.
-    constexpr double Rounding = 1e-12;
     const morph::Points places = pointsOf(vtkPointSet::SafeDownCast(again.outputs.front()));
     const bool isFar = places.cwiseAbs().maxCoeff() > 1e4 * made.grid.size ||
                        rounding(places, false) > 1e-6 * shortestEdge(made.grid.mesh);
+    const double least = 10 * rounding(places, false) / shortestEdge(made.grid.mesh);
     if (again.errors.empty() && !isFar && shapes->GetNewInvertedCells() > 0 &&
-        shapes->GetMinScaledJacobian() < -Rounding)
+        shapes->GetMinScaledJacobian() < -std::max(1e-12, least))
     {
       std::string list;
       for (const double weight : tried)

@@ -40,8 +40,8 @@ public:
   /// whose boundary alone `model` is; else null. Then this is collective. Warns of what is not met
   /// where zones, sliding and periodic surfaces win over what else is asked, and of bodies that
   /// touch and part. Throws Error as InnerNodes, SlideRounds, Contact and PeriodicSides do; then
-  /// there is no result. Cost: passes over the boundary and, the first time, the weights of surfaces
-  /// that follow.
+  /// there is no result. Cost: passes over the boundary and, the first time, the weights of
+  /// surfaces that follow.
   const Surroundings::Result& move(const BoundaryModel& model, const Choice& choice,
     const Points& targets, const Options& options, const InnerPieces* pieces, Monitor& monitor);
 

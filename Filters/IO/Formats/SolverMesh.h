@@ -36,7 +36,8 @@ struct SolverMesh
   std::vector<Index> faces;
   std::vector<Index> cellNumbers; ///< -1: a face that is no element of the file, but of a set
   std::vector<NamedSet> sets;
-  /// Pairs of sets whose faces are images of each other; one name twice: front and back are one set.
+  /// Pairs of sets whose faces are images of each other; one name twice: front and back are one
+  /// set.
   std::set<std::pair<std::string, std::string>> periodic;
   /// The name of the displacements that other readers add to the coordinates, as ParaView does with
   /// those of Exodus II; empty: there are none. 3 x #nodes, of the last time step or of that of
