@@ -2,8 +2,8 @@
 #include "Boundary/Classification.h"
 
 #include "Boundary/GivenSurfaces.h"
+#include "Boundary/SheetSurfaces.h"
 #include "Mesh/CellShape.h"
-#include "Mesh/FacesOfCells.h"
 #include "Support/Buckets.h"
 #include "Support/Error.h"
 #include "Support/Parallel.h"
@@ -14,7 +14,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <map>
 #include <string>
 
 namespace morph
@@ -530,134 +529,6 @@ private:
   std::vector<std::uint8_t> isVertex_;
   Classification result_;
 };
-
-/// The patches of sheets: `faces` are theirs alone.
-struct SheetPatches
-{
-  Index count = 0;
-  std::vector<Index> ofFace;
-  std::vector<std::vector<Index>> nodes; ///< #patches, ascending
-};
-
-SheetPatches sheetPatches(const ConstPoints& points, const BoundaryFaces& faces,
-  const std::vector<Index>& numbers, double featureAngle, Monitor& monitor)
-{
-  const SurfaceEdges edges = surfaceEdges(points, faces, monitor);
-  SheetPatches result;
-  result.ofFace = surfacePatches(faces, edges, featureAngle, numbers, {}, true).ofFace;
-  for (std::size_t f = 0; f < result.ofFace.size(); ++f)
-  {
-    result.count = std::max(result.count, result.ofFace[f] + 1);
-    result.nodes.resize(result.count);
-    std::vector<Index>& nodes = result.nodes[result.ofFace[f]];
-    nodes.insert(nodes.end(), faces.connectivity.begin() + faces.offsets[f],
-      faces.connectivity.begin() + faces.offsets[f + 1]);
-  }
-  for (std::size_t i = 0; i < faces.nodes.size(); ++i) // in the middle of an edge or a face
-  {
-    const Index *first = faces.between.begin(static_cast<Index>(i)),
-                *last = faces.between.end(static_cast<Index>(i));
-    for (const Index* other = first; other != last; ++other)
-    {
-      const Index edge = edges.find(*first, *other);
-      const Adjacency& at = edges.faces;
-      for (const Index* f = edge < 0 ? nullptr : at.begin(edge); f && f != at.end(edge); ++f)
-      {
-        const Index *corners = faces.connectivity.data() + faces.offsets[*f],
-                    *end = faces.connectivity.data() + faces.offsets[*f + 1];
-        if (std::all_of(first, last, [&](Index n) { return std::find(corners, end, n) != end; }))
-        {
-          result.nodes[result.ofFace[*f]].push_back(faces.nodes[i]);
-        }
-      }
-    }
-  }
-  for (std::vector<Index>& nodes : result.nodes)
-  {
-    std::sort(nodes.begin(), nodes.end());
-    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-  }
-  return result;
-}
-
-/// Adds the last faces to the result for the others.
-void addSheets(const Mesh& mesh, const BoundaryFaces& faces, const BoundaryFaces& sheets,
-  const ClassificationOptions& options, Classification& result, Monitor& monitor)
-{
-  const Index outer = static_cast<Index>(faces.cells.size() - options.sheets.size());
-  const std::vector<Index>& given = options.given.surface;
-  const auto givenTo = [&](Index f) { return given.empty() ? NoGeometry : given[outer + f]; };
-  std::map<std::pair<Index, Index>, Index> numberOf; // one for each number and given id
-  std::vector<Index> numbers;
-  for (std::size_t f = 0; f < options.sheets.size(); ++f)
-  {
-    const auto key = std::make_pair(options.sheets[f], givenTo(static_cast<Index>(f)));
-    numbers.push_back(numberOf.emplace(key, static_cast<Index>(numberOf.size())).first->second);
-  }
-  const SheetPatches patches =
-    sheetPatches(ConstPoints(mesh.points), sheets, numbers, options.featureAngle, monitor);
-  Index next = 0;
-  for (const GeometrySurface& surface : result.surfaces)
-  {
-    next = std::max(next, surface.id + 1);
-  }
-  const std::size_t first = result.surfaces.size();
-  result.surfaces.resize(first + patches.count);
-  for (std::size_t f = 0; f < patches.ofFace.size(); ++f)
-  {
-    const Index surface = static_cast<Index>(first) + patches.ofFace[f];
-    result.surfaceOfFace.push_back(surface);
-    result.surfaces[surface].faces.push_back(outer + static_cast<Index>(f));
-    next = std::max(next, givenTo(static_cast<Index>(f)) + 1);
-  }
-  for (std::size_t s = first; s < result.surfaces.size(); ++s)
-  {
-    GeometrySurface& surface = result.surfaces[s];
-    const Index id = givenTo(surface.faces.front() - outer);
-    surface.id = id == NoGeometry ? next++ : id;
-    surface.nodes = patches.nodes[s - first];
-    for (const Index node : surface.nodes)
-    {
-      if (result.dimension[node] < 0)
-      {
-        result.dimension[node] = 2;
-        result.entity[node] = static_cast<Index>(s);
-      }
-    }
-  }
-}
-
-Classification classifyWithSheets(const Mesh& mesh, const BoundaryFaces& faces,
-  const ClassificationOptions& options, Monitor& monitor)
-{
-  std::vector<std::pair<Index, int>> places;
-  for (std::size_t f = 0; f < faces.cells.size(); ++f)
-  {
-    places.emplace_back(faces.cells[f], faces.sides[f]);
-  }
-  const auto outer = static_cast<std::ptrdiff_t>(places.size() - options.sheets.size());
-  ClassificationOptions without = options;
-  without.sheets.clear();
-  if (!without.given.surface.empty())
-  {
-    without.given.surface.resize(outer);
-  }
-  Classification result = classify(ConstPoints(mesh.points),
-    facesAt(mesh, { places.begin(), places.begin() + outer }), without, monitor);
-  addSheets(
-    mesh, faces, facesAt(mesh, { places.begin() + outer, places.end() }), options, result, monitor);
-  SurfaceEdges edges = surfaceEdges(ConstPoints(mesh.points), faces, monitor);
-  for (GeometryCurve& curve : result.curves)
-  {
-    for (Index& edge : curve.edges)
-    {
-      const auto& ends = result.edges.nodes[edge];
-      edge = edges.find(ends[0], ends[1]);
-    }
-  }
-  result.edges = std::move(edges);
-  return result;
-}
 }
 
 Index Classification::id(Index node) const
