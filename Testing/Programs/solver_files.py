@@ -650,6 +650,8 @@ class SolverFiles(unittest.TestCase):
             ("m.inp", "*ASSEMBLY\n*INSTANCE, NAME=I, PART=P\n", "line 2: .*the part 'P', which is"),
             ("m.inp", "*NSET, NSET=N, INSTANCE=I\n", "line 1: there is no instance 'I'"),
             ("m.inp", nodes + "*NGEN\n1, 8, 1\n" + brick, "line 10: .*NGEN"),
+            ("m.inp", nodes + brick + "*NSET, NSET=N, GENERATE\n-9223372036854775808, 3\n",
+             "line 13: GENERATE needs a first and a last number, neither below 0"),
             ("m.inp", nodes.replace("*NODE", "*NODE, SYSTEM=S") + brick,
              "line 1: .*spherical coordinates"),
             ("m.inp", "*SYSTEM\n1,2,3,1,2,3\n" + nodes + brick, "line 3: .*on a line"),

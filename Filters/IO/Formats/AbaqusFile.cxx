@@ -548,9 +548,11 @@ void AbaqusFile::takeSet(std::size_t part)
     const Index last = this->integerAt(part, this->fields_[1]);
     const bool hasStep = this->fields_.size() > 2 && this->fields_[2].size() > 0;
     const Index step = hasStep ? this->integerAt(part, this->fields_[2]) : 1;
-    if (step <= 0)
+    constexpr Index Largest = Index(1) << 50; // sums with it do not overflow
+    if (step <= 0 || step > Largest || std::min(first, last) < 0 || std::max(first, last) > Largest)
     {
-      this->failAt(part, this->fields_[0].begin, "the step of GENERATE must be 1 or more.");
+      this->failAt(part, this->fields_[0].begin,
+        "GENERATE needs a first and a last number, neither below 0, and a step of 1 or more.");
     }
     this->entries_->ranges.push_back({ first + own, last + own, step });
     return;

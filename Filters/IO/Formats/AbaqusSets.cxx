@@ -140,12 +140,13 @@ std::vector<Index> AbaqusSets::positions(
     }
     for (const auto& [first, last, step] : set->entries.ranges)
     {
+      const Index steps = last < first ? -1 : (last - first) / step;
       // A range may be longer than the mesh by far.
-      if ((last - first) / step <= static_cast<Index>(positionOf.size()))
+      if (steps <= static_cast<Index>(positionOf.size()))
       {
-        for (Index number = first; number <= last; number += step)
+        for (Index i = 0; i <= steps; ++i)
         {
-          addFound(number, positionOf, result);
+          addFound(first + i * step, positionOf, result);
         }
         continue;
       }
