@@ -312,15 +312,8 @@ TEST(MorphMesh, MovesARegionAnArrayAndEverything)
 TEST(MorphMesh, RepairsUnlessItIsLive)
 {
   auto grid = box();
-  vtkNew<vtkDoubleArray> waves;
-  waves->SetName("Waves");
-  waves->SetNumberOfComponents(3);
-  const morph::Points x = grids::points(grid);
-  for (morph::Index i = 0; i < x.rows(); ++i)
-  {
-    waves->InsertNextTuple3(0, 0, 1.6 * std::sin(M_PI / 2 * x(i, 0)));
-  }
-  grid->GetPointData()->AddArray(waves);
+  const auto wave = [](const Row& x) { return Row(0, 0, 1.6 * std::sin(M_PI / 2 * x[0])); };
+  grids::addVectors(grid, "Waves", grids::mapped(grids::points(grid), wave));
   vtkNew<vtkMorphMesh> filter;
   filter->SetInputData(grid);
   filter->SetMovingToEverything();
@@ -351,15 +344,8 @@ TEST(MorphMesh, OnReleaseIsAsFineAsWithoutADrag)
   const auto makeWaving = []
   {
     auto grid = box();
-    vtkNew<vtkDoubleArray> waves;
-    waves->SetName("Waves");
-    waves->SetNumberOfComponents(3);
-    const morph::Points x = grids::points(grid);
-    for (morph::Index i = 0; i < x.rows(); ++i)
-    {
-      waves->InsertNextTuple3(0, 0, 0.2 * std::sin(x(i, 0)) * std::cos(x(i, 1)));
-    }
-    grid->GetPointData()->AddArray(waves);
+    const auto wave = [](const Row& x) { return Row(0, 0, 0.2 * std::sin(x[0]) * std::cos(x[1])); };
+    grids::addVectors(grid, "Waves", grids::mapped(grids::points(grid), wave));
     auto filter = vtkSmartPointer<vtkMorphMesh>::New();
     filter->SetInputData(grid);
     filter->SetMovingToEverything();

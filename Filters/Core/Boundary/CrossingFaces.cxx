@@ -119,6 +119,14 @@ struct Place
   }
 };
 
+Eigen::AlignedBox3d boxOf(const Shell& shell, const Place& place, Index face)
+{
+  Eigen::AlignedBox3d box;
+  std::for_each(shell.begin(face), shell.end(face),
+    [&](Index corner) { box.extend(place.at.row(corner).transpose()); });
+  return box;
+}
+
 /// The height of an arc over a chord, turning by an angle in radians.
 double arcHeight(double chord, double turn)
 {
@@ -134,10 +142,7 @@ Eigen::VectorXd heights(const Shell& shell, const Place& place, Monitor& monitor
   Eigen::VectorXd size(shell.count());
   for (Index f = 0; f < shell.count(); ++f)
   {
-    Eigen::AlignedBox3d box;
-    std::for_each(
-      shell.begin(f), shell.end(f), [&](Index corner) { box.extend(at.row(corner).transpose()); });
-    size[f] = box.diagonal().norm();
+    size[f] = boxOf(shell, place, f).diagonal().norm();
   }
   const Adjacency facesAt = sortIntoBuckets(shell.count(), at.rows(), monitor,
     [&](Index first, Index last, const auto& add)
@@ -366,18 +371,12 @@ std::vector<std::array<Index, 2>> crossingFaces(const ConstPoints& rest, const C
   const Place before(shell, rest);
   const Eigen::VectorXd height =
     heights(shell, before, monitor).cwiseMax(heights(shell, now, monitor));
-  const auto restBox = [&](Index f)
-  {
-    Eigen::AlignedBox3d box;
-    std::for_each(shell.begin(f), shell.end(f),
-      [&](Index corner) { box.extend(before.at.row(corner).transpose()); });
-    return box;
-  };
   // Of faces in contact before the motion, the height is at least that of a slight turn.
   const auto heightOf = [&](const std::array<Index, 2>& pair)
   {
     const auto size = [](const Eigen::AlignedBox3d& box) { return box.diagonal().norm(); };
-    const Eigen::AlignedBox3d first = restBox(pair[0]), second = restBox(pair[1]);
+    const Eigen::AlignedBox3d first = boxOf(shell, before, pair[0]),
+                              second = boxOf(shell, before, pair[1]);
     const bool isNear = first.exteriorDistance(second) <= Near * (size(first) + size(second));
     double sum = 0;
     for (const Index f : pair)

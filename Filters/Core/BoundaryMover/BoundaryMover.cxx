@@ -33,10 +33,7 @@ const Surroundings::Result& BoundaryMover::move(const BoundaryModel& model, cons
         this->inner_.constrain(model, options.inner, chosen, places);
       }
       this->periodic_.find(model, options.periodic);
-      if (!options.periodic.empty())
-      {
-        this->periodic_.addImages(model, chosen, places);
-      }
+      this->periodic_.addImages(model, chosen, places);
       result =
         this->surroundings_.spread(model, chosen, places, options.rest, spreading, std::move(last));
       if (options.contact.distance > 0)

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <set>
 #include <utility>
 
@@ -31,14 +32,15 @@ struct Side
 };
 
 /// Corners of the faces and nodes between them.
-Side sideOf(const BoundaryModel& model, const PatchPart& part)
+Side sideOf(const BoundaryModel& model, const Points& areas, const PatchPart& part)
 {
   Side side;
-  const Points areas = model.outwardAreas(model.points());
   for (std::size_t f = 0; f < part.hasFace.size(); ++f)
   {
-    side.area +=
-      part.hasFace[f] ? Eigen::Vector3d(areas.row(static_cast<Index>(f))) : side.area * 0;
+    if (part.hasFace[f])
+    {
+      side.area += areas.row(static_cast<Index>(f)).transpose();
+    }
   }
   for (const Index node : model.faces.nodes)
   {
@@ -52,9 +54,9 @@ Side sideOf(const BoundaryModel& model, const PatchPart& part)
 }
 
 /// The part of a patch whose faces look along its first one, or against it.
-PatchPart facing(const BoundaryModel& model, const PatchPart& whole, bool isAlong)
+PatchPart facing(
+  const BoundaryModel& model, const Points& areas, const PatchPart& whole, bool isAlong)
 {
-  const Points areas = model.outwardAreas(model.points());
   PatchPart part{ std::vector<std::uint8_t>(whole.hasNode.size()),
     std::vector<std::uint8_t>(whole.hasFace.size()) };
   const auto first = std::find(whole.hasFace.begin(), whole.hasFace.end(), 1);
@@ -75,10 +77,6 @@ PatchPart facing(const BoundaryModel& model, const PatchPart& whole, bool isAlon
 /// A translation, and rotations about the axes and the direction in which both sides have no area.
 std::vector<Motion> candidates(const Side& from, const Side& to)
 {
-  if (from.nodes.empty() || to.nodes.empty())
-  {
-    return {};
-  }
   using Vector = Eigen::Vector3d;
   const Vector shift = (to.places.colwise().mean() - from.places.colwise().mean()).transpose(),
                center = from.places.colwise().mean().transpose(), after = -to.area;
@@ -108,15 +106,12 @@ std::vector<Motion> candidates(const Side& from, const Side& to)
   return result;
 }
 
-/// The number in `to` of the image of each node of `from`; -1 for none within `reach`.
-std::vector<Index> imagesBy(const Motion& motion, const Side& from, const Side& to, double reach)
+/// The number in `to` of the image of each node of `from`; -1 for none within `reach`. `near`: of
+/// the places of `to`.
+std::vector<Index> imagesBy(
+  const Motion& motion, const Side& from, const Side& to, const NearestNodes& near, double reach)
 {
   std::vector<Index> images(from.nodes.size(), -1);
-  if (to.nodes.empty())
-  {
-    return images;
-  }
-  const NearestNodes near(to.places);
   std::vector<std::int32_t> found;
   for (std::size_t i = 0; i < images.size(); ++i)
   {
@@ -169,24 +164,37 @@ PeriodicSides::Names PeriodicSides::parse(const std::string& text)
 
 void PeriodicSides::find(const BoundaryModel& model, const Names& names)
 {
+  if (this->version_ == model.inputVersion && this->names_ == names)
+  {
+    return;
+  }
+  this->version_ = -1;
   this->turns_.clear();
   this->images_.clear();
+  const Points areas = names.empty() ? Points() : model.outwardAreas(model.points());
   for (const auto& [first, second] : names)
   {
     PatchPart one = findPatches(model, { first }, Option),
               other = findPatches(model, { second }, Option);
     if (first == second)
     {
-      other = facing(model, one, false);
-      one = facing(model, one, true);
+      other = facing(model, areas, one, false);
+      one = facing(model, areas, one, true);
     }
-    const Side from = sideOf(model, one), to = sideOf(model, other);
+    const Side from = sideOf(model, areas, one), to = sideOf(model, areas, other);
     std::vector<Index> best(from.nodes.size(), -1);
     Eigen::Matrix3d turn;
     Index missing = static_cast<Index>(best.size());
-    for (const Motion& motion : candidates(from, to))
+    std::vector<Motion> motions;
+    std::optional<NearestNodes> near;
+    if (!from.nodes.empty() && !to.nodes.empty())
     {
-      std::vector<Index> images = imagesBy(motion, from, to, Match * model.size);
+      motions = candidates(from, to);
+      near.emplace(to.places);
+    }
+    for (const Motion& motion : motions)
+    {
+      std::vector<Index> images = imagesBy(motion, from, to, *near, Match * model.size);
       const Index without = std::count(images.begin(), images.end(), -1);
       if (without < missing)
       {
@@ -211,8 +219,7 @@ void PeriodicSides::find(const BoundaryModel& model, const Names& names)
         ", and they are no images of each other by a translation or rotation" +
         (without.empty() ? "." : ": point ids without an image: " + listIds(without) + ".") +
         " Each node needs one, to a millionth of the size. Give `PeriodicSurfaces` none if they "
-        "need "
-        "not stay images.");
+        "need not stay images.");
     }
     for (std::size_t i = 0; i < best.size(); ++i)
     {
@@ -220,10 +227,16 @@ void PeriodicSides::find(const BoundaryModel& model, const Names& names)
     }
     this->turns_.push_back(turn);
   }
+  this->names_ = names;
+  this->version_ = model.inputVersion;
 }
 
 void PeriodicSides::addImages(const BoundaryModel& model, Choice& choice, Points& targets) const
 {
+  if (this->images_.empty())
+  {
+    return;
+  }
   const Points& points = model.points();
   TargetOfNode moving = targetsOf(choice, targets);
   std::set<Index> held(choice.held.begin(), choice.held.end());

@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 
 #include <array>
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
@@ -26,8 +27,9 @@ public:
   /// The pairs in "left = right; front = back". Throws Error for another text.
   static Names parse(const std::string& text);
 
-  /// Finds the images at the current positions. Throws Error where nodes have none to 1e-6 of the
-  /// size, or as findPatches(). Cost: a search for each node of the surfaces.
+  /// Finds the images at the current positions, unless the same are kept. Throws Error where nodes
+  /// have none to 1e-6 of the size, or as findPatches(). Cost: a search for each node of the
+  /// surfaces.
   void find(const BoundaryModel& model, const Names& names);
   /// Adds the images of what moves and is held to these. A node and its image that both move take
   /// the mean.
@@ -48,6 +50,8 @@ private:
   void average(const BoundaryModel& model, const std::function<double*(Index)>& placeOf,
     const std::function<bool(Index)>& isGiven) const;
 
+  std::int64_t version_ = -1; ///< BoundaryModel::inputVersion, as sets have names
+  Names names_;
   std::vector<Eigen::Matrix3d> turns_; ///< R of each pair
   std::vector<Image> images_;
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "BoundaryMover/Unmet.h"
 
+#include "BoundaryMover/Patches.h"
 #include "Support/Error.h"
 
 #include <algorithm>
@@ -132,19 +133,21 @@ void TouchingNodes::warnOfParted(
   }
   std::sort(parted.begin(), parted.end());
   std::string surfaces;
-  for (const GeometrySurface& surface : model.geometry.surfaces)
+  for (std::size_t s = 0; s < model.geometry.surfaces.size(); ++s)
   {
+    const std::vector<Index>& faces = model.geometry.surfaces[s].faces;
     const auto isParted = [&](Index n)
     { return std::binary_search(parted.begin(), parted.end(), n); };
     const auto corner = model.faces.connectivity.begin();
-    if (std::any_of(surface.faces.begin(), surface.faces.end(),
+    if (std::any_of(faces.begin(), faces.end(),
           [&](Index f)
           {
             return std::all_of(
               corner + model.faces.offsets[f], corner + model.faces.offsets[f + 1], isParted);
           }))
     {
-      surfaces += (surfaces.empty() ? "Surface " : ", Surface ") + std::to_string(surface.id);
+      surfaces +=
+        (surfaces.empty() ? "" : ", ") + surfaceName(model.geometry, static_cast<Index>(s));
     }
   }
   std::ostringstream text;

@@ -5,7 +5,6 @@
 
 #include <cmath>
 #include <map>
-#include <memory>
 #include <utility>
 #include <vector>
 
@@ -251,22 +250,23 @@ struct Owned
   std::vector<Place> places; ///< what shape.extraNodes points to
 };
 
-std::vector<std::unique_ptr<const Owned>> shapesOf(std::uint8_t type)
+/// Owned shapes stay where they are, so that what points to their places does, too.
+using Shapes = std::map<std::pair<std::uint8_t, Index>, Owned>;
+
+void addShapes(std::uint8_t type, Shapes& shapes)
 {
   const CellShape& open = *cellShape(type);
-  std::vector<std::unique_ptr<const Owned>> result;
   const auto add = [&](int nodes, std::vector<Place> places)
   {
-    auto owned = std::make_unique<Owned>(Owned{ open, std::move(places) });
-    owned->shape.numberOfNodes = nodes;
-    owned->shape.extraNodes =
-      owned->places.empty() ? nullptr : reinterpret_cast<const double(*)[3]>(owned->places.data());
-    owned->shape.isMapped = nodes == open.numberOfCorners; // of a cell without other nodes
-    result.push_back(std::move(owned));
+    removeRounding(open.shape, places);
+    Owned& owned = shapes[{ type, nodes }] = { open, std::move(places) };
+    owned.shape.numberOfNodes = nodes;
+    owned.shape.extraNodes =
+      owned.places.empty() ? nullptr : reinterpret_cast<const double(*)[3]>(owned.places.data());
+    owned.shape.isMapped = nodes == open.numberOfCorners; // of a cell without other nodes
   };
   const auto addVolume = [&](std::vector<Place> places)
   {
-    removeRounding(open.shape, places);
     const int nodes = open.numberOfCorners + static_cast<int>(places.size());
     add(nodes, std::move(places));
   };
@@ -283,26 +283,30 @@ std::vector<std::unique_ptr<const Owned>> shapesOf(std::uint8_t type)
       case Shape::Wedge:
         addVolume(wedgePlaces(order));
         break;
+      case Shape::Tri:
+        add((order + 1) * (order + 2) / 2, {});
+        break;
+      case Shape::Quadrilateral:
+        add((order + 1) * (order + 1), {});
+        break;
       default:
-        add(open.shape == Shape::Tri             ? (order + 1) * (order + 2) / 2
-            : open.shape == Shape::Quadrilateral ? (order + 1) * (order + 1)
-                                                 : order + 1,
-          {});
+        add(order + 1, {});
     }
   }
-  if (open.shape == Shape::Tet)
+  switch (open.shape)
   {
-    addVolume(tetrahedronOf15());
+    case Shape::Tet:
+      addVolume(tetrahedronOf15());
+      break;
+    case Shape::Wedge:
+      addVolume(wedgeOf21());
+      break;
+    case Shape::Tri:
+      add(7, {});
+      break;
+    default:
+      break;
   }
-  else if (open.shape == Shape::Wedge)
-  {
-    addVolume(wedgeOf21());
-  }
-  else if (open.shape == Shape::Tri)
-  {
-    add(7, {});
-  }
-  return result;
 }
 }
 
@@ -310,19 +314,17 @@ const CellShape* shapeOfAnyOrder(std::uint8_t type, Index nodes)
 {
   static const auto shapes = []
   {
-    std::map<std::pair<std::uint8_t, Index>, std::unique_ptr<const Owned>> all;
-    for (int of = LagrangeCurve; of <= BezierWedge; ++of)
+    Shapes all;
+    for (std::uint8_t known = LagrangeCurve; known <= BezierWedge; ++known)
     {
-      const auto known = static_cast<std::uint8_t>(of);
-      for (auto& owned : cellShape(known) ? shapesOf(known) : decltype(shapesOf(known))())
+      if (cellShape(known))
       {
-        const Index size = owned->shape.numberOfNodes;
-        all.try_emplace({ known, size }, std::move(owned));
+        addShapes(known, all);
       }
     }
     return all;
   }();
   const auto found = shapes.find({ type, nodes });
-  return found == shapes.end() ? nullptr : &found->second->shape;
+  return found == shapes.end() ? nullptr : &found->second.shape;
 }
 }

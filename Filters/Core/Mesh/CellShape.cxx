@@ -96,23 +96,22 @@ const CellShape* cellShape(std::uint8_t type)
     t[QuadraticPolygon] = flat("quadratic polygon", Shape::Other, 2, -1, 0);
     t[TriquadraticPyramid] = pyramid("triquadratic pyramid", 19);
     t[TriquadraticPyramid].isMapped = false;
-    t[LagrangeCurve] = flat("Lagrange curve", Shape::Other, 1, -1, 2);
-    t[LagrangeTriangle] = flat("Lagrange triangle", Shape::Tri, 2, -1, 3);
-    t[LagrangeQuadrilateral] = flat("Lagrange quadrilateral", Shape::Quadrilateral, 2, -1, 4);
-    t[LagrangeTetrahedron] = tet("Lagrange tetrahedron", -1);
-    t[LagrangeHexahedron] = hex("Lagrange hexahedron", -1);
-    t[LagrangeWedge] = wedge("Lagrange wedge", -1);
-    t[BezierCurve] = flat("Bezier curve", Shape::Other, 1, -1, 2);
-    t[BezierTriangle] = flat("Bezier triangle", Shape::Tri, 2, -1, 3);
-    t[BezierQuadrilateral] = flat("Bezier quadrilateral", Shape::Quadrilateral, 2, -1, 4);
-    t[BezierTetrahedron] = tet("Bezier tetrahedron", -1);
-    t[BezierHexahedron] = hex("Bezier hexahedron", -1);
-    t[BezierWedge] = wedge("Bezier wedge", -1);
-    for (int type = LagrangeCurve; type <= BezierWedge; ++type)
+    const auto addAnyOrder = [&t](int first, const std::array<const char*, 6>& names)
     {
-      t[type].extraNodes = nullptr; // they depend on the order
-      t[type].isMapped = false;
-    }
+      const CellShape shapes[] = { flat(names[0], Shape::Other, 1, -1, 2),
+        flat(names[1], Shape::Tri, 2, -1, 3), flat(names[2], Shape::Quadrilateral, 2, -1, 4),
+        tet(names[3], -1), hex(names[4], -1), wedge(names[5], -1) };
+      for (const CellShape& shape : shapes)
+      {
+        CellShape& own = t[first++] = shape;
+        own.extraNodes = nullptr; // they depend on the order
+        own.isMapped = false;
+      }
+    };
+    addAnyOrder(LagrangeCurve, { "Lagrange curve", "Lagrange triangle", "Lagrange quadrilateral",
+                                 "Lagrange tetrahedron", "Lagrange hexahedron", "Lagrange wedge" });
+    addAnyOrder(BezierCurve, { "Bezier curve", "Bezier triangle", "Bezier quadrilateral",
+                               "Bezier tetrahedron", "Bezier hexahedron", "Bezier wedge" });
     t[Polyhedron] = { "polyhedron", Shape::Polyhedron, 3, -1, 0, 0, nullptr, InOrder, nullptr };
     return t;
   }();

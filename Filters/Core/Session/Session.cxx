@@ -5,7 +5,6 @@
 #include "Mesh/PlaneLayer.h"
 #include "Morpher/PolyhedralMorpher.h"
 #include "Quality/BoundaryDetermined.h"
-#include "Quality/Certificate.h"
 #include "Quality/ScaledJacobian.h"
 #include "Session/AfterMotion.h"
 #include "Support/Error.h"
@@ -130,7 +129,7 @@ void Session::reportMesh(const Options& options, Monitor& monitor) const
                  "nodes if a solver expects VTK's.");
   }
   warnOfShared(mesh.repeatedCells(), mesh.touchingNodes(), monitor);
-  warnOfUnmapped(unmappedCells(mesh.mesh()), monitor);
+  warnOfUnmapped(mesh.unmappedCells(), monitor);
   if (options.measureAll)
   {
     const std::string note = Validity::note(options.validity, mesh.before(monitor).cells());

@@ -5,6 +5,7 @@
 #include "Mesh/SharedCorners.h"
 #include "Morpher/BodyByBody.h"
 #include "Morpher/PolyhedralMorpher.h"
+#include "Quality/Certificate.h"
 #include "Support/Error.h"
 
 #include <algorithm>
@@ -24,6 +25,7 @@ UndeformedMesh::UndeformedMesh(Mesh mesh, const UndeformedMesh* sameCells, Monit
   const bool hasOuter = sameCells && sameCells->hanging_.empty();
   this->outer_ = hasOuter ? sameCells->outer_ : boundaryFaces(this->mesh_, this->hanging_, monitor);
   this->repeated_ = sameCells ? sameCells->repeated_ : morph::repeatedCells(this->mesh_, monitor);
+  this->unmapped_ = sameCells ? sameCells->unmapped_ : morph::unmappedCells(this->mesh_);
   if (sameCells)
   {
     this->touching_ = sameCells->touching_;

@@ -40,6 +40,7 @@ public:
   const std::vector<Index>& repeatedCells() const { return this->repeated_; }
   const std::vector<Index>& touchingNodes() const { return this->touching_; }
   ///@}
+  const std::vector<Index>& unmappedCells() const { return this->unmapped_; } ///< Certificate.h
   /// The nodes that a method gets as prescribed where the boundary prescribes `ids`, ascending. Not
   /// those that hang, as their ties move them; and all nodes of bodies that have none, which stay.
   std::vector<Index> prescribedFor(const std::vector<Index>& ids) const;
@@ -58,7 +59,7 @@ private:
   double size_ = 0;
   std::vector<std::int8_t> orientation_;
   Index mirrored_ = 0;
-  std::vector<Index> repeated_, touching_;
+  std::vector<Index> repeated_, touching_, unmapped_;
   mutable std::optional<InvertedBefore> before_; ///< once it was asked for
 };
 

@@ -72,7 +72,7 @@ private:
     std::size_t part, Span span, std::size_t width, std::size_t count, bool isList = false) const;
   Index position(Index node, const std::string& what) const;
   void addElements();
-  void addSet(const Set& set);
+  void addSet(const Set& set, const std::map<Index, Index>& nodes);
   void finish();
 
   Block block_ = Block::Other;
@@ -366,7 +366,8 @@ void LsDynaFile::addElements()
   }
 }
 
-void LsDynaFile::addSet(const Set& set)
+/// `nodes`: positions by number, of which ranges are taken.
+void LsDynaFile::addSet(const Set& set, const std::map<Index, Index>& nodes)
 {
   static const std::map<Block, Block> elements = { { Block::SolidSet, Block::Solid },
     { Block::ThickShellSet, Block::ThickShell }, { Block::ShellSet, Block::Shell },
@@ -388,11 +389,6 @@ void LsDynaFile::addSet(const Set& set)
   }
   // A list has each member, which may be missing in the deck but for nodes; a range has first and
   // last, and those between them that the deck has.
-  std::map<Index, Index> nodes;
-  if (set.kind == Block::NodeSet && set.isRange)
-  {
-    nodes.insert(this->positions_.begin(), this->positions_.end());
-  }
   for (std::size_t i = 0; i < set.members.size(); i += set.isRange ? 2 : 1)
   {
     const Index first = set.members[i];
@@ -444,14 +440,20 @@ void LsDynaFile::finish()
     const std::string& title = this->titles_[part];
     this->mesh_.set(title.empty() ? "PID " + std::to_string(part) : title).cells = cells;
   }
+  std::map<Index, Index> nodes;
+  if (std::any_of(this->sets_.begin(), this->sets_.end(),
+        [](const Set& set) { return set.kind == Block::NodeSet && set.isRange; }))
+  {
+    nodes.insert(this->positions_.begin(), this->positions_.end());
+  }
   for (const Set& set : this->sets_)
   {
-    this->addSet(set);
+    this->addSet(set, nodes);
   }
   for (const std::string& name : this->unknown_)
   {
     this->mesh_.warnings.push_back(
-      "What *" + name + " defines is left out of the mesh; it stays " + "in the file.");
+      "What *" + name + " defines is left out of the mesh; it stays in the file.");
   }
 }
 }

@@ -5,7 +5,6 @@
 #include "Private/Data/BadCells.h"
 #include "Private/Data/Output.h"
 #include "Private/Data/Quality.h"
-#include "Quality/Certificate.h"
 #include "Session/UndeformedMesh.h"
 
 #include <vtkPolyData.h>
@@ -30,7 +29,7 @@ void KeptModeSolver::ReportMesh(morph::Monitor& monitor) const
 {
   morph::warnOfShared(
     this->Kept.Rest()->repeatedCells(), this->Kept.Rest()->touchingNodes(), monitor);
-  morph::warnOfUnmapped(morph::unmappedCells(this->Kept.Rest()->mesh()), monitor);
+  morph::warnOfUnmapped(this->Kept.Rest()->unmappedCells(), monitor);
 }
 
 morph::BoundaryTargets KeptModeSolver::Match(
