@@ -112,6 +112,33 @@ TEST(BoundaryMover, OuterSurfacesAreTheSameWhereAnInterfaceIsAskedFor)
   }
 }
 
+TEST(BoundaryMover, AnInterfaceTakesNoIdOfTheCellsBehindIt)
+{
+  morph::Monitor monitor;
+  BoundaryModel model;
+  model.mesh = meshes::hexes(4, 4, 4);
+  std::vector<morph::NamedCells> parts = { { "a", {} }, { "b", {} } };
+  for (Index c = 0; c < model.mesh.numberOfCells(); ++c)
+  {
+    parts[c >= 32].cells.push_back(c);
+  }
+  model.innerSurfaces = morph::innerSurfaces(model.mesh, parts, {}, monitor);
+  model.asked = { "a | b" };
+  model.findFaces(std::vector<std::uint8_t>(64, 0), monitor);
+  morph::ClassificationOptions options;
+  options.sheets = model.sheetNumbers();
+  for (const Index cell : model.faces.cells)
+  {
+    options.given.surface.push_back(cell % 2); // in stripes: two parts of the interface, too
+  }
+  const morph::Classification geometry = morph::classify(model.mesh, model.faces, options, monitor);
+  EXPECT_EQ(geometry.surfaces.back().faces.size(), 16u);
+  for (std::size_t s = 0; s + 1 < geometry.surfaces.size(); ++s)
+  {
+    EXPECT_LT(geometry.surfaces[s].id, geometry.surfaces.back().id);
+  }
+}
+
 TEST(BoundaryMover, SidesFollowATopThatTurnsWithinTheirPlanes)
 {
   const BoundaryModel model = modelOf(meshes::hexes(4, 4, 4));

@@ -91,6 +91,25 @@ TEST(HigherOrderNodes, MoveAlikeInEveryFrame)
   }
 }
 
+TEST(HigherOrderNodes, InTheMiddleOfNearlyFlatFacesTheyMoveByTheMean)
+{
+  Mesh mesh = meshes::quadraticHexes(1, 1, 1, true);
+  const Index* cell = mesh.cell(0);
+  const std::vector<Index> corners(cell, cell + 8), face = { cell[4], cell[5], cell[6], cell[7] };
+  for (const double uneven : { 0., 1e-12, 1e-9, 1e-7, 1e-5, 1e-3 })
+  {
+    mesh.points(face[0], 2) = 1 + uneven;
+    std::srand(meshes::seed());
+    Points displacement = Points::Zero(27, 3);
+    displacement(corners, morph::allColumns) = Points::Random(8, 3);
+    const motions::Row mean = displacement(face, morph::allColumns).colwise().mean();
+    morph::HigherOrderNodes nodes;
+    nodes.prepare(mesh, morph::partitionNodes(mesh, corners));
+    nodes.apply(displacement);
+    EXPECT_LT((displacement.row(cell[25]) - mean).norm(), 1e-9 + uneven) << uneven;
+  }
+}
+
 TEST(HigherOrderNodes, OffTheirEdgeTheyFollowAffineMotionsOfThinCells)
 {
   for (const double height : { 1., 1e-2, 1e-4 })

@@ -107,6 +107,23 @@ TEST(InvertedBefore, ACollapsedHexahedronIsJudgedAsTheWedgeThatItIs)
   EXPECT_EQ(wedge.added(points), (std::vector<Index>{ 0, 1 }));
 }
 
+TEST(InvertedBefore, AnEdgeThatRoundingMadeWasNotPositive)
+{
+  Mesh mesh = meshes::hexes(2, 1, 1);
+  mesh.points.rowwise() += Row(1e6, 0, 0);
+  const std::vector<Index> cell(mesh.cell(0), mesh.cell(0) + 8);
+  const Row rounding(2e-10, 0, 0);
+  mesh.points.row(cell[7]) = mesh.points.row(cell[6]) + rounding;
+  mesh.points.row(cell[3]) = mesh.points.row(cell[2]) - rounding;
+  Case wedge(std::move(mesh));
+  ASSERT_EQ(wedge.before.cells(), std::vector<Index>{ 0 });
+  Points points = wedge.mesh.points;
+  points.row(cell[3]) = points.row(cell[2]) + rounding;
+  EXPECT_TRUE(wedge.added(points).empty());
+  points.row(cell[1]) -= Row(1.5, 0, 0); // an edge turns round
+  EXPECT_EQ(wedge.added(points), (std::vector<Index>{ 0 }));
+}
+
 TEST(InvertedBefore, RangesLeaveOutWhatWasNotPositive)
 {
   Case wedge(withWedge());

@@ -284,6 +284,33 @@ TEST(SimplexLinear, FreeNodesOnTheHullAreInside)
   }
 }
 
+TEST(SimplexLinear, NodesOnTheHullMoveAlikeFarFromTheOrigin)
+{
+  // Far away, rounding makes tetrahedra of sites that lie in one face of the box.
+  const Eigen::Matrix3d R =
+    Eigen::AngleAxisd(.7, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
+  for (auto& [name, mesh] : jittered())
+  {
+    SCOPED_TRACE(name);
+    std::vector<Index> ids = outerPartition(mesh).prescribed;
+    ids.erase(
+      std::remove_if(ids.begin(), ids.end(), [](Index id) { return id % 4 == 1; }), ids.end());
+    const NodePartition partition = partitionNodes(mesh, ids);
+    Mesh far = mesh;
+    meshes::transform(mesh, [&](const Row& x) { return Row(x * R); });
+    meshes::transform(far, [&](const Row& x) { return Row(x * R + Row(1e6, -2e6, 3e6)); });
+    Points target = motions::targets(mesh, partition, twistOf(4, 1.2));
+    const auto near = morphed(mesh, partition, twistOf(4, 1.2));
+    target.rowwise() += Row(1e6, -2e6, 3e6);
+    Outcome there;
+    Monitor monitor;
+    there.method.prepare(far, partition, monitor);
+    there.method.evaluate(target, there.moved, monitor);
+    there.moved.rowwise() -= Row(1e6, -2e6, 3e6);
+    EXPECT_LT(difference(there.moved, near->moved), 1e-6) << name;
+  }
+}
+
 TEST(SimplexLinear, NodesBeyondTheHullAreExtrapolatedAndCounted)
 {
   Mesh mesh = meshes::hexes(4, 4, 4);

@@ -192,6 +192,16 @@ vtkSmartPointer<vtkMorphMesh> onto(vtkUnstructuredGrid* grid, vtkPolyData* targe
   return filter;
 }
 
+/// A brick of `n` hexahedra along x whose top rises by half of `profile` of the distance from x = 3.
+vtkSmartPointer<vtkUnstructuredGrid> ridge(int n, const std::function<double(double)>& profile)
+{
+  morph::Mesh mesh = meshes::hexes(n, 4, 3);
+  meshes::transform(mesh, [&](const Row& x) { return Row(x[0] * 6 / n, x[1], x[2]); });
+  meshes::transform(mesh,
+    [&](const Row& x) { return Row(x[0], x[1], x[2] * (1 + profile(std::abs(x[0] - 3)) / 6)); });
+  return grids::make(mesh);
+}
+
 /// A rectangle of the brick's outline at a height, larger by `margin` on each side.
 vtkSmartPointer<vtkPolyData> lid(double height, double margin)
 {
@@ -322,6 +332,23 @@ TEST(FitToSurface, CornersGoToCornersAndEdgesToEdges)
   EXPECT_LT(cornerError(grid, filter->GetOutput(), Row(3.6, 2.4, 1.8)), 1e-6);
   EXPECT_LT(filter->GetMaxTargetDistance(), 1e-6); // the target's points are in single precision
   EXPECT_STREQ(filter->GetMorphStatus(), "Valid");
+}
+
+TEST(FitToSurface, ACurveThatTheTargetDoesNotHaveGoesToItsSurface)
+{
+  // The mesh's ridge is sharp, the target's round: its only edges are those of the brick.
+  auto grid = ridge(6, [](double x) { return std::max(0., 1 - x); });
+  auto target = grids::boundary(
+    ridge(24, [](double x) { return x < 1.5 ? std::pow(std::cos(x * std::acos(-1.) / 3), 2) : 0; }),
+    [](const Row& x) { return x; });
+  auto filter = make(grid, target);
+  grids::Listener listener(filter);
+  filter->Update();
+  ASSERT_TRUE(listener.Errors.empty()) << listener.Errors[0];
+  EXPECT_EQ(filter->GetInvertedCells(), 0);
+  EXPECT_LT(filter->GetMaxTargetDistance(), 1e-6);
+  const morph::Points x = grids::points(grid), y = grids::points(filter->GetOutput());
+  EXPECT_LT((y - x).cwiseAbs().maxCoeff(), 0.3); // rounds are at most 0.18 off
 }
 
 TEST(FitToSurface, TheSurfacesThatTheTargetBelongsToMove)

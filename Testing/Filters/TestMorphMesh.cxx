@@ -571,6 +571,14 @@ TEST(MorphMesh, ContactTakesAnotherBodyAlong)
   ASSERT_EQ(gaps->GetNumberOfTuples(), 2);
   EXPECT_NEAR(gaps->GetComponent(1, 0), 0.01, 1e-12) << filter->GetContactReport();
 
+  // Where the surroundings move that body, its contact is not kept.
+  grids::Listener dropped(filter);
+  filter->SetSurroundings(vtkMorphMesh::SURROUNDINGS_FOLLOW_EVERYWHERE);
+  filter->Update();
+  EXPECT_TRUE(std::any_of(dropped.Warnings.begin(), dropped.Warnings.end(),
+    [](const std::string& text) { return text.find("Contact is not kept") != text.npos; }));
+  filter->SetSurroundings(vtkMorphMesh::SURROUNDINGS_FOLLOW);
+
   filter->AddContactSurface("Surface 0");
   grids::Listener listener(filter);
   filter->Update();

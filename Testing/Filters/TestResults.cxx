@@ -112,6 +112,7 @@ Getters gettersOf(vtkMorphShapes* f)
     { "InvertedCells", [f] { return f->GetInvertedCells(); } },
     { "DegenerateCells", [f] { return f->GetDegenerateCells(); } },
     { "InvertedBefore", [f] { return f->GetInvertedBefore(); } },
+    { "CrossingFaces", [f] { return f->GetCrossingFaces(); } },
     { "NewInvertedCells", [f] { return f->GetNewInvertedCells(); } },
     { "WorstCellId", [f] { return f->GetWorstCellId(); } },
     { "MirroredBodies", [f] { return f->GetMirroredBodies(); } },

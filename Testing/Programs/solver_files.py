@@ -407,6 +407,39 @@ class SolverFiles(unittest.TestCase):
             self.assertRegex(result.stdout, r"inverted cells +0 +0\n")
             self.assertRegex(run("--list-surfaces", path).stdout, f"(?m)^PID 7 +{faces} ")
 
+    def test_rigid_links_and_springs_take_nodes_along(self):
+        """Node 20 is tied to the four on top, and 21 to it: both move with the top."""
+        points = {i + 1: x for i, x in enumerate(self.CORNERS)} | {20: (.5, .5, 2), 21: (.5, .5, 3)}
+        grids = "".join(f"GRID,{n},,{x}.,{y}.,{z}.\n".replace(".5.", ".5")
+                        for n, (x, y, z) in points.items())
+        rows = "".join(f"{n},{x},{y},{z}\n" for n, (x, y, z) in points.items())
+        bulk = f"BEGIN BULK\n{grids}CHEXA,1,1,1,2,4,3,5,6,+\n+,8,7\n%sENDDATA\n"
+        deck = (f"*NODE\n{rows}*ELEMENT,TYPE=C3D8\n1,1,2,4,3,5,6,8,7\n*NSET,NSET=Lid\n5,6,7,8\n"
+                "*NSET,NSET=Hub\n20\n*SURFACE,NAME=Top,TYPE=NODE\nLid\n%s")
+        last = "*ELEMENT,TYPE=CONN3D2\n9,20,21\n"
+        keywords = (f"*NODE\n{rows}*ELEMENT_SOLID\n1,7,1,2,4,3,5,6,8,7\n*SET_NODE\n3\n5,6,7,8\n"
+                    "*ELEMENT_DISCRETE\n1,9,20,21\n2,9,20,0\n%s*END\n")
+        decks = {
+            "two.bdf": bulk % "RBE2,9,20,123,5,6,7,8\nCELAS1,9,3,20,1,21,1\nCELAS1,8,3,20,1\n",
+            "three.bdf": bulk % ("RBE3,9,,20,123,1.,123,5,+\n+,6,.5,123,7,8\nSPOINT,99\n"
+                                 "RBAR,4,20,21\nCELAS2,7,1.,20,1,99\n"),
+            "coupling.inp": deck % f"*COUPLING,REF NODE=Hub,SURFACE=Top\n*KINEMATIC\n{last}",
+            "kinematic.inp": deck % f"*KINEMATIC COUPLING,REF NODE=20\n5,1,3\nLid,1,3\n{last}",
+            "rigid.inp": deck % f"*RIGID BODY,NSET=Lid,REF NODE=20,ROT NODE=21\n",
+            "mpc.inp": deck % "*MPC\nBEAM,Lid,20\nPIN,21,20\n",
+            "node.k": keywords % "*CONSTRAINED_NODAL_RIGID_BODY\n5,,3,20\n",
+            "spc.k": keywords % "*CONSTRAINED_NODAL_RIGID_BODY_SPC_TITLE\nx\n5,,3,20\n1,2,3,4\n"}
+        for name, text in decks.items():
+            with self.subTest(name):
+                path, out = self.folder / name, self.folder / ("out-" + name)
+                path.write_text(text)
+                top = re.search(r"(?m)^(Surface \d) .* 1$", run("list", path).stdout)[1]
+                result = run("--move", top, "--translate", "0,0,.5", path, out)
+                self.assertEqual((result.returncode, result.stderr), (0, ""))
+                for node, height in ((20, 2.5), (21, 3.5)):
+                    line = re.search(rf"(?m)^(?:GRID,)?{node},.*$", out.read_text())[0]
+                    self.assertAlmostEqual(float(line.split(",")[-1]), height, 6)
+
     def test_options_of_keywords_of_ls_dyna(self):
         """Lines that options add, thick shells, ranges of sets; beams and quadratic shells move."""
         nodes = "".join(f"{i + 1},{x},{y},{z}\n" for i, (x, y, z) in enumerate(self.CORNERS))

@@ -6,7 +6,6 @@
 #include "Mesh/FacesOfCells.h"
 
 #include <algorithm>
-#include <map>
 #include <utility>
 #include <vector>
 
@@ -68,17 +67,8 @@ void addSheets(const Mesh& mesh, const BoundaryFaces& faces, const BoundaryFaces
   const ClassificationOptions& options, Classification& result, Monitor& monitor)
 {
   const Index outer = static_cast<Index>(faces.cells.size() - options.sheets.size());
-  const std::vector<Index>& given = options.given.surface;
-  const auto givenTo = [&](Index f) { return given.empty() ? NoGeometry : given[outer + f]; };
-  std::map<std::pair<Index, Index>, Index> numberOf; // one for each number and given id
-  std::vector<Index> numbers;
-  for (std::size_t f = 0; f < options.sheets.size(); ++f)
-  {
-    const auto key = std::make_pair(options.sheets[f], givenTo(static_cast<Index>(f)));
-    numbers.push_back(numberOf.emplace(key, static_cast<Index>(numberOf.size())).first->second);
-  }
   const SheetPatches patches =
-    sheetPatches(ConstPoints(mesh.points), sheets, numbers, options.featureAngle, monitor);
+    sheetPatches(ConstPoints(mesh.points), sheets, options.sheets, options.featureAngle, monitor);
   Index next = 0;
   for (const GeometrySurface& surface : result.surfaces)
   {
@@ -91,13 +81,11 @@ void addSheets(const Mesh& mesh, const BoundaryFaces& faces, const BoundaryFaces
     const Index surface = static_cast<Index>(first) + patches.ofFace[f];
     result.surfaceOfFace.push_back(surface);
     result.surfaces[surface].faces.push_back(outer + static_cast<Index>(f));
-    next = std::max(next, givenTo(static_cast<Index>(f)) + 1);
   }
   for (std::size_t s = first; s < result.surfaces.size(); ++s)
   {
     GeometrySurface& surface = result.surfaces[s];
-    const Index id = givenTo(surface.faces.front() - outer);
-    surface.id = id == NoGeometry ? next++ : id;
+    surface.id = next++; // a given id is that of the cell behind, which another surface has
     surface.nodes = patches.nodes[s - first];
     for (const Index node : surface.nodes)
     {

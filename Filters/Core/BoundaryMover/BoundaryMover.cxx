@@ -69,10 +69,14 @@ const Surroundings::Result& BoundaryMover::move(const BoundaryModel& model, cons
           model, choice, targets, options.rest.sliding, result, this->surroundings_, monitor);
       });
   }
-  alike([&] { this->touching_.warnOfParted(model, result, monitor); });
   if (options.contact.distance > 0)
   {
+    alike([&] { this->contact_.warnOfLost(model, choice, result, monitor); });
     this->contact_.setRoles(result);
+  }
+  else
+  {
+    alike([&] { this->touching_.warnOfParted(model, result, monitor); });
   }
   this->result_ = std::move(result);
   return this->result_;

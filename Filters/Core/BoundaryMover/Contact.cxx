@@ -184,6 +184,26 @@ void Contact::find(const BoundaryModel& model, const Options& options)
   this->version_ = model.motionVersion;
 }
 
+bool Contact::hasMoved(const Points& points, const Surroundings::Result& result, const Pair& pair)
+{
+  return std::any_of(pair.corners.begin(), pair.corners.end(),
+    [&](Index corner) { return result.moved.row(corner) != points.row(corner); });
+}
+
+Eigen::RowVector3d Contact::kept(
+  const Points& points, const Surroundings::Result& result, const Pair& pair)
+{
+  const Row from = normalAt(points, pair.corners), to = normalAt(result.moved, pair.corners);
+  Row gap = points.row(pair.node) - placeOf(points, pair.corners, pair.weights);
+  if (!from.isZero(0) && !to.isZero(0)) // else the face has no direction
+  {
+    gap *= Eigen::Quaterniond::FromTwoVectors(from.transpose(), to.transpose())
+             .toRotationMatrix()
+             .transpose();
+  }
+  return placeOf(result.moved, pair.corners, pair.weights) + gap;
+}
+
 bool Contact::follow(
   const BoundaryModel& model, const Surroundings::Result& result, Choice& choice, Points& targets)
 {
@@ -197,25 +217,12 @@ bool Contact::follow(
   TargetOfNode all = targetsOf(choice, targets);
   for (const Pair& pair : this->pairs_)
   {
-    const Row before = placeOf(points, pair.corners, pair.weights);
-    const Row after = placeOf(result.moved, pair.corners, pair.weights);
-    const bool hasMoved = std::any_of(pair.corners.begin(), pair.corners.end(),
-      [&](Index corner) { return result.moved.row(corner) != points.row(corner); });
-    if (!hasMoved || result.roles[pair.node] != Surroundings::Stays ||
-        moving.count(model.bodyOfNode[pair.node]) > 0)
+    if (result.roles[pair.node] == Surroundings::Stays &&
+        moving.count(model.bodyOfNode[pair.node]) == 0 && hasMoved(points, result, pair))
     {
-      continue;
+      all[pair.node] = kept(points, result, pair);
+      added.push_back(pair.node);
     }
-    const Row from = normalAt(points, pair.corners), to = normalAt(result.moved, pair.corners);
-    Row gap = points.row(pair.node) - before;
-    if (!from.isZero(0) && !to.isZero(0)) // else the face has no direction
-    {
-      gap *= Eigen::Quaterniond::FromTwoVectors(from.transpose(), to.transpose())
-               .toRotationMatrix()
-               .transpose();
-    }
-    all[pair.node] = after + gap;
-    added.push_back(pair.node);
   }
   if (added.empty())
   {
@@ -225,6 +232,40 @@ bool Contact::follow(
   setMoving(all, choice, targets);
   markMovingFaces(model.faces, choice);
   return true;
+}
+
+void Contact::warnOfLost(const BoundaryModel& model, const Choice& choice,
+  const Surroundings::Result& result, Monitor& monitor) const
+{
+  constexpr double Rounding = 1e-9; // of the size
+  std::set<Index> moving;
+  for (const Index node : choice.moving)
+  {
+    moving.insert(model.bodyOfNode[node]);
+  }
+  double most = 0;
+  std::vector<Index> lost;
+  for (const Pair& pair : this->pairs_)
+  {
+    if (moving.count(model.bodyOfNode[pair.node]) == 0 && hasMoved(model.points(), result, pair))
+    {
+      const double distance =
+        (result.moved.row(pair.node) - kept(model.points(), result, pair)).norm();
+      if (distance > Rounding * model.size)
+      {
+        most = std::max(most, distance);
+        lost.push_back(pair.node);
+      }
+    }
+  }
+  if (!lost.empty())
+  {
+    std::ostringstream text;
+    text << "Contact is not kept where a zone or `Surroundings` moves or holds nodes in contact: "
+         << lost.size() << " nodes are off by up to " << most << ", point ids " << listIds(lost)
+         << ". Let their body stay, or its zones go.";
+    monitor.warn(text.str());
+  }
 }
 
 void Contact::setRoles(Surroundings::Result& result) const

@@ -4,6 +4,7 @@
 #include "BoundaryMover/BoundaryModel.h"
 #include "BoundaryMover/Choice.h"
 #include "BoundaryMover/Surroundings.h"
+#include "Support/Monitor.h"
 
 #include <array>
 #include <cstdint>
@@ -41,6 +42,10 @@ public:
   /// something moves. `result`: of `choice` and `targets`. Returns whether there are some.
   bool follow(const BoundaryModel& model, const Surroundings::Result& result, Choice& choice,
     Points& targets);
+  /// Warns of nodes of bodies that nothing of `choice` is in, and whose gaps do not stay: something
+  /// else moves or holds them.
+  void warnOfLost(const BoundaryModel& model, const Choice& choice,
+    const Surroundings::Result& result, Monitor& monitor) const;
   /// Gives the nodes that follow() has added since find() their role.
   void setRoles(Surroundings::Result& result) const;
   /// Of all nodes in contact, the boundary being at `points`, #nodes x 3. Cost: as find().
@@ -55,6 +60,12 @@ private:
     std::array<Index, 3> corners; ///< of the triangle of the nearest place
     Eigen::RowVector3d weights;
   };
+
+  /// Whether the face of a pair has.
+  static bool hasMoved(const Points& points, const Surroundings::Result& result, const Pair& pair);
+  /// Where the gap of a pair stays.
+  static Eigen::RowVector3d kept(
+    const Points& points, const Surroundings::Result& result, const Pair& pair);
 
   std::int64_t version_ = -1; ///< BoundaryModel::motionVersion
   Options options_;

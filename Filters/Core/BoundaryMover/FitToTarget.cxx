@@ -12,7 +12,9 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <array>
 #include <limits>
+#include <map>
 #include <numeric>
 #include <utility>
 
@@ -24,14 +26,38 @@ using Row = ProjectionTarget::Row;
 
 constexpr double Anywhere = std::numeric_limits<double>::infinity();
 
-/// A target whose surface serves for curves too, where it has no feature edge near. Nodes on the
-/// rim of what moves that are on surfaces which slide go to target and sliding surfaces together.
+/// The edges of curves with nodes that move, as flat triangles.
+std::vector<TriangleTree::Triangle> curvesAt(
+  const Points& at, const Classification& geometry, const Choice& choice)
+{
+  const auto moves = [&](Index node)
+  { return std::binary_search(choice.moving.begin(), choice.moving.end(), node); };
+  std::vector<TriangleTree::Triangle> edges;
+  for (const GeometryCurve& curve : geometry.curves)
+  {
+    const std::size_t n = curve.nodes.size();
+    for (std::size_t i = 0; i + 1 < n + curve.loop; ++i)
+    {
+      const Index first = curve.nodes[i], second = curve.nodes[(i + 1) % n];
+      if (moves(first) || moves(second))
+      {
+        edges.push_back({ at.row(first), at.row(second), at.row(second) });
+      }
+    }
+  }
+  return edges;
+}
+
+/// A target whose surface serves for curves too, where it has no feature edge of theirs. An edge to
+/// which other curves are less than half as far is not. Nodes on the rim of what moves that are on
+/// surfaces which slide go to target and sliding surfaces together.
 class WithCurves : public ProjectionTarget
 {
 public:
-  WithCurves(const Target& target, const TargetRim& rim)
+  WithCurves(const Target& target, const TargetRim& rim, std::vector<TriangleTree::Triangle> curves)
     : place_(target)
     , rim_(rim)
+    , curves_(std::move(curves))
   {
   }
   bool closestOnSurface(Index surface, const Row& x, const Row& normal, Row& y) const override
@@ -45,13 +71,16 @@ public:
       return this->rim_.meet(
         node, x, [&](const Row& at, Row& to) { return this->anywhere(at, to); }, y);
     }
-    return this->place_.closestOnFeatures(node, x, y) || this->anywhere(x, y);
+    return (this->place_.closestOnFeatures(node, x, y) &&
+             2 * (this->curves_.nearest(y, Anywhere).place - y).norm() >= (x - y).norm()) ||
+           this->anywhere(x, y);
   }
+  /// Of a vertex that no vertex of the target belongs to.
   bool closestForVertex(Index node, const Row& x, Row& y) const
   {
     if (!this->rim_.has(node))
     {
-      return this->place_.closestOnVertices(x, y) || this->closestOnFeatures(node, x, y);
+      return this->closestOnFeatures(node, x, y);
     }
     // Where surfaces that move meet, their common edge goes to the target's.
     const auto onEdge = [&](const Row& at, Row& to)
@@ -68,7 +97,33 @@ private:
 
   const Target& place_;
   const TargetRim& rim_;
+  TriangleTree curves_;
 };
+
+/// Where vertices go to vertices of the target. Where one is the nearest to several of them, the
+/// nearest of these has it.
+TargetOfNode vertexPlaces(
+  const BoundaryModel& model, const Choice& choice, const Target& target, const TargetRim& rim)
+{
+  std::map<std::array<double, 3>, std::pair<double, Index>> nearest;
+  for (const Index node : choice.moving)
+  {
+    const Row x = model.points().row(node);
+    Row y;
+    if (model.geometry.dimension[node] == 0 && !rim.has(node) && target.closestOnVertices(x, y))
+    {
+      const auto candidate = std::make_pair((y - x).norm(), node);
+      const auto found = nearest.emplace(std::array<double, 3>{ y[0], y[1], y[2] }, candidate);
+      found.first->second = std::min(found.first->second, candidate);
+    }
+  }
+  TargetOfNode places;
+  for (const auto& [place, node] : nearest)
+  {
+    places.emplace(node.second, Row(place[0], place[1], place[2]));
+  }
+  return places;
+}
 
 /// The triangles of faces, and the face of each.
 std::pair<std::vector<TriangleTree::Triangle>, std::vector<Index>> trianglesOf(
@@ -107,8 +162,8 @@ BoundaryMotion allHeld(const BoundaryModel& model)
 
 /// The motion's start: what does not move is given, and vertices that move are, where they find a
 /// place. `missed`: those that find none.
-BoundaryMotion begin(const BoundaryModel& model, const Choice& choice, const WithCurves& place,
-  std::vector<Index>& missed)
+BoundaryMotion begin(const BoundaryModel& model, const Choice& choice, const TargetOfNode& places,
+  const WithCurves& place, std::vector<Index>& missed)
 {
   const Classification& geometry = model.geometry;
   BoundaryMotion motion = allHeld(model);
@@ -119,7 +174,12 @@ BoundaryMotion begin(const BoundaryModel& model, const Choice& choice, const Wit
     if (geometry.dimension[node] == 0)
     {
       motion.state[node] = BoundaryMotion::Held;
-      if (place.closestForVertex(node, motion.rest.row(node), y))
+      const auto found = places.find(node);
+      if (found != places.end())
+      {
+        motion.displacement.row(node) = found->second - motion.rest.row(node);
+      }
+      else if (place.closestForVertex(node, motion.rest.row(node), y))
       {
         motion.displacement.row(node) = y - motion.rest.row(node);
       }
@@ -309,7 +369,6 @@ Points fittedTo(Target& target, const BoundaryModel& model, const Choice& choice
 {
   const Classification& geometry = model.geometry;
   const TargetRim rim(model, choice, sliding, surroundings);
-  const WithCurves place(target, rim);
   const bool isAlong = options.project == FitOptions::Project::Along;
   std::vector<Index> missed;
   BoundaryMotion motion;
@@ -320,7 +379,8 @@ Points fittedTo(Target& target, const BoundaryModel& model, const Choice& choice
   }
   else
   {
-    motion = begin(model, choice, place, missed);
+    motion = begin(model, choice, vertexPlaces(model, choice, target, rim),
+      WithCurves(target, rim, curvesAt(model.points(), geometry, choice)), missed);
   }
   SurfaceMorphOptions how;
   how.unattached = UnattachedMotion::Stay;
@@ -334,6 +394,7 @@ Points fittedTo(Target& target, const BoundaryModel& model, const Choice& choice
   };
   morphCurves(geometry, how.unattached, motion, onCurves);
   await(choice, geometry, 1, BoundaryMotion::OnCurve, motion);
+  const WithCurves place(target, rim, curvesAt(motion.moved(), geometry, choice));
   if (!isAlong)
   {
     add(projectCurves(geometry, place, motion, monitor));

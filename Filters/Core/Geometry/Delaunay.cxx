@@ -174,6 +174,7 @@ void Delaunay::build(const Points& absolute, Monitor& monitor)
     }
   }
   this->origin_ = origin;
+  this->rounding_ = 8 * std::numeric_limits<double>::epsilon() * absolute.cwiseAbs().maxCoeff();
   this->sites_.swap(sites);
   this->tetrahedra_.swap(tetrahedra);
   this->atSite_.swap(atSite);

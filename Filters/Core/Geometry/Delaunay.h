@@ -54,6 +54,8 @@ public:
   /// twice as large, otherwise 0.
   const Eigen::RowVector3d& origin() const { return this->origin_; }
   const std::vector<Tetrahedron>& tetrahedra() const { return this->tetrahedra_; }
+  /// The length by which rounding of the absolute coordinates may move sites against each other.
+  double rounding() const { return this->rounding_; }
 
   /// Finds a tetrahedron that contains `x`, up to rounding. A visibility walk from the tetrahedron
   /// `start` crosses only faces that x is certainly beyond, so it ends. For x outside the hull it
@@ -77,6 +79,7 @@ public:
 
 private:
   Eigen::RowVector3d origin_ = Eigen::RowVector3d::Zero();
+  double rounding_ = 0;
   Points sites_;
   std::vector<Tetrahedron> tetrahedra_;
   std::vector<int> atSite_; ///< #sites, one tetrahedron at each

@@ -16,7 +16,7 @@ namespace morph
 namespace
 {
 constexpr Index BlockLength = 256;
-constexpr double FlatVolume = 1e-13; // 6 V / (longest edge)^3
+constexpr double FlatHeight = 1e-13; // of the longest edge
 constexpr double InsideTolerance = PointLocation::InsideTolerance;
 constexpr double LinearPrecision = 1e-10; // of the sites' size
 constexpr std::size_t MostCandidates = 200;
@@ -31,19 +31,20 @@ public:
   {
     const auto& sites = delaunay.tetrahedra()[id].sites;
     this->origin_ = delaunay.sites().row(sites[0]);
-    double longest = 0;
     for (int k = 0; k < 3; ++k)
     {
       this->edges_.col(k) = (delaunay.sites().row(sites[k + 1]) - this->origin_).transpose();
-      longest = std::max(longest, this->edges_.col(k).squaredNorm());
     }
-    for (int k = 0; k < 3; ++k)
-    {
-      const auto difference = this->edges_.col(k) - this->edges_.col((k + 1) % 3);
-      longest = std::max(longest, difference.squaredNorm());
-    }
-    const double determinant = this->edges_.determinant();
-    this->flat_ = !(std::abs(determinant) > FlatVolume * longest * std::sqrt(longest));
+    const Eigen::Vector3d a = this->edges_.col(0), b = this->edges_.col(1), c = this->edges_.col(2);
+    const double longest = std::sqrt(std::max({ a.squaredNorm(), b.squaredNorm(), c.squaredNorm(),
+      (b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm() }));
+    const double largest = std::sqrt(std::max({ a.cross(b).squaredNorm(), b.cross(c).squaredNorm(),
+      c.cross(a).squaredNorm(), (b - a).cross(c - a).squaredNorm() })); // twice a face's area
+    // A height that rounding of the coordinates alone makes says nothing about x. That of the
+    // largest face is one, too, if all corners are in one line.
+    const double leastHeight = std::max(FlatHeight * longest, delaunay.rounding());
+    this->flat_ = !(largest > leastHeight * longest &&
+                    std::abs(this->edges_.determinant()) > leastHeight * largest);
     if (!this->flat_)
     {
       this->inverse_ = this->edges_.inverse();

@@ -14,7 +14,7 @@ namespace morph
 /// Ties: a node on a shared face, edge or corner belongs to the tetrahedron that its walk reaches
 /// first. All candidates interpolate equally there. Walks follow a space-filling curve over the
 /// nodes in blocks of fixed length. So the choice depends only on the positions of nodes and sites.
-/// Tetrahedra flat to 1e-13 contain nothing; their neighbors contain their nodes.
+/// Tetrahedra flat to 1e-13 or to rounding contain nothing; their neighbors contain their nodes.
 ///
 /// A node on the hull, or beyond it by rounding (coordinates above -1e-9), takes the tetrahedron in
 /// which its minimum coordinate is largest. Coordinates are not clipped at 0, so linear fields are

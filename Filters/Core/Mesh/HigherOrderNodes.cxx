@@ -4,12 +4,26 @@
 #include "Geometry/AffineFit.h"
 #include "Mesh/CellShape.h"
 
+#include <Eigen/Geometry>
+
 #include <vector>
 
 namespace morph
 {
 namespace
 {
+/// Moves the four corners of a face, 4 x 3, and a place near it into the face's plane: through their
+/// mean, along both diagonals. The corners may be uneven by rounding, or by so little that an affine
+/// fit to all three coordinates would tell what is beside them apart by that.
+void flatten(Points& corners, Eigen::RowVector3d& place)
+{
+  const Eigen::RowVector3d mean = corners.colwise().mean(), first = corners.row(2) - corners.row(0),
+                           second = corners.row(3) - corners.row(1);
+  const Eigen::RowVector3d normal = first.cross(second).stableNormalized();
+  corners -= (corners.rowwise() - mean) * normal.transpose() * normal;
+  place -= (place - mean).dot(normal) * normal;
+}
+
 /// Returns the weights of `corners`, #corners x 3, at `place`, where the type of the cell has its
 /// node at `nominal`.
 Eigen::VectorXd weightsAt(const CellShape& shape, const Points& corners,
@@ -26,7 +40,13 @@ Eigen::VectorXd weightsAt(const CellShape& shape, const Points& corners,
     }
   }
   Eigen::VectorXd weights = Eigen::VectorXd::Zero(shape.numberOfCorners);
-  weights(between) = AffineLeastSquares(corners(between, allColumns), place).weights(place);
+  Points ends = corners(between, allColumns);
+  Eigen::RowVector3d at = place;
+  if (ends.rows() == 4 && shape.numberOfCorners > 4)
+  {
+    flatten(ends, at);
+  }
+  weights(between) = AffineLeastSquares(ends, at).weights(at);
   const Eigen::RowVector3d reached = weights.transpose() * corners;
   const double extent = (corners.colwise().maxCoeff() - corners.colwise().minCoeff()).norm();
   if ((place - reached).norm() > 1e-14 * extent)

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <limits>
 
 namespace morph
 {
@@ -17,6 +18,9 @@ InvertedBefore::InvertedBefore(
   const Mesh& mesh, const std::vector<std::int8_t>& orientation, const Quality& atRest)
 {
   this->mesh_ = &mesh;
+  // An edge as short as this is rounding, and so is the sign of what it spans.
+  const double rounding = 8 * std::numeric_limits<double>::epsilon() *
+                          (mesh.points.size() > 0 ? mesh.points.cwiseAbs().maxCoeff() : 0);
   for (std::size_t c = 0; c < atRest.scaledJacobian.size(); ++c)
   {
     if (atRest.scaledJacobian[c] <= Flat)
@@ -24,17 +28,21 @@ InvertedBefore::InvertedBefore(
       this->cells_.push_back(static_cast<Index>(c));
       this->signs_.push_back(orientation.empty() ? 1 : orientation[c]);
       this->positive_.push_back(
-        this->placesOf(this->cells_.back(), this->signs_.back(), mesh.points, Flat));
+        this->placesOf(this->cells_.back(), this->signs_.back(), mesh.points, Flat, rounding));
     }
   }
 }
 
 std::vector<bool> InvertedBefore::placesOf(
-  Index cell, double sign, const ConstPoints& points, double least) const
+  Index cell, double sign, const ConstPoints& points, double least, double leastEdge) const
 {
   std::vector<bool> positive;
   const auto add = [&](const Vector& a, const Vector& b, const Vector& c)
-  { positive.push_back(sign * a.dot(b.cross(c)) > least * a.norm() * b.norm() * c.norm()); };
+  {
+    const double lengths[] = { a.norm(), b.norm(), c.norm() };
+    positive.push_back(*std::min_element(lengths, lengths + 3) > leastEdge &&
+                       sign * a.dot(b.cross(c)) > least * lengths[0] * lengths[1] * lengths[2]);
+  };
   const Index* nodes = this->mesh_->cell(cell);
   const CellShape& shape = *cellShape(*this->mesh_, cell);
   if (shape.shape == Shape::Polyhedron)
@@ -72,7 +80,7 @@ std::vector<Index> InvertedBefore::added(
     if (const std::vector<bool>* before = this->positivePlaces(cell))
     {
       const std::ptrdiff_t i = before - this->positive_.data();
-      std::vector<bool> now = this->placesOf(cell, this->signs_[i], points, 0);
+      std::vector<bool> now = this->placesOf(cell, this->signs_[i], points, 0, 0);
       now.resize(before->size(), false); // without volume, a polyhedron has fewer places
       if (std::equal(before->begin(), before->end(), now.begin(),
             [](bool was, bool is) { return is || !was; }))

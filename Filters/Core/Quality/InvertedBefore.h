@@ -12,8 +12,8 @@ namespace morph
 /// The cells that are inverted, degenerate or flat before a motion, so that the motion is judged by
 /// what it does. A motion that keeps the orientation, an affine one for instance, keeps the signs
 /// of all determinants, but not their values. So a cell counts as no worse as long as no place that
-/// was positive is 0 or negative: a corner, a hexahedron's center, or a place of a polyhedron.
-/// Between the corners of such a quadratic cell nothing is judged.
+/// was positive is 0 or negative: a corner, a hexahedron's center, or a place of a polyhedron. A
+/// place with an edge that rounding of the coordinates alone makes was not positive. Between the corners of such a quadratic cell nothing is judged.
 class InvertedBefore
 {
 public:
@@ -41,9 +41,9 @@ public:
   std::vector<Index> without(const std::vector<Index>& cells) const;
 
 private:
-  /// Whether the scaled Jacobian is above `least`.
+  /// Whether the scaled Jacobian is above `least`, and edges are longer than `leastEdge`.
   std::vector<bool> placesOf(
-    Index cell, double sign, const ConstPoints& points, double least) const;
+    Index cell, double sign, const ConstPoints& points, double least, double leastEdge) const;
 
   const Mesh* mesh_ = nullptr; ///< null without cells
   std::vector<Index> cells_;

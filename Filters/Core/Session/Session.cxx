@@ -121,8 +121,8 @@ void Session::reportMesh(const Options& options, Monitor& monitor) const
   if (mesh.mirroredBodies() > 0)
   {
     const auto first = std::find(mesh.orientation().begin(), mesh.orientation().end(), -1);
-    monitor.warn(std::to_string(mesh.mirroredBodies()) +
-                 " bodies of the mesh are mirrored: in VTK's order of nodes all their cells of a "
+    monitor.warn("The mesh has mirrored bodies (" + std::to_string(mesh.mirroredBodies()) +
+                 "): in VTK's order of nodes all their cells of a "
                  "type are inverted, the first is cell " +
                  std::to_string(first - mesh.orientation().begin()) +
                  ". They are morphed and measured as if they were not. Reverse their order of "

@@ -41,6 +41,8 @@ private:
     NodeSet,
     ElementSet,
     Surface,
+    Coupling,
+    MultiPoint,
     System,
     Instance
   };
@@ -60,6 +62,9 @@ private:
     std::vector<std::uint8_t> elementTypes;
     std::vector<Index> elementNumbers;
     AbaqusSets sets;
+    /// What couplings and rigid bodies tie to each other: numbers of nodes, and names of sets or
+    /// surfaces in upper case.
+    std::vector<std::pair<std::string, std::string>> links;
     std::size_t instances = 0;
   };
 
@@ -70,6 +75,8 @@ private:
   void takeElement(std::size_t part);
   void takeSet(std::size_t part);
   void takeSurface(std::size_t part);
+  void beginLinks(const AbaqusKeyword& keyword);
+  void takeLinks(std::size_t part);
   void include(std::size_t part, Span span, const std::string& name, int depth);
   void beginElements(const AbaqusKeyword& keyword);
   void beginSurface(const AbaqusKeyword& keyword);
@@ -79,6 +86,7 @@ private:
   std::size_t systemOf(std::size_t part, std::size_t at, const AbaqusKeyword& keyword);
   const Shift& ownShift();
   std::string shifted(std::string_view entry, Index own, bool isNodes) const;
+  void addLinks(const std::unordered_map<Index, Index>& positions);
   void finish();
 
   Block block_ = Block::Other;
@@ -88,6 +96,7 @@ private:
   AbaqusSets::Entries* entries_ = nullptr; ///< of the sets that the block adds to
   AbaqusSets::Surface* surface_ = nullptr;
   bool isOfNodes_ = false; ///< the surface
+  std::string reference_;  ///< the node of a coupling, see Model::links
   std::vector<Span> fields_;
   Model all_;                           ///< in the assembly, or where there is none
   std::map<std::string, Model> models_; ///< of parts, by their names in upper case
@@ -214,6 +223,10 @@ void AbaqusFile::takeKeyword(std::size_t part, Span span, const AbaqusKeyword& k
   {
     this->beginSurface(keyword);
   }
+  else
+  {
+    this->beginLinks(keyword);
+  }
   const bool readsFile = this->block_ == Block::Node || this->block_ == Block::Element;
   if (readsFile && keyword.has("INPUT"))
   {
@@ -247,6 +260,53 @@ void AbaqusFile::beginSurface(const AbaqusKeyword& keyword)
   }
 }
 
+/// Couplings, rigid bodies and multi-point constraints tie nodes to each other.
+void AbaqusFile::beginLinks(const AbaqusKeyword& keyword)
+{
+  const auto entry = [&](const char* option)
+  {
+    return keyword.has(option) ? this->shifted(keyword.value(option), this->shift_.nodes, true)
+                               : std::string();
+  };
+  this->reference_ = entry("REF NODE");
+  if (keyword.name == "MPC")
+  {
+    this->block_ = Block::MultiPoint;
+  }
+  else if (keyword.name == "KINEMATIC COUPLING" && !this->reference_.empty())
+  {
+    this->block_ = Block::Coupling;
+  }
+  else if ((keyword.name == "COUPLING" || keyword.name == "RIGID BODY") &&
+           !this->reference_.empty())
+  {
+    for (const char* option : { "SURFACE", "ELSET", "NSET", "TIE NSET", "PIN NSET", "ROT NODE" })
+    {
+      if (const std::string name = entry(option); !name.empty())
+      {
+        this->model_->links.emplace_back(this->reference_, name);
+      }
+    }
+  }
+}
+
+void AbaqusFile::takeLinks(std::size_t part)
+{
+  const std::string& text = this->parts_[part].text;
+  const auto entry = [&](std::size_t field)
+  { return this->shifted(this->fields_[field].of(text), this->shift_.nodes, true); };
+  if (this->block_ == Block::Coupling)
+  {
+    this->model_->links.emplace_back(this->reference_, entry(0));
+    return;
+  }
+  static const std::set<std::string> kinds = { "BEAM", "LINK", "PIN", "TIE" };
+  if (this->fields_.size() >= 3 && kinds.count(upperCase(this->fields_[0].of(text))) > 0)
+  {
+    this->model_->links.emplace_back(entry(2), entry(1));
+  }
+}
+
 /// Parts, instances and coordinate systems, and what numbers of the block belong to. Returns
 /// whether that is all.
 bool AbaqusFile::takeAssembly(std::size_t part, Span span, const AbaqusKeyword& keyword)
@@ -276,7 +336,8 @@ bool AbaqusFile::takeAssembly(std::size_t part, Span span, const AbaqusKeyword& 
     }
     return true;
   }
-  static const std::set<std::string> numbered = { "NODE", "ELEMENT", "NSET", "ELSET", "SURFACE" };
+  static const std::set<std::string> numbered = { "NODE", "ELEMENT", "NSET", "ELSET", "SURFACE",
+    "COUPLING", "KINEMATIC COUPLING", "RIGID BODY", "MPC" };
   this->instance_.clear();
   const bool isOwn = this->model_ == &this->all_ && numbered.count(name) > 0;
   this->shift_ = isOwn ? this->ownShift() : Shift();
@@ -384,6 +445,16 @@ void AbaqusFile::endInstance(std::size_t part, Span span)
     next.elements = std::max(next.elements, this->all_.elementNumbers.back());
   }
   this->all_.sets.addInstance(model.sets, this->open_.name, shift.nodes, shift.elements);
+  const auto ofInstance = [&](const std::string& entry)
+  {
+    const auto number = parseInteger(entry);
+    return number ? std::to_string(*number + shift.nodes)
+                  : upperCase(this->open_.name) + "." + entry;
+  };
+  for (const auto& [first, second] : model.links)
+  {
+    this->all_.links.emplace_back(ofInstance(first), ofInstance(second));
+  }
   this->shifts_[upperCase(this->open_.name)] = shift;
   this->model_ = &this->all_;
 }
@@ -460,6 +531,10 @@ void AbaqusFile::takeData(std::size_t part, Span span)
       break;
     case Block::Surface:
       this->takeSurface(part);
+      break;
+    case Block::Coupling:
+    case Block::MultiPoint:
+      this->takeLinks(part);
       break;
     case Block::System:
     case Block::Instance:
@@ -583,6 +658,39 @@ void AbaqusFile::takeSurface(std::size_t part)
   }
 }
 
+/// Adds lines between the nodes that are tied: from one to all, or from each to its partner.
+void AbaqusFile::addLinks(const std::unordered_map<Index, Index>& positions)
+{
+  std::map<std::string, std::vector<Index>> members;
+  for (const NamedSet& set : this->mesh_.sets)
+  {
+    std::vector<Index>& nodes = members[upperCase(set.name)];
+    nodes = set.nodes;
+    for (const Index cell : set.cells)
+    {
+      const auto begin = this->mesh_.connectivity.begin();
+      nodes.insert(nodes.end(), begin + this->mesh_.offsets[static_cast<std::size_t>(cell)],
+        begin + this->mesh_.offsets[static_cast<std::size_t>(cell) + 1]);
+    }
+  }
+  const auto nodesOf = [&](const std::string& entry)
+  {
+    const auto number = parseInteger(entry);
+    const auto found = positions.find(number.value_or(-1));
+    return found != positions.end() ? std::vector<Index>{ found->second } : members[entry];
+  };
+  for (const auto& [first, second] : this->all_.links)
+  {
+    const std::vector<Index> hubs = nodesOf(first), others = nodesOf(second);
+    const std::size_t count =
+      hubs.size() == 1 ? others.size() : std::min(hubs.size(), others.size());
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      this->mesh_.addCell(Line, { hubs[hubs.size() == 1 ? 0 : i], others[i] }, -1);
+    }
+  }
+}
+
 void AbaqusFile::finish()
 {
   if (!this->pending_.empty())
@@ -616,6 +724,7 @@ void AbaqusFile::finish()
     this->mesh_.addCell(this->all_.elementTypes[e], nodes, this->all_.elementNumbers[e]);
   }
   this->all_.sets.addTo(this->mesh_, positions);
+  this->addLinks(positions);
   for (const std::string& type : this->unknownTypes_)
   {
     this->mesh_.warnings.push_back(

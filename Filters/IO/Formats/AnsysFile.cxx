@@ -82,7 +82,7 @@ int kindOf(Index type)
   static const std::set<Index> solids = { 45, 64, 65, 70, 87, 90, 92, 95, 185, 186, 187, 226, 227,
     278, 279, 285, 291 };
   static const std::set<Index> shells = { 41, 57, 63, 93, 131, 132, 157, 181, 281 };
-  static const std::set<Index> lines = { 4, 8, 44, 180, 188 };
+  static const std::set<Index> lines = { 4, 8, 14, 44, 180, 184, 188 };
   return solids.count(type) > 0 ? 1 : shells.count(type) > 0 ? 2 : lines.count(type) > 0 ? 3 : 0;
 }
 

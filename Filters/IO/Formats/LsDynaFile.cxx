@@ -37,6 +37,8 @@ private:
     ThickShell,
     Shell,
     Beam,
+    Discrete,
+    RigidBody,
     NodeSet,
     SegmentSet,
     SolidSet,
@@ -52,9 +54,15 @@ private:
     std::size_t file = 0, at = 0;
     Block kind = Block::Solid;
   };
+  /// A nodal rigid body: its set of nodes, and a further node or 0.
+  struct RigidBody
+  {
+    Index set, node;
+  };
   struct Set
   {
     Block kind;
+    Index number;
     std::string name;
     bool isRange; ///< first and last of each range
     std::vector<Index> members;
@@ -73,10 +81,12 @@ private:
   Index position(Index node, const std::string& what) const;
   void addElements();
   void addSet(const Set& set, const std::map<Index, Index>& nodes);
+  void addRigidBodies();
   void finish();
 
   Block block_ = Block::Other;
   bool isLong_ = false, isLongBlock_ = false, hasTitle_ = false, isRange_ = false;
+  bool isFirstAlone_ = false;     ///< of the cards of rigid bodies
   int line_ = 0;                  ///< of the block, from 0
   bool isOpen_ = false;           ///< the nodes of an element are on the next line
   int extraLines_ = 0, skip_ = 0; ///< of each element, and of the one before
@@ -84,6 +94,7 @@ private:
   std::vector<Element> elements_;
   std::map<std::pair<Block, Index>, Index> cells_; ///< each kind of element has its own numbers
   std::vector<Set> sets_;
+  std::vector<RigidBody> rigidBodies_;
   std::map<Index, std::string> titles_; ///< of parts
   std::set<std::string> unknown_;
   std::unordered_map<Index, Index> positions_;
@@ -175,7 +186,8 @@ void LsDynaFile::takeKeyword(std::size_t part, Span span)
   static const std::map<std::string, Block> blocks = { { "INCLUDE", Block::Include },
     { "NODE", Block::Node }, { "PART", Block::Part }, { "ELEMENT_SOLID", Block::Solid },
     { "ELEMENT_TSHELL", Block::ThickShell }, { "ELEMENT_SHELL", Block::Shell },
-    { "ELEMENT_BEAM", Block::Beam }, { "SET_NODE", Block::NodeSet },
+    { "ELEMENT_BEAM", Block::Beam }, { "ELEMENT_DISCRETE", Block::Discrete },
+    { "CONSTRAINED_NODAL_RIGID_BODY", Block::RigidBody }, { "SET_NODE", Block::NodeSet },
     { "SET_SEGMENT", Block::SegmentSet }, { "SET_SOLID", Block::SolidSet },
     { "SET_TSHELL", Block::ThickShellSet }, { "SET_SHELL", Block::ShellSet },
     { "SET_BEAM", Block::BeamSet }, { "SET_PART", Block::PartSet } };
@@ -227,6 +239,9 @@ void LsDynaFile::takeKeyword(std::size_t part, Span span)
     this->extraLines_ += has ? option->second : 0;
     option = has ? options.begin() : std::next(option);
   }
+  const std::string rigid = "CONSTRAINED_NODAL_RIGID_BODY";
+  this->isFirstAlone_ = rest.rfind(rigid + "_", 0) == 0; // SPC, INERTIA, OVERRIDE
+  rest = this->isFirstAlone_ ? rigid : rest;
   const auto found = blocks.find(rest);
   this->block_ = found == blocks.end() ? Block::Other : found->second;
   this->line_ = this->skip_ = 0;
@@ -260,7 +275,16 @@ void LsDynaFile::takeCard(std::size_t part, Span span)
     case Block::ThickShell:
     case Block::Shell:
     case Block::Beam:
+    case Block::Discrete:
       this->takeElement(part, span);
+      return;
+    case Block::RigidBody: // a title, and a card for each, or one and those of options
+      if (const int line = this->line_++ - (this->hasTitle_ ? 1 : 0);
+          line == 0 || (line > 0 && !this->isFirstAlone_))
+      {
+        const std::vector<Index> numbers = this->integersOf(part, span, 10, 4);
+        this->rigidBodies_.push_back({ numbers[2], numbers[3] });
+      }
       return;
     case Block::Part: // a title and a card
       if (this->line_++ % 2 == 0)
@@ -286,9 +310,9 @@ void LsDynaFile::takeElement(std::size_t part, Span span)
     --this->skip_;
     return;
   }
-  // What follows the two nodes of a beam is its orientation.
-  std::vector<Index> numbers =
-    this->integersOf(part, span, 8, this->block_ == Block::Beam ? 4 : 10);
+  // What follows the two nodes of a beam or spring is its orientation.
+  const bool isLine = this->block_ == Block::Beam || this->block_ == Block::Discrete;
+  std::vector<Index> numbers = this->integersOf(part, span, 8, isLine ? 4 : 10);
   if (!this->isOpen_)
   {
     this->elements_.push_back({ numbers[0], numbers[1], {}, part, span.begin, this->block_ });
@@ -314,9 +338,10 @@ void LsDynaFile::takeSet(std::size_t part, Span span)
       { Block::SegmentSet, "Segment set " }, { Block::SolidSet, "Solid set " },
       { Block::ThickShellSet, "Thick shell set " }, { Block::ShellSet, "Shell set " },
       { Block::BeamSet, "Beam set " }, { Block::PartSet, "Part set " } };
-    const std::string number = std::to_string(this->integersOf(part, span, 10, 1)[0]);
-    this->sets_.push_back({ this->block_,
-      this->title_.empty() ? kinds.at(this->block_) + number : this->title_, this->isRange_, {} });
+    const Index number = this->integersOf(part, span, 10, 1)[0];
+    this->sets_.push_back({ this->block_, number,
+      this->title_.empty() ? kinds.at(this->block_) + std::to_string(number) : this->title_,
+      this->isRange_, {} });
     return;
   }
   const bool isSegment = this->block_ == Block::SegmentSet;
@@ -346,7 +371,11 @@ void LsDynaFile::addElements()
   {
     const bool isSolid = element.kind == Block::Solid || element.kind == Block::ThickShell;
     auto [type, nodes] = isSolid ? solidElement(element.nodes) : shellElement(element.nodes);
-    if (element.kind == Block::Beam)
+    if (element.kind == Block::Discrete && element.nodes.size() < 2)
+    {
+      continue; // to the ground
+    }
+    if (element.kind == Block::Beam || element.kind == Block::Discrete)
     {
       type = nodes.size() == 2 ? Line : EmptyCell;
     }
@@ -427,6 +456,31 @@ void LsDynaFile::addSet(const Set& set, const std::map<Index, Index>& nodes)
   }
 }
 
+/// Adds lines from the first node of each to its others.
+void LsDynaFile::addRigidBodies()
+{
+  for (const RigidBody& body : this->rigidBodies_)
+  {
+    std::vector<Index> nodes;
+    if (body.node > 0)
+    {
+      nodes.push_back(this->position(body.node, "a nodal rigid body"));
+    }
+    for (const Set& set : this->sets_)
+    {
+      if (set.kind == Block::NodeSet && set.number == body.set)
+      {
+        const std::vector<Index>& members = this->mesh_.set(set.name).nodes;
+        nodes.insert(nodes.end(), members.begin(), members.end());
+      }
+    }
+    for (std::size_t i = 1; i < nodes.size(); ++i)
+    {
+      this->mesh_.addCell(Line, { nodes[0], nodes[i] }, -1);
+    }
+  }
+}
+
 void LsDynaFile::finish()
 {
   if (this->mesh_.nodes() == 0)
@@ -450,6 +504,7 @@ void LsDynaFile::finish()
   {
     this->addSet(set, nodes);
   }
+  this->addRigidBodies();
   for (const std::string& name : this->unknown_)
   {
     this->mesh_.warnings.push_back(

@@ -31,11 +31,41 @@ const std::map<std::string, Kind>& kinds()
     { "CHEXA", { { { 8, Hexahedron }, { 20, QuadraticHexahedron } }, 2 } },
     { "CTRIA3", { { { 3, Triangle } }, 2 } },
     { "CTRIA6", { { { 6, QuadraticTriangle } }, 2 } },
+    { "CTRIAR", { { { 3, Triangle } }, 2 } },
     { "CQUAD4", { { { 4, Quad } }, 2 } },
+    { "CQUADR", { { { 4, Quad } }, 2 } },
+    { "CSHEAR", { { { 4, Quad } }, 2 } },
     { "CQUAD8", { { { 8, QuadraticQuad } }, 2 } },
     { "CBAR", { { { 2, Line } }, 2 } },
     { "CBEAM", { { { 2, Line } }, 2 } },
     { "CROD", { { { 2, Line } }, 2 } },
+  };
+  return table;
+}
+
+/// An entry that ties nodes to each other: the fields of the first node and of the next ones.
+struct Link
+{
+  std::size_t hub, next;
+  std::size_t last = 0; ///< of the next ones; 0: all that follow
+};
+
+const std::map<std::string, Link>& links()
+{
+  static const std::map<std::string, Link> table = {
+    { "RBE2", { 1, 3 } },
+    { "RBE3", { 2, 4 } },
+    { "RBAR", { 1, 2, 2 } },
+    { "RROD", { 1, 2, 2 } },
+    { "CONROD", { 1, 2, 2 } },
+    { "PLOTEL", { 1, 2, 2 } },
+    { "CTUBE", { 2, 3, 3 } },
+    { "CBUSH", { 2, 3, 3 } },
+    { "CGAP", { 2, 3, 3 } },
+    { "CELAS1", { 2, 4, 4 } },
+    { "CELAS2", { 2, 4, 4 } },
+    { "CDAMP1", { 2, 4, 4 } },
+    { "CDAMP2", { 2, 4, 4 } },
   };
   return table;
 }
@@ -69,12 +99,15 @@ private:
     Index number = 0, property = 0;
     std::vector<Index> nodes;
     std::uint8_t type = 0;
+    bool isLink = false; ///< `nodes` are pairs
     std::size_t part = 0, at = 0;
   };
 
   void parse(std::size_t part, int depth);
   void takeGrid(std::size_t part, const NastranCard& card);
   void takeElement(std::size_t part, const NastranCard& card, const Kind& kind);
+  void takeLink(std::size_t part, const NastranCard& card, const Link& link);
+  void addLink(const Element& link);
   void takeSystem(std::size_t part, const NastranCard& card);
   Index integerIn(std::size_t part, const NastranCard& card, std::size_t field) const;
   std::size_t frameOf(Index system, int depth);
@@ -181,6 +214,10 @@ void NastranFile::parse(std::size_t part, int depth)
     else if (const auto kind = kinds().find(card.name); kind != kinds().end())
     {
       this->takeElement(part, card, kind->second);
+    }
+    else if (const auto link = links().find(card.name); link != links().end())
+    {
+      this->takeLink(part, card, link->second);
     }
   }
 }
@@ -347,6 +384,62 @@ void NastranFile::takeElement(std::size_t part, const NastranCard& card, const K
   this->elements_.push_back(std::move(element));
 }
 
+/// Rigid elements, springs and the like: lines from the first node to the others.
+void NastranFile::takeLink(std::size_t part, const NastranCard& card, const Link& link)
+{
+  const std::string& text = this->parts_[part].text;
+  Element element;
+  element.part = part;
+  element.at = card.at;
+  element.number = this->integerIn(part, card, 0);
+  element.isLink = true;
+  const Index hub = this->integerIn(part, card, link.hub);
+  const std::size_t end = link.last > 0 ? link.last + 1 : card.fields.size();
+  for (std::size_t i = link.next; i < std::min(end, card.fields.size()) && hub > 0; ++i)
+  {
+    const std::string_view field = card.fields[i].span.of(text);
+    if (const auto number = parseInteger(field); number && *number > 0)
+    {
+      element.nodes.insert(element.nodes.end(), { hub, static_cast<Index>(*number) });
+    }
+    else if (number || field.empty())
+    {
+      continue; // to the ground
+    }
+    else if (!parseNumber(field))
+    {
+      if (field == "THRU" || field == "thru")
+      {
+        this->failAt(part, card.at, card.name + " has a range of nodes (THRU). List its nodes.");
+      }
+      break; // ALPHA or UM
+    }
+    else if (card.name == "RBE3")
+    {
+      ++i; // a weight, and its components
+    }
+  }
+  if (!element.nodes.empty())
+  {
+    this->elements_.push_back(std::move(element));
+  }
+}
+
+/// Pairs with a scalar point (SPOINT), which has no place, are left out.
+void NastranFile::addLink(const Element& link)
+{
+  for (std::size_t i = 0; i + 1 < link.nodes.size(); i += 2)
+  {
+    const auto first = this->positions_.find(link.nodes[i]);
+    const auto second = this->positions_.find(link.nodes[i + 1]);
+    if (first != this->positions_.end() && second != this->positions_.end())
+    {
+      // Its number may be that of another element.
+      this->mesh_.addCell(Line, { first->second, second->second }, -1);
+    }
+  }
+}
+
 void NastranFile::finish()
 {
   if (this->mesh_.nodes() == 0)
@@ -367,6 +460,11 @@ void NastranFile::finish()
   for (const Element& element : this->elements_)
   {
     nodes.clear();
+    if (element.isLink)
+    {
+      this->addLink(element);
+      continue;
+    }
     for (const Index number : element.nodes)
     {
       const auto found = positions.find(number);

@@ -429,7 +429,7 @@ void vtkDisplacementAlgorithm::vtkInternals::Write(const Options& options, vtkPo
     monitor.warn(
       "The motion leaves faces of the boundary without area, and no cell behind them can "
       "be valid: the output's cell ids " +
-      morph::listIds(collapsed) + ". Is a scale zero?");
+      morph::listIds(collapsed) + (isFitted ? "." : ". Is a scale zero?"));
   }
   if (mover.hasInner())
   {

@@ -34,36 +34,29 @@ struct Part
   std::vector<CornerRecord> corners;
 };
 
-Part ownPart(const RankMesh& mesh, vtkUnstructuredGrid* output)
+/// `moved`: #nodes x 3 at least.
+Part ownPart(const RankMesh& mesh, const morph::ConstPoints& moved)
 {
   Part part;
   const auto& whole = mesh.Whole();
   const morph::BoundaryFaces& outer = whole.outerFaces();
-  if (outer.cells.empty())
+  for (std::size_t f = 0; f < outer.cells.size(); ++f)
   {
-    return part;
-  }
-  withPoints(output,
-    [&](const morph::ConstPoints& moved)
+    const Index begin = outer.offsets[f], end = outer.offsets[f + 1];
+    part.faces.push_back({ whole.cellId(outer.cells[f]), outer.sides[f], end - begin,
+      whole.orientation()[outer.cells[f]] });
+    for (Index k = begin; k < end; ++k)
     {
-      for (std::size_t f = 0; f < outer.cells.size(); ++f)
+      const Index node = outer.connectivity[k];
+      CornerRecord& corner = part.corners.emplace_back();
+      corner.node = whole.nodeId(node);
+      for (int d = 0; d < 3; ++d)
       {
-        const Index begin = outer.offsets[f], end = outer.offsets[f + 1];
-        part.faces.push_back({ whole.cellId(outer.cells[f]), outer.sides[f], end - begin,
-          whole.orientation()[outer.cells[f]] });
-        for (Index k = begin; k < end; ++k)
-        {
-          const Index node = outer.connectivity[k];
-          CornerRecord& corner = part.corners.emplace_back();
-          corner.node = whole.nodeId(node);
-          for (int d = 0; d < 3; ++d)
-          {
-            corner.rest[d] = mesh.Piece().points(node, d);
-            corner.moved[d] = moved(node, d);
-          }
-        }
+        corner.rest[d] = mesh.Piece().points(node, d);
+        corner.moved[d] = moved(node, d);
       }
-    });
+    }
+  }
   return part;
 }
 
@@ -112,6 +105,19 @@ struct Gathered
       this->cells.push_back(all.faces[f].cell);
       this->sides.push_back(all.faces[f].side);
     }
+  }
+
+  /// Collective.
+  Crossings::Pairs Pairs(const RankMesh& mesh, morph::Monitor& monitor) const
+  {
+    Crossings::Pairs pairs;
+    mesh.Ranks().together(
+      [&]
+      {
+        pairs =
+          morph::crossingFaces(this->rest, this->moved, this->faces, this->orientation, monitor);
+      });
+    return pairs;
   }
 
   Index FaceAt(Index cell, Index side) const
@@ -173,15 +179,16 @@ Crossings::Found Find(const RankMesh& mesh, vtkUnstructuredGrid* output, morph::
 {
   const auto& ranks = mesh.Ranks();
   Part mine;
-  ranks.together([&] { mine = ownPart(mesh, output); });
-  const Gathered gathered({ ranks.gather(mine.faces), ranks.gather(mine.corners) });
-  Crossings::Pairs pairs;
   ranks.together(
     [&]
     {
-      pairs = morph::crossingFaces(
-        gathered.rest, gathered.moved, gathered.faces, gathered.orientation, monitor);
+      if (!mesh.Whole().outerFaces().cells.empty())
+      {
+        withPoints(output, [&](const morph::ConstPoints& moved) { mine = ownPart(mesh, moved); });
+      }
     });
+  const Gathered gathered({ ranks.gather(mine.faces), ranks.gather(mine.corners) });
+  const Crossings::Pairs pairs = gathered.Pairs(mesh, monitor);
   const std::vector<Index> faces = Crossings::FacesOf(pairs);
   std::vector<Index> own;
   const auto names = namesOf(faces, gathered, mesh, output, own);
@@ -189,5 +196,13 @@ Crossings::Found Find(const RankMesh& mesh, vtkUnstructuredGrid* output, morph::
     Crossings::Describe(pairs, names, gathered.faces, gathered.cells, gathered.moved);
   found.Own = std::move(own);
   return found;
+}
+
+bool Any(const RankMesh& mesh, const morph::Points& moved, morph::Monitor& monitor)
+{
+  Part mine;
+  mesh.Ranks().together([&] { mine = ownPart(mesh, morph::ConstPoints(moved)); });
+  const Gathered gathered({ mesh.Ranks().gather(mine.faces), mesh.Ranks().gather(mine.corners) });
+  return !gathered.Pairs(mesh, monitor).empty();
 }
 }

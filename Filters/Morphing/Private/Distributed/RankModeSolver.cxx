@@ -8,6 +8,7 @@
 #include "Mesh/NodePartition.h"
 #include "Private/Data/Quality.h"
 #include "Private/Distributed/OnRanks.h"
+#include "Private/Distributed/RankCrossings.h"
 #include "Private/Distributed/RankMatch.h"
 #include "Private/Distributed/RankMesh.h"
 #include "Private/Distributed/RankOutput.h"
@@ -111,7 +112,17 @@ public:
       result.Judged = RankOutput::Judge(this->Pieces, mine, outputs.Mesh, monitor);
     }
     result.SurfaceInverted = RankOutput::WriteParts(this->Pieces, mine, all, outputs);
+    if (all)
+    {
+      result.Crossing = RankCrossings::Find(this->Pieces, outputs.Mesh, monitor);
+      this->Pieces.Ranks().together(
+        [&] { this->Pieces.Surface().MarkCrossing(result.Crossing.Own, outputs.Surface); });
+    }
     return result;
+  }
+  bool Crosses(const morph::Points& moved, morph::Monitor& monitor) const override
+  {
+    return RankCrossings::Any(this->Pieces, moved, monitor);
   }
   void WriteUndeformedSurface(vtkUnstructuredGrid* grid, vtkPolyData* surface) const override
   {

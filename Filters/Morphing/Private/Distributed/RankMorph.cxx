@@ -148,8 +148,8 @@ void RankMorphing::Take(
   this->Results.SetInteger("MirroredBodies", mirrored);
   if (mirrored > 0 && ranks.rank() == 0)
   {
-    monitor.warn(std::to_string(mirrored) +
-                 " bodies of the mesh are mirrored: in VTK's order of nodes all their cells of a "
+    monitor.warn("The mesh has mirrored bodies (" + std::to_string(mirrored) +
+                 "): in VTK's order of nodes all their cells of a "
                  "type are inverted. They are morphed and measured as if they were not. Reverse "
                  "their order of nodes if a solver expects VTK's.");
   }

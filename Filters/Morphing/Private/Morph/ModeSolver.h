@@ -4,6 +4,7 @@
 #include "LinearMethods/AttachedNodes.h"
 #include "Mesh/Mesh.h"
 #include "Morpher/Morpher.h"
+#include "Private/Data/Crossings.h"
 #include "Private/Data/Quality.h"
 #include "Private/Morph/BoundaryMatch.h"
 #include "Private/Morph/MorphOutput.h"
@@ -73,11 +74,15 @@ public:
     morph::Quality Whole;   ///< the numbers of the whole mesh; of `all` cells alone
     Quality::Judged Judged; ///< of `all` cells alone
     morph::Index SurfaceInverted = 0;
+    Crossings::Found Crossing; ///< of `all` cells alone
   };
   /// Writes the grid with its nodes at `moved`, #nodes of Mesh() x 3, and measures all cells, or
   /// those behind the outer faces alone. `precision`: see MorphOutput::WriteMesh().
   virtual Measured Write(vtkUnstructuredGrid* grid, const morph::Points& moved, int precision,
     bool all, const MorphOutput::Outputs& outputs, morph::Monitor& monitor) const = 0;
+  /// Whether the boundary of the whole mesh runs into itself, and did not undeformed, where the nodes
+  /// are at `moved`, #nodes of Mesh() x 3.
+  virtual bool Crosses(const morph::Points& moved, morph::Monitor& monitor) const = 0;
   /// The surface of `grid` in its undeformed state, as far as it is known.
   virtual void WriteUndeformedSurface(vtkUnstructuredGrid* grid, vtkPolyData* surface) const = 0;
 };

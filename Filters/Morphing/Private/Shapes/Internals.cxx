@@ -246,7 +246,16 @@ void vtkMorphShapes::vtkInternals::Write(vtkUnstructuredGrid* grid,
     this->Results.Set(measured.Judged);
   }
   const bool isBad = measured.Judged.Added > 0;
-  this->Results.SetText("MorphStatus", !all ? "Unmeasured" : isBad ? "Inverted" : "Valid");
+  const char* status = isBad ? "Inverted" : measured.Crossing.Count > 0 ? "CrossesItself" : "Valid";
+  this->Results.SetText("MorphStatus", all ? status : "Unmeasured");
+  if (all)
+  {
+    this->Results.SetInteger("CrossingFaces", measured.Crossing.Count);
+  }
+  if (measured.Crossing.Count > 0 && this->Modes.Group().IsFirst())
+  {
+    monitor.warn(measured.Crossing.Warning);
+  }
   if (this->Filter->Options->FindValidRanges) // of a mesh that can be written
   {
     this->FindRanges(weights, monitor);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Private/Shapes/KeptModeSolver.h"
 
+#include "Boundary/CrossingFaces.h"
 #include "Mesh/NodePartition.h"
 #include "Private/Data/BadCells.h"
 #include "Private/Data/Output.h"
@@ -85,7 +86,18 @@ ModeSolver::Measured KeptModeSolver::Write(vtkUnstructuredGrid* grid, const morp
     Quality::Write(result.Whole, output);
     result.Judged = Quality::Judge(this->Before(monitor), result.Whole, output);
     BadCells::Extract(result.Whole, output, outputs.BadCells);
+    const morph::UndeformedMesh& rest = *this->Kept.Rest();
+    result.Crossing =
+      Crossings::Find(mesh, rest.outerFaces(), this->Orientation(), output, nullptr, monitor);
+    surface.MarkCrossing(result.Crossing.Own, outputs.Surface);
   }
   return result;
+}
+
+bool KeptModeSolver::Crosses(const morph::Points& moved, morph::Monitor& monitor) const
+{
+  return !morph::crossingFaces(morph::ConstPoints(this->Mesh().points), morph::ConstPoints(moved),
+    this->Kept.Rest()->outerFaces(), this->Orientation(), monitor)
+            .empty();
 }
 }

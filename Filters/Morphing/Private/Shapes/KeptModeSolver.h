@@ -37,6 +37,7 @@ public:
   const morph::AttachedNodes& Attached() const override { return this->Hanging; }
   Measured Write(vtkUnstructuredGrid* grid, const morph::Points& moved, int precision, bool all,
     const MorphOutput::Outputs& outputs, morph::Monitor& monitor) const override;
+  bool Crosses(const morph::Points& moved, morph::Monitor& monitor) const override;
   void WriteUndeformedSurface(vtkUnstructuredGrid* grid, vtkPolyData* surface) const override
   {
     this->Kept.WriteUndeformedSurface(grid, surface);

@@ -5,7 +5,9 @@
 #include "Private/Shapes/ShapeModes.h"
 #include "Support/ProgressRange.h"
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <sstream>
 
@@ -23,6 +25,64 @@ void join(const RankGroup& processes, morph::ValidRange& range)
   range.lowest = range.isEmpty ? nan : lowest;
   range.highest = range.isEmpty ? nan : highest;
   range.lowestCell = range.highestCell = -1; // of different processes
+}
+
+/// The nodes at a factor.
+morph::Points positions(const morph::NodeMotion& motion, double factor)
+{
+  morph::Points at = *motion.base;
+  if (motion.straight)
+  {
+    at += factor * *motion.straight;
+  }
+  for (const morph::NodeMotion::Turn& turn : motion.turns)
+  {
+    const double half = std::sin(factor * turn.angle / 2);
+    at += std::sin(factor * turn.angle) * *turn.first + 2 * half * half * *turn.second;
+  }
+  return at;
+}
+
+/// The factor at which nodes have moved by the mesh's size, or turned once: the boundary meets no
+/// more of itself beyond it. 0 without a motion.
+double farthest(const morph::NodeMotion& motion, const ShapeModes& modes)
+{
+  double most =
+    motion.straight && motion.straight->rows() > 0
+      ? std::sqrt(motion.straight->rowwise().squaredNorm().maxCoeff()) / modes.GetSolver()->Size()
+      : 0;
+  for (const morph::NodeMotion::Turn& turn : motion.turns)
+  {
+    most = std::max(most, std::abs(turn.angle) / (2 * std::acos(-1.)));
+  }
+  most = modes.Group().Maximum(most);
+  return most > 0 ? 1 / most : 0;
+}
+
+/// Ends a range before the first of Samples factors, evenly spaced from 0 on, at which the boundary
+/// runs into itself.
+void excludeCrossings(
+  const ShapeModes& modes, const morph::NodeMotion& motion, double& end, morph::Monitor& monitor)
+{
+  constexpr int Samples = 16, Halvings = 12;
+  const auto crosses = [&](double factor)
+  { return modes.GetSolver()->Crosses(positions(motion, factor), monitor); };
+  const double far = farthest(motion, modes);
+  const double last = std::isinf(end) ? std::copysign(far, end) : end;
+  for (int k = 1; far > 0 && last != 0 && k <= Samples; ++k)
+  {
+    if (crosses(last * k / Samples))
+    {
+      double free = last * (k - 1) / Samples, crossing = last * k / Samples;
+      for (int i = 0; i < Halvings; ++i)
+      {
+        const double middle = (free + crossing) / 2;
+        (crosses(middle) ? crossing : free) = middle;
+      }
+      end = free;
+      return;
+    }
+  }
 }
 
 std::string endText(double end)
@@ -43,35 +103,47 @@ WeightRanges WeightRanges::Find(
 {
   const RankGroup& processes = modes.Group();
   WeightRanges result;
-  morph::Points base;
   const morph::InvertedBefore& before = modes.GetSolver()->Before(monitor);
-  processes.Together(
-    [&]
-    {
-      for (std::size_t i = 0; i < weights.size(); ++i)
-      {
-        const double share = 1. / static_cast<double>(weights.size() + 1);
-        morph::ProgressRange part(
-          monitor, share * static_cast<double>(i), share * static_cast<double>(i + 1));
-        std::vector<double> others = weights;
-        others[i] = 0;
-        morph::blend(modes.Mesh().points, modes.Weighted(others), base, part);
-        result.Shapes.push_back(morph::validRange(
-          modes.Mesh(), modes.MotionOf(i, base), modes.Orientation(), before, part));
-      }
-      morph::Points straight;
-      result.LargestFactor = morph::validRange(modes.Mesh(),
-        modes.Combined(weights, straight, monitor), modes.Orientation(), before, monitor)
-                               .highest;
-    });
-  for (morph::ValidRange& range : result.Shapes)
+  const auto rangeOf = [&](const std::function<morph::NodeMotion()>& motionOf, morph::Monitor& part)
   {
+    morph::NodeMotion motion;
+    morph::ValidRange range;
+    processes.Together(
+      [&]
+      {
+        motion = motionOf();
+        range = morph::validRange(modes.Mesh(), motion, modes.Orientation(), before, part);
+      });
     join(processes, range);
+    if (!range.isEmpty && modes.GetSolver()->Crosses(*motion.base, part))
+    {
+      range.isEmpty = true;
+      range.lowest = range.highest = std::numeric_limits<double>::quiet_NaN();
+    }
+    if (!range.isEmpty)
+    {
+      excludeCrossings(modes, motion, range.lowest, part);
+      excludeCrossings(modes, motion, range.highest, part);
+    }
+    return range;
+  };
+  morph::Points base, straight;
+  for (std::size_t i = 0; i < weights.size(); ++i)
+  {
+    const double share = 1. / static_cast<double>(weights.size() + 1);
+    morph::ProgressRange part(
+      monitor, share * static_cast<double>(i), share * static_cast<double>(i + 1));
+    const auto motionOf = [&]
+    {
+      std::vector<double> others = weights;
+      others[i] = 0;
+      morph::blend(modes.Mesh().points, modes.Weighted(others), base, part);
+      return modes.MotionOf(i, base);
+    };
+    result.Shapes.push_back(rangeOf(motionOf, part));
   }
-  const bool isUnknown = std::isnan(result.LargestFactor);
-  const bool isAnyUnknown = processes.Any(isUnknown);
-  const double factor = processes.Minimum(isUnknown ? 0 : result.LargestFactor);
-  result.LargestFactor = isAnyUnknown ? std::numeric_limits<double>::quiet_NaN() : factor;
+  result.LargestFactor =
+    rangeOf([&] { return modes.Combined(weights, straight, monitor); }, monitor).highest;
   return result;
 }
 
