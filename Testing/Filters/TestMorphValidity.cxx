@@ -7,6 +7,7 @@
 #include "vtkFEMWarpMorph.h"
 #include "vtkInversionFreeMorph.h"
 #include "vtkMorphMesh.h"
+#include "vtkMorphShapes.h"
 #include "vtkSimplexLinearMorph.h"
 
 #include <vtkBox.h>
@@ -577,6 +578,28 @@ TEST(Crossings, AreMarkedOnTheSurface)
     EXPECT_TRUE(crosses->GetComponent(i, 0) == 0 || (box[1] >= 7 && box[0] <= 8)) << i;
   }
   EXPECT_EQ(count, filter->GetCrossingFaces());
+}
+
+TEST(Crossings, OfShapesAreCountedAndEndTheirRanges)
+{
+  auto grid = twoProngs();
+  vtkNew<vtkMorphShapes> filter;
+  filter->SetInputData(grid);
+  filter->AddShapeData(grids::boundary(grid, intoTheGap(1)));
+  filter->SetWeight(0, 3);
+  filter->FindValidRangesOn();
+  grids::Listener listener(filter);
+  filter->Update();
+  EXPECT_STREQ(filter->GetMorphStatus(), "CrossesItself");
+  EXPECT_GT(filter->GetCrossingFaces(), 1);
+  ASSERT_EQ(listener.Warnings.size(), 1u);
+  EXPECT_NE(listener.Warnings[0].find("Right"), std::string::npos) << listener.Warnings[0];
+  EXPECT_LT(filter->GetHighestWeight(0), 2 + 1e-2); // the gap is 2 wide
+  EXPECT_GT(filter->GetHighestWeight(0), 2 - 1e-2);
+  EXPECT_NEAR(filter->GetLargestFactor(), filter->GetHighestWeight(0) / 3, 1e-3);
+  filter->SetWeight(0, filter->GetHighestWeight(0));
+  filter->Update();
+  EXPECT_STREQ(filter->GetMorphStatus(), "Valid");
 }
 
 TEST(Crossings, SubStepsEndBeforeThem)
