@@ -284,7 +284,7 @@ bool isUndecided(const Case& made, vtkAlgorithm* filter)
 struct Quality
 {
   double bad;
-  double least; ///< NaN where nothing is measured, as where all cells are ghosts
+  double least; ///< NaN if nothing is measured, as of ghosts, or if cells were inverted before
 };
 
 Quality qualityOf(vtkAlgorithm* filter)
@@ -294,6 +294,10 @@ Quality qualityOf(vtkAlgorithm* filter)
     return { static_cast<double>(boundary->GetFoldedFaces()), boundary->GetMinScaledJacobian() };
   }
   auto* morph = vtkMorphAlgorithm::SafeDownCast(filter);
+  if (morph->GetInvertedBefore() > 0) // a repair may mend these by the way, or not
+  {
+    return { static_cast<double>(morph->GetNewInvertedCells()), NAN };
+  }
   return { static_cast<double>(morph->GetInvertedCells() + morph->GetDegenerateCells()),
     morph->GetMinScaledJacobian() };
 }
