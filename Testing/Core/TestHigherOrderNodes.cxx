@@ -93,20 +93,33 @@ TEST(HigherOrderNodes, MoveAlikeInEveryFrame)
 
 TEST(HigherOrderNodes, InTheMiddleOfNearlyFlatFacesTheyMoveByTheMean)
 {
-  Mesh mesh = meshes::quadraticHexes(1, 1, 1, true);
-  const Index* cell = mesh.cell(0);
-  const std::vector<Index> corners(cell, cell + 8), face = { cell[4], cell[5], cell[6], cell[7] };
+  const int faces[6][4] = { { 0, 4, 7, 3 }, { 1, 2, 6, 5 }, { 0, 1, 5, 4 }, { 3, 7, 6, 2 },
+    { 0, 3, 2, 1 }, { 4, 5, 6, 7 } }; // of VTK's nodes 20 to 25
+  const Eigen::Matrix3d turn =
+    Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, -2, 3).normalized()).toRotationMatrix();
   for (const double uneven : { 0., 1e-12, 1e-9, 1e-7, 1e-5, 1e-3 })
   {
-    mesh.points(face[0], 2) = 1 + uneven;
+    Mesh mesh = meshes::quadraticHexes(1, 1, 1, true);
+    const std::vector<Index> cell(mesh.cell(0), mesh.cell(0) + 27);
+    const std::vector<Index> corners(cell.begin(), cell.begin() + 8);
+    mesh.points.row(cell[6]) += motions::Row(uneven, uneven, uneven); // opposite corners
+    mesh.points.row(cell[0]) += motions::Row(uneven, uneven, uneven);
+    mesh.points = mesh.points * turn;
     std::srand(meshes::seed());
     Points displacement = Points::Zero(27, 3);
     displacement(corners, morph::allColumns) = Points::Random(8, 3);
-    const motions::Row mean = displacement(face, morph::allColumns).colwise().mean();
     morph::HigherOrderNodes nodes;
     nodes.prepare(mesh, morph::partitionNodes(mesh, corners));
     nodes.apply(displacement);
-    EXPECT_LT((displacement.row(cell[25]) - mean).norm(), 1e-9 + uneven) << uneven;
+    for (int side = 0; side < 6; ++side)
+    {
+      motions::Row mean = motions::Row::Zero();
+      for (const int corner : faces[side])
+      {
+        mean += displacement.row(cell[corner]) / 4;
+      }
+      EXPECT_LT((displacement.row(cell[20 + side]) - mean).norm(), 1e-9 + 3 * uneven) << uneven;
+    }
   }
 }
 

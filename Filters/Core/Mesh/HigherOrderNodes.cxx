@@ -4,7 +4,7 @@
 #include "Geometry/AffineFit.h"
 #include "Mesh/CellShape.h"
 
-#include <Eigen/Geometry>
+#include <Eigen/SVD>
 
 #include <vector>
 
@@ -12,16 +12,17 @@ namespace morph
 {
 namespace
 {
-/// Moves the four corners of a face, 4 x 3, and a place near it into the face's plane: through their
-/// mean, along both diagonals. The corners may be uneven by rounding, or by so little that an affine
-/// fit to all three coordinates would tell what is beside them apart by that.
+/// Moves the four corners of a face, 4 x 3, and a place near it into the plane that fits them best.
+/// They may be uneven by rounding, or by so little that an affine fit to all three coordinates would
+/// tell what is beside them apart by that.
 void flatten(Points& corners, Eigen::RowVector3d& place)
 {
-  const Eigen::RowVector3d mean = corners.colwise().mean(), first = corners.row(2) - corners.row(0),
-                           second = corners.row(3) - corners.row(1);
-  const Eigen::RowVector3d normal = first.cross(second).stableNormalized();
-  corners -= (corners.rowwise() - mean) * normal.transpose() * normal;
-  place -= (place - mean).dot(normal) * normal;
+  const Eigen::RowVector3d mean = corners.colwise().mean();
+  const Eigen::MatrixXd arms = corners.rowwise() - mean;
+  const Eigen::Vector3d normal =
+    Eigen::JacobiSVD<Eigen::MatrixXd>(arms, Eigen::ComputeThinV).matrixV().col(2);
+  corners -= arms * normal * normal.transpose();
+  place -= (place - mean).dot(normal) * normal.transpose();
 }
 
 /// Returns the weights of `corners`, #corners x 3, at `place`, where the type of the cell has its
