@@ -31,5 +31,5 @@ def parse(parser):
 def fewer_colors(path):
     """Replaces a PNG by one of a palette, with ImageMagick: a third of the size, and no difference
     that is seen."""
-    subprocess.run(["convert", path, "+dither", "-colors", "160", "-strip", f"PNG8:{path}"],
+    subprocess.run(["convert", path, "+dither", "-colors", "128", "-strip", f"PNG8:{path}"],
                    check=True)

@@ -26,7 +26,7 @@ def example(n=24):
     survey = np.c_[survey, terrain(*survey.T)]
     after = MorphMesh(Input=before, Surfaces=["top"], Displacement="Target",
                       Target=ExtractSurface(Input=mesh(survey, triangles(faces))),
-                      ProjectAlong="z", TargetAngle=80, Method="LBWARP")
+                      ProjectAlong="z", TargetAngle=180, Method="LBWARP")
     return Example("Canyon: the flat top goes to the surveyed terrain, along z", before, after,
                    azimuth=50, tilt=40)
 

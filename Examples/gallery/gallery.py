@@ -20,7 +20,7 @@ from vtkmodules.vtkFiltersCore import vtkCellCenters, vtkExtractCells
 from vtkmodules.vtkImagingCore import vtkImageShrink3D
 from vtkmodules.vtkIOImage import vtkPNGReader, vtkPNGWriter
 
-WIDTH = 1000  # pixels
+WIDTH, HEIGHT = 1000, 520  # pixels: of the picture, and the most that meshes may take
 OVERSAMPLING = 2  # thin edges: drawn at twice the size, then averaged
 INK = [0.13, 0.14, 0.16]
 TITLE, LABEL, LEGEND = 44, 44, 64  # pixels: the heights of these rows
@@ -143,7 +143,8 @@ class Example:
         start = time.perf_counter()
         self.after.UpdatePipeline()
         seconds = time.perf_counter() - start
-        quality = [simple.ScaledJacobian(Input=source) for source in (self.before, self.after)]
+        quality = [servermanager.filters.ScaledJacobian(Input=source)
+                   for source in (self.before, self.after)]
         for measured in quality:
             measured.UpdatePipeline()
         return {"cells": self.before.GetDataInformation().GetNumberOfCells(),
@@ -206,21 +207,23 @@ def picture(path, title, meshes, azimuth=30, tilt=25, shown=None, color=None):
         panels.append(Panel(label + note, data, extent.min(axis=0), extent.max(axis=0)))
 
     widths = [panel.high[0] - panel.low[0] for panel in panels]
-    gap = 0.04 * sum(widths)
-    total = sum(widths) + gap * (len(panels) + 1)
-    unit = total / WIDTH  # of a pixel
     highest = max(panel.high[1] - panel.low[1] for panel in panels)
+    filled = sum(widths) * (1 + 0.04 * (len(panels) + 1))
+    total = max(filled, highest * WIDTH / HEIGHT)
+    gap = (total - sum(widths)) / (len(panels) + 1)
+    unit = total / WIDTH  # of a pixel
     height = round(highest / unit) + TITLE + LABEL + LEGEND + 20
     view = _view([WIDTH, height])
-    _text(view, title, (gap / total, 1 - 0.75 * TITLE / height), 19, bold=True)
+    _text(view, title, (0.04, 1 - 0.75 * TITLE / height), 19, bold=True)
+    colors = _colors(color, panels)
     left = gap
     for panel, width in zip(panels, widths):
         _text(view, panel.label, (left / total, 1 - (TITLE + 0.95 * LABEL) / height), 14)
         # All stand on one line.
         corner = np.array([left - panel.low[0], (LEGEND + 10) * unit - panel.low[1], 0])
-        _show(view, panel.data, corner @ axes, color)
+        _show(view, panel.data, corner @ axes, colors, color)
         left += width + gap
-    _legend(view, color, height)
+    _legend(view, colors, color and color[2], height)
 
     right, up, toward = axes
     focus = total / 2 * right + height * unit / 2 * up
@@ -244,7 +247,7 @@ def _axes(azimuth, tilt):
 
 def _measured(source):
     """The mesh with its scaled Jacobian, and what to say of it."""
-    quality = simple.ScaledJacobian(Input=source)
+    quality = servermanager.filters.ScaledJacobian(Input=source)
     quality.UpdatePipeline()
     return servermanager.Fetch(quality), (f": minimum {quality.MinScaledJacobian:.3f}\n"
                                           f"{quality.InvertedCells:.0f} inverted cells")
@@ -277,12 +280,12 @@ def _view(size):
     return view
 
 
-def _show(view, data, shift, color):
+def _show(view, data, shift, colors, color):
     shown = simple.Show(producer(data), view)
     shown.SetRepresentationType("Surface With Edges")
     # simple.ColorBy would fit the range to the data, and so move the colors' break away from 0.
     shown.ColorArrayName = list(color[:2] if color else ("CELLS", "ScaledJacobian"))
-    shown.LookupTable = _colors(color)
+    shown.LookupTable = colors
     # Since ParaView 5.12 the position is a translation.
     setattr(shown, "Translation" if hasattr(shown, "Translation") else "Position", list(shift))
     shown.EdgeColor = INK
@@ -291,10 +294,19 @@ def _show(view, data, shift, color):
     shown.InterpolateScalarsBeforeMapping = 0
 
 
-def _colors(color):
+def _colors(color, panels):
+    """The plugin's colors of the scaled Jacobian, or colors of which none means bad, over the range
+    of the array in all panels."""
     colors = simple.GetColorTransferFunction(color[1] if color else "ScaledJacobian")
     if color:
+        ranges = []
+        for panel in panels:
+            data = panel.data.GetPointData() if color[0] == "POINTS" else panel.data.GetCellData()
+            array = data.GetArray(color[1])
+            ranges.append(array.GetRange(-1 if array.GetNumberOfComponents() > 1 else 0))
         colors.ApplyPreset("Viridis (matplotlib)", True)
+        colors.RescaleTransferFunction(min(low for low, _ in ranges),
+                                       max(high for _, high in ranges))
     return colors
 
 
@@ -307,9 +319,9 @@ def _text(view, words, lower_left, size, bold=False):
     shown.FontSize, shown.Bold, shown.Color = size, int(bold), INK
 
 
-def _legend(view, color, height):
-    bar = simple.GetScalarBar(_colors(color), view)
-    bar.Title = color[2] if color else "scaled Jacobian (below 0: inverted)"
+def _legend(view, colors, title, height):
+    bar = simple.GetScalarBar(colors, view)
+    bar.Title = title or "scaled Jacobian (below 0: inverted)"
     bar.ComponentTitle = ""
     bar.Orientation = "Horizontal"
     bar.WindowLocation = "Any Location"
@@ -317,8 +329,8 @@ def _legend(view, color, height):
     bar.ScalarBarLength, bar.ScalarBarThickness = 0.5, 12
     bar.TitleColor = bar.LabelColor = INK
     bar.TitleFontSize = bar.LabelFontSize = 13
-    bar.AddRangeLabels = int(color is not None)
-    if color is None:
+    bar.AddRangeLabels = int(title is not None)
+    if title is None:
         bar.UseCustomLabels, bar.CustomLabels = 1, [-1, -0.5, 0, 0.5, 1]
     bar.Visibility = 1
 
