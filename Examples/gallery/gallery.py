@@ -148,7 +148,7 @@ class Example:
         for measured in quality:
             measured.UpdatePipeline()
         return {"cells": self.before.GetDataInformation().GetNumberOfCells(),
-                "method": self.after.Method, "status": self.after.MorphStatus,
+                "method": self.after.Method.GetData(), "status": self.after.MorphStatus,
                 "minimum_before": quality[0].MinScaledJacobian,
                 "minimum_after": quality[1].MinScaledJacobian,
                 "inverted_before": int(quality[0].InvertedCells),
@@ -247,7 +247,8 @@ def _axes(azimuth, tilt):
 
 def _measured(source):
     """The mesh with its scaled Jacobian, and what to say of it."""
-    quality = servermanager.filters.ScaledJacobian(Input=source)
+    # A surface, too, becomes an unstructured grid.
+    quality = servermanager.filters.ScaledJacobian(Input=simple.AppendDatasets(Input=[source]))
     quality.UpdatePipeline()
     return servermanager.Fetch(quality), (f": minimum {quality.MinScaledJacobian:.3f}\n"
                                           f"{quality.InvertedCells:.0f} inverted cells")

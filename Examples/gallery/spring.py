@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A spring of square wire, in hexahedra. Only its two ends are prescribed: the wire's surface is free, and is
-solved with the interior."""
+"""A spring of square wire, in hexahedra. Only its two ends are prescribed. The wire's
+surface is free, and is solved with the interior."""
 import numpy as np
 from paraview.simple import MorphMesh
 
