@@ -331,6 +331,7 @@ def _legend(view, colors, title, height):
     bar.TitleColor = bar.LabelColor = INK
     bar.TitleFontSize = bar.LabelFontSize = 13
     bar.AddRangeLabels = int(title is not None)
+    bar.RangeLabelFormat = "%.3g"
     if title is None:
         bar.UseCustomLabels, bar.CustomLabels = 1, [-1, -0.5, 0, 0.5, 1]
     bar.Visibility = 1

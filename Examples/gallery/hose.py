@@ -9,8 +9,8 @@ INNER, OUTER, LENGTH, BEND = 0.5, 0.8, 6, 2.1
 
 
 def bent(points):
-    """The hose, which is along x: its middle two thirds bend by BEND, in radians, about an axis along
-    y, and its ends stay straight."""
+    """The hose is along x. Its middle two thirds bend by BEND, in radians, about an axis along y,
+    and its ends stay straight."""
     first, long = LENGTH / 6, 2 * LENGTH / 3
     radius = long / BEND
     angle = BEND * ((points[:, 0] - first) / long).clip(0, 1)
