@@ -202,7 +202,7 @@ def picture(path, title, meshes, azimuth=30, tilt=25, shown=None, color=None):
             ids = np.flatnonzero(shown(_centers(data)))
             count = data.GetNumberOfCells()
         if shown and data.GetNumberOfCells() == count:
-            data = _kept(data, ids)
+            data = kept(data, ids)
         extent = vtk_to_numpy(data.GetPoints().GetData()) @ axes.T
         panels.append(Panel(label + note, data, extent.min(axis=0), extent.max(axis=0)))
 
@@ -214,11 +214,11 @@ def picture(path, title, meshes, azimuth=30, tilt=25, shown=None, color=None):
     unit = total / WIDTH  # of a pixel
     height = round(highest / unit) + TITLE + LABEL + LEGEND + 20
     view = _view([WIDTH, height])
-    _text(view, title, (0.04, 1 - 0.75 * TITLE / height), 19, bold=True)
+    text(view, title, (0.04, 1 - 0.75 * TITLE / height), 19, bold=True)
     colors = _colors(color, panels)
     left = gap
     for panel, width in zip(panels, widths):
-        _text(view, panel.label, (left / total, 1 - (TITLE + 0.95 * LABEL) / height), 14)
+        text(view, panel.label, (left / total, 1 - (TITLE + 0.95 * LABEL) / height), 14)
         # All stand on one line.
         corner = np.array([left - panel.low[0], (LEGEND + 10) * unit - panel.low[1], 0])
         _show(view, panel.data, corner @ axes, colors, color)
@@ -233,7 +233,7 @@ def picture(path, title, meshes, azimuth=30, tilt=25, shown=None, color=None):
     simple.SaveScreenshot(str(path), view, ImageResolution=[OVERSAMPLING * WIDTH,
                                                             OVERSAMPLING * height])
     simple.Delete(view)
-    _average(path)
+    average_pixels(path)
 
 
 def _axes(azimuth, tilt):
@@ -261,7 +261,8 @@ def _centers(data):
     return vtk_to_numpy(centers.GetOutput().GetPoints().GetData())
 
 
-def _kept(data, cells):
+def kept(data, cells):
+    """The cells of these ids, as a mesh."""
     ids = vtkIdList()
     for cell in cells:
         ids.InsertNextId(int(cell))
@@ -287,12 +288,16 @@ def _show(view, data, shift, colors, color):
     # simple.ColorBy would fit the range to the data, and so move the colors' break away from 0.
     shown.ColorArrayName = list(color[:2] if color else ("CELLS", "ScaledJacobian"))
     shown.LookupTable = colors
-    # Since ParaView 5.12 the position is a translation.
-    setattr(shown, "Translation" if hasattr(shown, "Translation") else "Position", list(shift))
+    move(shown, shift)
     shown.EdgeColor = INK
     shown.LineWidth = 0.6
     shown.Ambient, shown.Diffuse, shown.Specular = 0.45, 0.6, 0.0
     shown.InterpolateScalarsBeforeMapping = 0
+
+
+def move(shown, shift):
+    """Shows a representation elsewhere: since ParaView 5.12 its Position is its Translation."""
+    setattr(shown, "Translation" if hasattr(shown, "Translation") else "Position", list(shift))
 
 
 def _colors(color, panels):
@@ -311,8 +316,8 @@ def _colors(color, panels):
     return colors
 
 
-def _text(view, words, lower_left, size, bold=False):
-    """`lower_left`: fractions of the view's width and height."""
+def text(view, words, lower_left, size, bold=False):
+    """Words in the view; `lower_left`: their place as fractions of its width and height."""
     shown = simple.Show(simple.Text(Text=words), view)
     shown.WindowLocation = "Any Location"
     shown.Position = list(lower_left)
@@ -337,7 +342,7 @@ def _legend(view, colors, title, height):
     bar.Visibility = 1
 
 
-def _average(path):
+def average_pixels(path):
     """Replaces the PNG by one of 1 / OVERSAMPLING of its size."""
     reader = vtkPNGReader()
     reader.SetFileName(str(path))
