@@ -113,6 +113,26 @@ class Figures(unittest.TestCase):
                          [("mesh",), "first_step_s", "later_step_s", "CHOLMOD_s",
                           "CHOLMOD_solution_s", "KLU_s"])
 
+    def test_gallery(self):
+        self.check_table(table("Gallery.md", "## In figures"), rows(STUDY / "gallery.csv"),
+                         lambda cells: tuple(cells[:2]),
+                         [("script", "method"), "cells", "minimum_before", "minimum_after",
+                          "seconds"])
+
+    def test_no_two_pages_show_the_same_picture(self):
+        shown = {}
+        for page in [ROOT / "README.md", *sorted((ROOT / "Documentation").rglob("*.md"))]:
+            if page.name == "Results.md":
+                continue  # the list of all figures of the study
+            for link in re.findall(r"!\[.*?\]\((.*?)\)", page.read_text(encoding="utf-8"), re.S):
+                shown.setdefault((page.parent / link).resolve(), set()).add(page.name)
+        self.assertEqual({path.name: pages for path, pages in shown.items() if len(pages) > 1}, {})
+        kept = {path.resolve() for path in (ROOT / "Documentation").rglob("*.*")
+                if path.suffix in (".png", ".gif", ".svg")}
+        self.assertEqual(set(shown) - kept, set())  # none is missing
+        results = (STUDY / "Results.md").read_text(encoding="utf-8")
+        self.assertEqual([path.name for path in kept - set(shown) if path.name not in results], [])
+
     def test_openfoam(self):
         self.check_table(table("WhatToExpect.md", "## Beside OpenFOAM"),
                          rows(RESULTS / "openfoam.csv"), lambda cells: (cells[0],),

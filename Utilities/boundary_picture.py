@@ -5,7 +5,7 @@
         pvpython --force-offscreen-rendering Utilities/boundary_picture.py
 
 Writes classify-boundary.png and morph-boundary.png into Documentation/images, or the directory
-given. Needs the plugin; not Gmsh."""
+given. Needs the plugin and ImageMagick; not Gmsh."""
 
 import sys
 from pathlib import Path
@@ -86,7 +86,7 @@ def morph_picture(path):
     mesh = Models.get("canister").read_small("hex")
     target = producer(mesh.boundary_to_vtk(1))
     save_picture(path, look, [[
-        folds_panel("At rest", mesh.boundary_to_vtk(0), mesh.curves_to_vtk(0), look),
+        folds_panel("Before", mesh.boundary_to_vtk(0), mesh.curves_to_vtk(0), look),
         moved(mesh, "Weighted residual", look, "Weighted residual"),
         moved(mesh, "Smoothing", look, "Smoothing"),
         moved(mesh, "Weighted residual, onto a target", look, "Weighted residual", target)]])

@@ -2,19 +2,19 @@
 """The demo's picture: meshes cut open and side by side at one scale, colored by scaled Jacobian in
 the colors that the plugin gives to arrays of that name."""
 
+import sys
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 from paraview import simple
-from vtkmodules.vtkCommonCore import vtkIdList
 from vtkmodules.vtkCommonDataModel import vtkUnstructuredGrid
-from vtkmodules.vtkFiltersCore import vtkExtractCells
-from vtkmodules.vtkImagingCore import vtkImageShrink3D
-from vtkmodules.vtkIOImage import vtkPNGReader, vtkPNGWriter
+
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "Examples/gallery"))
+from gallery import (INK, OVERSAMPLING, average_pixels, kept, move,  # noqa: E402
+                     producer, text)  # (needs the path above)
 
 SIZE = (1600, 860)
-OVERSAMPLING = 2  # thin edges: drawn at twice the size, then averaged
-INK = [0.13, 0.14, 0.16]
 GAP = 1 / 30  # between panels, of the sum of their widths
 
 
@@ -27,14 +27,6 @@ class Panel:
     note: str
     grid: vtkUnstructuredGrid
     cells: np.ndarray
-
-
-def producer(data):
-    """A pipeline source that hands out this data object."""
-    source = simple.TrivialProducer()
-    source.GetClientSideObject().SetOutput(data)
-    source.UpdatePipeline()
-    return source
 
 
 def save_picture(path, heading, panels, tilt=22):
@@ -65,37 +57,8 @@ def save_picture(path, heading, panels, tilt=22):
     average_pixels(path)
 
 
-def average_pixels(path):
-    """Replaces the PNG by one of 1 / OVERSAMPLING of its size."""
-    reader = vtkPNGReader()
-    reader.SetFileName(str(path))
-    shrink = vtkImageShrink3D()
-    shrink.SetInputConnection(reader.GetOutputPort())
-    shrink.SetShrinkFactors(OVERSAMPLING, OVERSAMPLING, 1)
-    shrink.MeanOn()
-    shrink.Update()  # reads the file to its end before the writer opens it
-    writer = vtkPNGWriter()
-    writer.SetFileName(str(path))
-    writer.SetCompressionLevel(9)
-    writer.SetInputConnection(shrink.GetOutputPort())
-    writer.Write()
-
-
 def _extract(panel):
-    ids = vtkIdList()
-    ids.SetNumberOfIds(len(panel.cells))
-    for place, cell in enumerate(panel.cells):
-        ids.SetId(place, int(cell))
-    extract = vtkExtractCells()
-    extract.SetInputData(panel.grid)
-    extract.SetCellList(ids)
-    extract.Update()
-    return producer(extract.GetOutput())
-
-
-def move(shown, shift):
-    """Shows a representation elsewhere: since ParaView 5.12 its Position is its Translation."""
-    setattr(shown, "Translation" if hasattr(shown, "Translation") else "Position", list(shift))
+    return producer(kept(panel.grid, panel.cells))
 
 
 def _show(view, source, shift):
@@ -108,18 +71,6 @@ def _show(view, source, shift):
     shown.LineWidth = 0.6
     shown.Ambient, shown.Diffuse, shown.Specular = 0.45, 0.6, 0.0
     shown.InterpolateScalarsBeforeMapping = 0
-
-
-def text(view, words, lower_left, size, bold=False):
-    """Words in the view; `lower_left`: their place as fractions of its width and height."""
-    source = simple.Text(Text=words)
-    shown = simple.Show(source, view, "TextSourceRepresentation")
-    shown.WindowLocation = "Any Location"
-    shown.Position = list(lower_left)
-    shown.Justification = "Left"
-    shown.FontSize = size
-    shown.Bold = int(bold)
-    shown.Color = INK
 
 
 def _color_bar(view):

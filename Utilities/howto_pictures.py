@@ -7,7 +7,7 @@ and the folders of Examples, and keeps the pictures that the pages make.
 
 Blocks marked python run in one pvpython; those marked bash run by bash, which stops at the first
 command that fails. Writes howto-*.png into Documentation/images, or the folder given. Needs the
-built plugin and morph-mesh. A page that fails ends this program."""
+built plugin, morph-mesh and ImageMagick. A page that fails ends this program."""
 import argparse
 import os
 import re
@@ -17,6 +17,8 @@ import sys
 import tempfile
 from itertools import groupby
 from pathlib import Path
+
+from picture_arguments import fewer_colors
 
 ROOT = Path(__file__).resolve().parent.parent
 PAGES = ROOT / "Documentation/HowTo"
@@ -113,7 +115,9 @@ def main():
         if missing(page, plugin):
             print(f"{page}.md left out, there is no {', '.join(missing(page, plugin))}")
             continue
-        print(run(page, plugin, options.folder)[0])
+        path, _ = run(page, plugin, options.folder)
+        fewer_colors(path)
+        print(path)
 
 
 if __name__ == "__main__":

@@ -7,8 +7,8 @@ and above them the inverted cells alone.
     xvfb-run -a -s "-noreset -screen 0 1280x1024x24" \\
         pvpython --force-offscreen-rendering Utilities/inversion_free_picture.py
 
-Writes inversion-free.png into Documentation/images, or the directory given. Needs the plugin; not
-Gmsh."""
+Writes inversion-free.png into Documentation/images, or the directory given. Needs the plugin and
+ImageMagick; not Gmsh."""
 
 import sys
 from pathlib import Path
@@ -21,7 +21,7 @@ sys.path[:0] = [str(ROOT / "Data"), str(ROOT / "Utilities")]
 from demo_picture import Panel, save_picture  # noqa: E402  (needs the path above)
 from inversion_free_table import CANISTER_OFFSET, Case, morphed, number  # noqa: E402
 from built_plugin import add_plugin, load_plugin  # noqa: E402
-from picture_arguments import parse, picture_parser  # noqa: E402
+from picture_arguments import fewer_colors, parse, picture_parser  # noqa: E402
 
 CASE = Case("canister", "hex", True, 1.2)
 
@@ -56,10 +56,11 @@ def main():
         path,
         f"The canister's hole moves by {CANISTER_OFFSET * CASE.t:.2f} of the radius "
         "(two layers, and the inverted cells above them)",
-        [panel("At rest", mesh, morphed("MorphFEMWARP", mesh, 0)),
+        [panel("Before", mesh, morphed("MorphFEMWARP", mesh, 0)),
          panel("FEMWARP", mesh, morphed("MorphFEMWARP", mesh, CASE.t, **silent)),
          panel("Inversion-free", mesh, morphed("MorphInversionFree", mesh, CASE.t))],
         tilt=55)
+    fewer_colors(path)
     print(f"Written {path}")
 
 

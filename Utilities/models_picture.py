@@ -5,8 +5,8 @@ at its final shape, a color for each surface and dark lines for the curves.
     xvfb-run -a -s "-noreset -screen 0 1280x1024x24" \\
         pvpython --force-offscreen-rendering Utilities/models_picture.py
 
-Writes models-<name>.png into Documentation/images, or the directory given. Needs neither plugin nor
-Gmsh."""
+Writes models-<name>.png into Documentation/images, or the directory given. Needs ImageMagick, and
+neither plugin nor Gmsh."""
 
 import colorsys
 import sys
@@ -26,7 +26,7 @@ sys.path[:0] = [str(ROOT / "Data"), str(ROOT / "Utilities")]
 from demo_picture import INK, OVERSAMPLING, average_pixels, move, producer, text  # noqa: E402
 import Models  # noqa: E402  (needs the path above)
 from Models.model_mesh import add_array  # noqa: E402
-from picture_arguments import parse, picture_parser  # noqa: E402
+from picture_arguments import fewer_colors, parse, picture_parser  # noqa: E402
 
 WIDTH = 1600
 TITLE, LABEL = 0.055, 0.05  # heights of heading and labels as fractions of the width
@@ -149,6 +149,7 @@ def save_picture(path, look, rows):
     view.CameraParallelScale = rise / 2
     simple.SaveScreenshot(str(path), view, ImageResolution=[OVERSAMPLING * n for n in pixels])
     average_pixels(path)
+    fewer_colors(path)
     simple.Delete(view)
 
 

@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the scripts that draw the documentation's pictures take at the prompt."""
+"""What the scripts that draw the documentation's pictures take at the prompt, and how they keep the
+files small."""
 
 import argparse
 import os
+import subprocess
 from pathlib import Path
 
 IMAGES = Path(__file__).resolve().parent.parent / "Documentation" / "images"
@@ -24,3 +26,10 @@ def parse(parser):
     arguments.output = arguments.output.resolve()
     arguments.output.mkdir(parents=True, exist_ok=True)
     return arguments
+
+
+def fewer_colors(path):
+    """Replaces a PNG by one of a palette, with ImageMagick: a third of the size, and no difference
+    that is seen."""
+    subprocess.run(["convert", path, "+dither", "-colors", "128", "-strip", f"PNG8:{path}"],
+                   check=True)
