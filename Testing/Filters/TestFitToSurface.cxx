@@ -168,6 +168,27 @@ vtkSmartPointer<vtkPolyData> hills(double height, double margin)
   return surface;
 }
 
+/// Over the brick's outline: a floor at 0.5, and walls of 66 degrees.
+vtkSmartPointer<vtkPolyData> canyon()
+{
+  vtkNew<vtkPlaneSource> plane;
+  plane->SetOrigin(-0.5, -0.5, 0);
+  plane->SetPoint1(6.5, -0.5, 0);
+  plane->SetPoint2(-0.5, 4.5, 0);
+  plane->SetResolution(28, 20);
+  plane->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
+  plane->Update();
+  vtkPolyData* surface = plane->GetOutput();
+  for (vtkIdType i = 0; i < surface->GetNumberOfPoints(); ++i)
+  {
+    Row x;
+    surface->GetPoint(i, x.data());
+    x[2] = 0.5 + 2.25 * std::max(0., std::abs(x[0] - 3) - 0.75);
+    surface->GetPoints()->SetPoint(i, x.data());
+  }
+  return surface;
+}
+
 vtkSmartPointer<vtkMorphMesh> make(vtkUnstructuredGrid* grid, vtkPolyData* target)
 {
   auto filter = vtkSmartPointer<vtkMorphMesh>::New();
@@ -528,6 +549,18 @@ TEST(FitToSurface, NodesGoToTheTargetAlongADirection)
   filter->Update();
   ASSERT_EQ(listener.Errors.size(), 1u);
   EXPECT_NE(listener.Errors[0].find("`ProjectVector` has no length"), std::string::npos);
+}
+
+TEST(FitToSurface, ATargetIsOrientedByWhatMovesAlone)
+{
+  // The canyon's walls are steep, and its floor is near the bottom, whose normals are opposite.
+  auto filter = onto(brick(), canyon());
+  filter->SetProjectAlongToZ();
+  filter->SetTargetAngle(80);
+  filter->SetTargetReach(2);
+  filter->SetValidityToReport();
+  filter->Update();
+  EXPECT_LT(filter->GetMaxTargetDistance(), 1e-12);
 }
 
 TEST(FitToSurface, NodesThatMissTheTargetAlongADirectionFollowTheOthers)

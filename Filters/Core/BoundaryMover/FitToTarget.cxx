@@ -205,6 +205,15 @@ void await(const Choice& choice, const Classification& geometry, int dimension,
   }
 }
 
+/// surfaceNodeNormals() of the nodes that move, and zero of others: the target is oriented by them.
+Points movingNormals(const BoundaryModel& model, const Choice& choice, const Points& moved)
+{
+  const Points all = surfaceNodeNormals(model.points(), moved, model.faces, model.geometry);
+  Points normals = Points::Zero(all.rows(), 3);
+  normals(choice.moving, allColumns) = all(choice.moving, allColumns);
+  return normals;
+}
+
 void moveAlong(Target& target, const BoundaryModel& model, const Choice& choice,
   const TargetRim& rim, const FitOptions& options, BoundaryMotion& motion,
   std::vector<Index>& missed)
@@ -216,8 +225,7 @@ void moveAlong(Target& target, const BoundaryModel& model, const Choice& choice,
     directions = nodeNormals(
       model.outwardAreas(model.points()), model.faces, choice.isMovingFace, choice.moving);
   }
-  const Points normals =
-    surfaceNodeNormals(model.points(), model.points(), model.faces, model.geometry);
+  const Points normals = movingNormals(model, choice, model.points());
   target.orient(model.points(), normals);
   for (std::size_t i = 0; i < choice.moving.size(); ++i)
   {
@@ -405,7 +413,7 @@ Points fittedTo(Target& target, const BoundaryModel& model, const Choice& choice
   {
     const Points moved = motion.moved();
     target.assign(geometry, moved);
-    target.orient(moved, surfaceNodeNormals(model.points(), moved, model.faces, geometry));
+    target.orient(moved, movingNormals(model, choice, moved));
     add(projectSurfaces(model.faces, geometry, place, motion, monitor));
   }
   std::sort(missed.begin(), missed.end());
