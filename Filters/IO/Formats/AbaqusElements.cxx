@@ -80,13 +80,7 @@ constexpr Family Families[] = {
   { "DCC3D", volume },
   { "Q3D", volume },
   { "SC", volume }, // continuum shells
-  { "SPRINGA", [](int) { return line(2); } },
-  { "SPRING2", [](int) { return line(2); } },
-  { "DASHPOTA", [](int) { return line(2); } },
-  { "DASHPOT2", [](int) { return line(2); } },
-  { "CONN3D", [](int) { return line(2); } },
   { "RB3D", [](int) { return line(2); } },
-  { "GAPUNI", [](int) { return line(2); } },
   { "STRI", surface },
   { "SFM3D", surface },
   { "M3D", surface },
