@@ -416,7 +416,7 @@ class SolverFiles(unittest.TestCase):
         bulk = f"BEGIN BULK\n{grids}CHEXA,1,1,1,2,4,3,5,6,+\n+,8,7\n%sENDDATA\n"
         deck = (f"*NODE\n{rows}*ELEMENT,TYPE=C3D8\n1,1,2,4,3,5,6,8,7\n*NSET,NSET=Lid\n5,6,7,8\n"
                 "*NSET,NSET=Hub\n20\n*SURFACE,NAME=Top,TYPE=NODE\nLid\n%s")
-        last = "*ELEMENT,TYPE=CONN3D2\n9,20,21\n"
+        last = "*ELEMENT,TYPE=RB3D2\n9,20,21\n"
         keywords = (f"*NODE\n{rows}*ELEMENT_SOLID\n1,7,1,2,4,3,5,6,8,7\n*SET_NODE\n3\n5,6,7,8\n"
                     "*ELEMENT_DISCRETE\n1,9,20,21\n2,9,20,0\n%s*END\n")
         decks = {
