@@ -315,7 +315,7 @@ BoundaryFaces boundaryFaces(const Mesh& mesh, Monitor& monitor)
   return boundaryFaces(mesh, hanging, monitor);
 }
 
-BoundaryFaces boundaryFaces(const Mesh& mesh, HangingNodes& hanging, Monitor& monitor)
+BoundaryFaces facesOfOneCell(const Mesh& mesh, Monitor& monitor)
 {
   std::vector<Place> places =
     hasPolyhedra(mesh) ? outerFacesAmongAll(mesh, monitor) : outerFaces(mesh, monitor);
@@ -325,23 +325,30 @@ BoundaryFaces boundaryFaces(const Mesh& mesh, HangingNodes& hanging, Monitor& mo
                    [&](const Place& place) { return isFrontOrBack(mesh, place); }),
       places.end());
   }
-  BoundaryFaces faces = describeFaces(mesh, places);
-  const std::vector<std::uint8_t> isInside = hanging.find(mesh, faces, monitor);
-  if (isInside.empty())
-  {
-    return faces;
-  }
+  return describeFaces(mesh, places);
+}
+
+BoundaryFaces boundaryFaces(const Mesh& mesh, HangingNodes& hanging, Monitor& monitor)
+{
+  BoundaryFaces faces = facesOfOneCell(mesh, monitor);
+  hanging.find(mesh, faces, monitor);
+  return hanging.empty() ? faces : boundaryFaces(mesh, faces, hanging);
+}
+
+BoundaryFaces boundaryFaces(
+  const Mesh& mesh, const BoundaryFaces& faces, const HangingNodes& hanging)
+{
   std::vector<Place> outside;
-  for (std::size_t f = 0; f < places.size(); ++f)
+  for (std::size_t f = 0; f < faces.cells.size(); ++f)
   {
-    if (!isInside[f])
+    if (!hanging.isInside(faces.cells[f], faces.sides[f]))
     {
-      outside.push_back(places[f]);
+      outside.push_back({ faces.cells[f], faces.sides[f] });
     }
   }
-  faces = describeFaces(mesh, outside);
-  hanging.divideEdges(faces);
-  return faces;
+  BoundaryFaces result = describeFaces(mesh, outside);
+  hanging.divideEdges(result);
+  return result;
 }
 
 BoundaryFaces facesOfCells(

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Meshes.h"
+
+#include <array>
+#include <map>
+#include <vector>
+
+namespace meshes
+{
+/// A box of 3 x 3 x 2 cubes, some of them in eight, some of these in eight again, and the nodes that
+/// hang.
+struct Octree
+{
+  using Place = std::array<int, 3>; ///< in eighths of a cube
+  /// A node on a hexahedron that is none of its nodes.
+  struct Hanging
+  {
+    Index node;
+    std::vector<Index> masters; ///< of the face or edge that it lies on
+    std::vector<double> weights;
+  };
+
+  static constexpr int Width = 3, Height = 2; ///< cubes before refinement
+
+  Mesh mesh;
+  std::map<Place, Index> nodeAt;
+  std::vector<Hanging> hanging;
+
+  /// `order`: 1, or 2 for hexahedra of 20 nodes.
+  explicit Octree(unsigned seed, int order = 1);
+
+  /// The largest distance of a node that hangs from its place on its face or edge.
+  double gap(const Points& points) const;
+
+private:
+  Index node(const Place& place);
+  void findHanging(const Place& low, int size, int order);
+};
+}
