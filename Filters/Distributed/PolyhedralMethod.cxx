@@ -5,7 +5,9 @@
 
 #include "Support/Error.h"
 
+#include <cstdint>
 #include <utility>
+#include <vector>
 
 namespace morph::distributed
 {
@@ -32,7 +34,22 @@ void PolyhedralMethod::doPrepare(Monitor& monitor)
 {
   const DistributedMesh& whole = this->mesh();
   requirePrescribedBodies(whole, this->partition()); // its message counts cells, not pieces
-  const std::vector<Index> loose = whole.hanging().tiedTo(this->partition().higherOrderNodes);
+  // As their owners have them, who know all cells around them.
+  std::vector<std::int64_t> follows(whole.mesh().numberOfNodes(), 0);
+  for (const Index node : this->partition().higherOrderNodes)
+  {
+    follows[node] = 1;
+  }
+  whole.halo().update(whole.ranks(), follows);
+  std::vector<Index> followers;
+  for (std::size_t n = 0; n < follows.size(); ++n)
+  {
+    if (follows[n] != 0)
+    {
+      followers.push_back(static_cast<Index>(n));
+    }
+  }
+  const std::vector<Index> loose = whole.hanging().tiedTo(followers);
   whole.ranks().together(
     [&]
     {
