@@ -44,15 +44,17 @@ double shapeFunction(int order, const Place& node, const std::array<double, 3>& 
 }
 }
 
-Octree::Octree(unsigned seed, int order)
+Octree::Octree(unsigned seed, int order, const Place& cubes)
+  : cubes_(cubes)
 {
   std::mt19937 random(seed);
   this->mesh.offsets = { 0 };
   this->mesh.points.resize(0, 3);
   std::vector<std::pair<Place, int>> boxes, open; // corners and sizes
-  for (int c = 0; c < Width * Width * Height; ++c)
+  const auto [nx, ny, nz] = cubes;
+  for (int c = 0; c < nx * ny * nz; ++c)
   {
-    open.push_back({ { 8 * (c % Width), 8 * (c / Width % Width), 8 * (c / Width / Width) }, 8 });
+    open.push_back({ { 8 * (c % nx), 8 * (c / nx % ny), 8 * (c / nx / ny) }, 8 });
   }
   for (std::size_t i = 0; i < open.size(); ++i)
   {
@@ -80,6 +82,25 @@ Octree::Octree(unsigned seed, int order)
   {
     this->findHanging(low, size, order);
   }
+}
+
+std::vector<Index> Octree::outer() const
+{
+  std::vector<Index> nodes;
+  for (const auto& [place, node] : this->nodeAt)
+  {
+    bool isOuter = false;
+    for (int j = 0; j < 3; ++j)
+    {
+      isOuter = isOuter || place[j] == 0 || place[j] == 8 * this->cubes_[j];
+    }
+    if (isOuter)
+    {
+      nodes.push_back(node);
+    }
+  }
+  std::sort(nodes.begin(), nodes.end());
+  return nodes;
 }
 
 Index Octree::node(const Place& place)
