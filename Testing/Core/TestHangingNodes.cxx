@@ -159,6 +159,38 @@ TEST(HangingNodes, OfTrianglesAndOfFacesThatAreCut)
   EXPECT_EQ(outer.cells.size(), 5u + 4u);
 }
 
+// Where all cells around an edge are on one side of it, its nodes are on the boundary.
+TEST(HangingNodes, OnAnEdgeOfTheBoundaryAreItsNodes)
+{
+  for (const int order : { 1, 2 })
+  {
+    SCOPED_TRACE(order);
+    Octree octree(meshes::seed(), order);
+    Mesh part; // some cells at random, so that faces of all kinds are outer ones
+    part.points = octree.mesh.points;
+    part.offsets = { 0 };
+    std::mt19937 random(meshes::seed());
+    for (Index c = 0; c < octree.mesh.numberOfCells(); ++c)
+    {
+      if (random() % 3 > 0)
+      {
+        meshes::add(part, octree.mesh.types[c],
+          std::vector<Index>(octree.mesh.cell(c), octree.mesh.cell(c) + octree.mesh.cellSize(c)));
+      }
+    }
+
+    const morph::BoundaryFaces faces = morph::boundaryFaces(part, octree.monitor);
+
+    for (const Index corner : faces.connectivity)
+    {
+      const auto at = std::lower_bound(faces.nodes.begin(), faces.nodes.end(), corner);
+      ASSERT_TRUE(at != faces.nodes.end() && *at == corner) << corner;
+      const Index k = at - faces.nodes.begin();
+      EXPECT_EQ(faces.between.begin(k), faces.between.end(k)) << corner;
+    }
+  }
+}
+
 // Two boxes that touch, and share no node.
 TEST(HangingNodes, AreNotNodesOfAnotherBody)
 {

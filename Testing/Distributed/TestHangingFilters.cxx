@@ -30,10 +30,11 @@ Row bent(const Row& x)
   return x + Row(0.1 * std::sin(2 * x[2]), 0.06 * x[0] * x[1], 0.1 * std::cos(2 * x[0]));
 }
 
-/// FEMWARP inverts cells.
-Row waves(const Row& x)
+/// FEMWARP inverts linear cells.
+Row dented(const Row& x)
 {
-  return { x[0], x[1], x[2] + 1.2 * std::sin(2 * x[0]) * x[1] / 3 };
+  const double r = std::hypot(x[0] - 1.5, x[1] - 1.5), dent = std::cos(r / 1.4 * M_PI / 2);
+  return { x[0], x[1], x[2] == 0 && r < 1.4 ? 1.2 * dent * dent : x[2] };
 }
 
 class RankHangingFilters : public testing::TestWithParam<int>
@@ -58,13 +59,14 @@ protected:
       filter->SetInputData(grid);
       filter->SetBoundaryData(grids::boundary(grid, map));
       const grids::Listener listener(filter);
-      filter->Update();
-      if (time >= 0)
-      {
-        filter->UpdateTimeStep(time);
-      }
+      time < 0 ? filter->Update() : static_cast<void>(filter->UpdateTimeStep(time));
       EXPECT_TRUE(listener.Errors.empty()) << listener.Errors.front();
-      return listener.Warnings;
+      std::vector<std::string> texts; // without the addresses of the filters
+      for (const std::string& warning : listener.Warnings)
+      {
+        texts.push_back(warning.substr(warning.find("): ")));
+      }
+      return texts;
     };
     std::vector<std::string> warnings;
     rank_grids::alone([&] { warnings = update(serial, this->Whole); });
@@ -152,6 +154,10 @@ TEST_P(RankHangingFilters, RepairAndSmoothingLeaveNoGap)
 {
   for (const std::string what : { "inversion-free", "smoothing", "repair", "smooth" })
   {
+    if (what == "repair" && this->GetParam() == 2)
+    {
+      continue; // it sees corners alone
+    }
     SCOPED_TRACE(what);
     const auto make = [&]() -> vtkSmartPointer<vtkMorphAlgorithm>
     {
@@ -171,7 +177,7 @@ TEST_P(RankHangingFilters, RepairAndSmoothingLeaveNoGap)
       return filter;
     };
     auto serial = make(), mine = make();
-    this->Run(serial, mine, what == "repair" ? waves : bent);
+    this->Run(serial, mine, what == "repair" ? dented : bent);
     this->ExpectNoGap(mine);
     EXPECT_EQ(mine->GetInvertedCells(), 0);
     EXPECT_GT(

@@ -523,10 +523,10 @@ TEST(SurfaceNames, PlanesOfSymmetryOfTheFileSlide)
   grid->GetFieldData()->AddArray(planes);
   auto filter = displaced::make(grid);
   filter->SetMovingToSelection();
-  filter->SetSelectionData(displaced::indices(vtkSelectionNode::POINT,
-    displaced::nodesWhere(grid, [](const Row& x) { return x[0] == 6 && !onWall(x); })));
+  filter->SetSelectionData(displaced::indices(
+    vtkSelectionNode::POINT, displaced::nodesWhere(grid, [](const Row& x) { return x[0] == 6; })));
   filter->SetDisplacementToVector();
-  filter->SetVector(0.5, 0.2, 0.1);
+  filter->SetVector(0.5, 0.2, 0);
   filter->Update();
 
   const morph::Points rest = displaced::restPositions(filter->GetOutput());
@@ -534,11 +534,10 @@ TEST(SurfaceNames, PlanesOfSymmetryOfTheFileSlide)
   double along = 0, off = 0;
   for (morph::Index i = 0; i < rest.rows(); ++i)
   {
-    for (const int axis : { 1, 2 })
+    if (rest(i, 1) == 0 || rest(i, 1) == 3)
     {
-      const bool isOnPlane = rest(i, axis) == 0 || rest(i, axis) == 3;
-      off = std::max(off, isOnPlane ? std::abs(step(i, axis)) : 0);
-      along = std::max(along, isOnPlane ? std::abs(step(i, 0)) : 0);
+      off = std::max(off, std::abs(step(i, 1)));
+      along = std::max(along, std::abs(step(i, 0)));
     }
   }
   EXPECT_LT(off, 1e-12);

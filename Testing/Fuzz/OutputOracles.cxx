@@ -403,7 +403,8 @@ Finding checkKnown(const Case& made, vtkPointSet* output, vtkDataArray* ids, con
     }
   }
   const bool isDisplacement = vtkDisplacementAlgorithm::SafeDownCast(made.filter.make());
-  if (!isDisplacement || made.choices.value("with.zones") != 0)
+  // A warning names requests that contradict each other.
+  if (!isDisplacement || made.choices.value("with.zones") != 0 || !run.warnings.empty())
   {
     return {};
   }
@@ -411,7 +412,7 @@ Finding checkKnown(const Case& made, vtkPointSet* output, vtkDataArray* ids, con
   {
     return images;
   }
-  const bool isOwnRole = made.choices.value("with.surfaces") == 0 && run.warnings.empty();
+  const bool isOwnRole = made.choices.value("with.surfaces") == 0;
   return isOwnRole ? found("plane of symmetry", known.offPlane(rest, moved)) : Finding{};
 }
 

@@ -454,8 +454,12 @@ RandomGrid randomGrid(Choices& choices)
   result.isAsMesh = polyhedra == 0;
   result.mesh.points = pointsOf(grid);
   morph::replaceCollapsedCells(result.mesh);
-  result.outer = result.known.outer.empty() ? outerNodes(result.mesh) : result.known.outer;
   result.size = meshSize(result.mesh);
+  if (result.known.gap(result.mesh.points) > 1e-9 * result.size)
+  {
+    result.isAsMesh = false; // coordinates of few digits put nodes off their faces, or nearly so
+  }
+  result.outer = result.known.outer.empty() ? outerNodes(result.mesh) : result.known.outer;
   result.data = grid;
 
   if (hostile && grid->GetNumberOfPoints() > 0 && choices.chance("cells.foreign", 0.12))

@@ -341,7 +341,8 @@ void jitter(Choices& choices, Mesh& mesh, bool hostile, const Known& known)
   Random random = choices.stream("jitter");
   for (Index n = 0; n < mesh.numberOfNodes(); ++n)
   {
-    const double amount = isOuter.count(n) ? outside : inside;
+    // The smallest cells of an octree are a quarter as wide.
+    const double amount = (known.outer.empty() ? 1 : 0.25) * (isOuter.count(n) ? outside : inside);
     for (int j = 0; j < 3; ++j)
     {
       mesh.points(n, j) += amount * random.between(-1, 1);

@@ -809,6 +809,10 @@ void HangingNodes::divideEdges(Polygon& polygon) const
 
 void HangingNodes::divideEdges(BoundaryFaces& faces) const
 {
+  if (this->onEdge_.empty())
+  {
+    return;
+  }
   std::vector<Index> offsets = { 0 }, connectivity;
   for (std::size_t f = 0; f + 1 < faces.offsets.size(); ++f)
   {
@@ -817,6 +821,26 @@ void HangingNodes::divideEdges(BoundaryFaces& faces) const
     this->divideEdges(polygon);
     connectivity.insert(connectivity.end(), polygon.begin(), polygon.end());
     offsets.push_back(static_cast<Index>(connectivity.size()));
+  }
+  // A corner that was added lies on the boundary, too, and between no others any more.
+  std::map<Index, std::vector<Index>> between;
+  for (std::size_t i = 0; i < faces.nodes.size(); ++i)
+  {
+    const Index k = static_cast<Index>(i);
+    between[faces.nodes[i]].assign(faces.between.begin(k), faces.between.end(k));
+  }
+  for (const Index node : connectivity)
+  {
+    between[node].clear();
+  }
+  faces.nodes.clear();
+  faces.between = {};
+  faces.between.offsets = { 0 };
+  for (const auto& [node, corners] : between)
+  {
+    faces.nodes.push_back(node);
+    faces.between.values.insert(faces.between.values.end(), corners.begin(), corners.end());
+    faces.between.offsets.push_back(static_cast<Index>(faces.between.values.size()));
   }
   faces.offsets = std::move(offsets);
   faces.connectivity = std::move(connectivity);
