@@ -2,6 +2,7 @@
 #include "Mesh/HangingNodes.h"
 
 #include "Mesh/CellShape.h"
+#include "Mesh/FacesOfCells.h"
 #include "Mesh/HigherOrderNodes.h"
 #include "Mesh/Polyhedra.h"
 #include "Support/Buckets.h"
@@ -265,8 +266,8 @@ public:
       return result;
     };
     constexpr int Steps = 20; // of Gauss and Newton; one for a flat parallelogram
-    double u = isTriangle ? 1. / 3 : 0.5, v = u;
     const Eigen::Vector3d wanted = (x - origin).transpose();
+    auto [u, v] = this->nearestNode(f, x);
     for (int step = 0; step < Steps; ++step)
     {
       const FaceFunctions at = functions(u, v);
@@ -333,6 +334,22 @@ public:
   }
 
 private:
+  /// The place of the node of `f` next to `x`, where steps to it start.
+  std::pair<double, double> nearestNode(Index f, const Eigen::RowVector3d& x) const
+  {
+    constexpr std::pair<double, double> OfTriangle[] = { { 0, 0 }, { 1, 0 }, { 0, 1 }, { 0.5, 0 },
+      { 0.5, 0.5 }, { 0, 0.5 } };
+    constexpr std::pair<double, double> OfQuadrilateral[] = { { 0, 0 }, { 1, 0 }, { 1, 1 },
+      { 0, 1 }, { 0.5, 0 }, { 1, 0.5 }, { 0.5, 1 }, { 0, 0.5 }, { 0.5, 0.5 } };
+    const Index* nearest = std::min_element(this->begin(f), this->end(f),
+      [&](Index a, Index b)
+      {
+        return (this->mesh_.points.row(a) - x).squaredNorm() <
+               (this->mesh_.points.row(b) - x).squaredNorm();
+      });
+    const Index place = nearest - this->begin(f);
+    return this->corners(f) == 3 ? OfTriangle[place] : OfQuadrilateral[place];
+  }
   Eigen::RowVector3d place(Index f, Index node) const
   {
     return this->mesh_.points.row(this->begin(f)[node]);
@@ -822,28 +839,7 @@ void HangingNodes::divideEdges(BoundaryFaces& faces) const
     connectivity.insert(connectivity.end(), polygon.begin(), polygon.end());
     offsets.push_back(static_cast<Index>(connectivity.size()));
   }
-  // A corner that was added lies on the boundary, too, and between no others any more.
-  std::map<Index, std::vector<Index>> between;
-  for (std::size_t i = 0; i < faces.nodes.size(); ++i)
-  {
-    const Index k = static_cast<Index>(i);
-    between[faces.nodes[i]].assign(faces.between.begin(k), faces.between.end(k));
-  }
-  for (const Index node : connectivity)
-  {
-    between[node].clear();
-  }
-  faces.nodes.clear();
-  faces.between = {};
-  faces.between.offsets = { 0 };
-  for (const auto& [node, corners] : between)
-  {
-    faces.nodes.push_back(node);
-    faces.between.values.insert(faces.between.values.end(), corners.begin(), corners.end());
-    faces.between.offsets.push_back(static_cast<Index>(faces.between.values.size()));
-  }
-  faces.offsets = std::move(offsets);
-  faces.connectivity = std::move(connectivity);
+  setCorners(std::move(offsets), std::move(connectivity), faces);
 }
 
 Mesh HangingNodes::conforming(const Mesh& mesh) const

@@ -16,6 +16,7 @@
 #include <array>
 #include <iterator>
 #include <limits>
+#include <map>
 #include <numeric>
 #include <utility>
 
@@ -363,6 +364,53 @@ BoundaryFaces facesOfCells(
     }
   }
   return describeFaces(mesh, places);
+}
+
+void setCorners(std::vector<Index> offsets, std::vector<Index> connectivity, BoundaryFaces& faces)
+{
+  std::map<Index, std::vector<Index>> between;
+  for (std::size_t i = 0; i < faces.nodes.size(); ++i)
+  {
+    const Index k = static_cast<Index>(i);
+    between[faces.nodes[i]].assign(faces.between.begin(k), faces.between.end(k));
+  }
+  for (const Index node : connectivity)
+  {
+    between[node].clear();
+  }
+  faces.nodes.clear();
+  faces.between = {};
+  faces.between.offsets = { 0 };
+  for (const auto& [node, corners] : between)
+  {
+    faces.nodes.push_back(node);
+    faces.between.values.insert(faces.between.values.end(), corners.begin(), corners.end());
+    faces.between.offsets.push_back(static_cast<Index>(faces.between.values.size()));
+  }
+  faces.offsets = std::move(offsets);
+  faces.connectivity = std::move(connectivity);
+}
+
+BoundaryFaces facesBetween(const Mesh& mesh, const BoundaryFaces& faces, Index first, Index last)
+{
+  std::vector<Place> places;
+  for (Index f = first; f < last; ++f)
+  {
+    places.push_back({ faces.cells[f], faces.sides[f] });
+  }
+  BoundaryFaces result = describeFaces(mesh, places);
+  std::vector<Index> offsets;
+  for (Index f = first; f <= last; ++f)
+  {
+    offsets.push_back(faces.offsets[f] - faces.offsets[first]);
+  }
+  const std::vector<Index> connectivity(faces.connectivity.begin() + faces.offsets[first],
+    faces.connectivity.begin() + faces.offsets[last]);
+  if (connectivity != result.connectivity)
+  {
+    setCorners(std::move(offsets), connectivity, result);
+  }
+  return result;
 }
 
 BoundaryFaces facesAt(const Mesh& mesh, const std::vector<std::pair<Index, int>>& places)
