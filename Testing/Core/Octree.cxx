@@ -157,4 +157,13 @@ double Octree::gap(const Points& points) const
   }
   return most;
 }
+
+Mesh dividedInThree()
+{
+  Mesh linear = hexes(3, 3, 1);
+  linear.points.conservativeResize(36, 3);
+  linear.points.bottomRows(4) << 0, 0, 4, 3, 0, 4, 3, 3, 4, 0, 3, 4;
+  add(linear, morph::Hexahedron, { 16, 19, 31, 28, 32, 33, 34, 35 });
+  return withNodesBetween(linear, { { morph::Hexahedron, { morph::QuadraticHexahedron, 20 } } });
+}
 }

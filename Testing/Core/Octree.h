@@ -42,4 +42,8 @@ private:
   Index node(const Place& place);
   void findHanging(const Place& low, int size, int order);
 };
+
+/// 3 x 3 x 1 hexahedra of 20 nodes under one of three times their size, whose nodes between corners
+/// are no corners of the small ones.
+Mesh dividedInThree();
 }

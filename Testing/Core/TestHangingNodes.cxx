@@ -17,6 +17,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <memory>
 #include <random>
@@ -157,6 +158,38 @@ TEST(HangingNodes, OfTrianglesAndOfFacesThatAreCut)
   EXPECT_TRUE(hanging.nodes().empty());
   EXPECT_FALSE(hanging.empty());
   EXPECT_EQ(outer.cells.size(), 5u + 4u);
+}
+
+// The middle of the large edge follows its corners, and what hangs follows it.
+TEST(HangingNodes, AreTiedToNodesThatFollow)
+{
+  const Mesh mesh = meshes::dividedInThree();
+  morph::Monitor monitor;
+  const auto corners = [&](const std::vector<Index>& all)
+  {
+    std::vector<Index> ids;
+    std::copy_if(
+      all.begin(), all.end(), std::back_inserter(ids), [](Index node) { return node < 36; });
+    return ids;
+  };
+  const morph::NodePartition outer = motions::outerPartition(mesh);
+  morph::BoundaryTargets boundary;
+  boundary.ids = corners(outer.prescribed);
+  boundary.targets = motions::mapped(mesh.points, twisted)(boundary.ids, morph::allColumns);
+  Session session;
+  session.setMesh(mesh, monitor);
+  Session::Options options;
+  options.createMorpher = [] { return std::make_unique<morph::FemWarp>(); };
+
+  const Points moved = session.morph(boundary, options, monitor)->moved;
+
+  // Of the large edge from (0, 0, 1) to (3, 0, 1) at a third.
+  const Index* large = mesh.cell(9);
+  const Row expected =
+    2. / 9 * moved.row(large[0]) + 8. / 9 * moved.row(large[8]) - 1. / 9 * moved.row(large[1]);
+  ASSERT_EQ(mesh.points.row(17), Row(1, 0, 1));
+  EXPECT_LT((moved.row(17) - expected).norm(), 1e-12 * meshes::size(mesh.points));
+  EXPECT_GT((moved.row(large[8]) - mesh.points.row(large[8])).norm(), 0.01);
 }
 
 // Where all cells around an edge are on one side of it, its nodes are on the boundary.

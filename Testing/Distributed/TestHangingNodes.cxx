@@ -153,4 +153,23 @@ TEST_P(RankHangingNodes, HaveTheAdjointOfOneRank)
   }
 }
 
+TEST(RankHangingNodesOfFollowers, AreRefused)
+{
+  const Ranks ranks = pieces::world();
+  const morph::Mesh whole = meshes::dividedInThree();
+  Monitor monitor;
+  const DistributedMesh mesh = pieces::distribute(ranks, whole, 1, meshes::seed());
+  morph::distributed::PolyhedralMethod method(
+    morph::distributed::makeMethod(meshes::linearMethods().front().make()));
+  const std::vector<Index> prescribed = pieces::localNodes(mesh, { 0, 3, 12, 15, 32, 33, 34, 35 });
+
+  const std::string message = pieces::messageOf(
+    [&] {
+      method.prepare(mesh, morph::partitionNodes(mesh.mesh(), mesh.hanging(), prescribed), monitor);
+    });
+
+  EXPECT_NE(message.find("whose middle nodes are no corners of the small cells"), std::string::npos)
+    << message;
+}
+
 INSTANTIATE_TEST_SUITE_P(Orders, RankHangingNodes, testing::Values(1, 2));
