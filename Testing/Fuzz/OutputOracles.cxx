@@ -387,11 +387,12 @@ Finding checkKnown(const Case& made, vtkPointSet* output, vtkDataArray* ids, con
     moved.row(ids ? static_cast<Index>(ids->GetComponent(p, 0)) : p) = points.row(p);
   }
   const double farthest = std::max(rest.cwiseAbs().maxCoeff(), moved.cwiseAbs().maxCoeff());
-  const double allowed = 1e-12 * made.grid.size + 4e-15 * farthest;
+  const double allowed = 1e-12 * made.grid.size + 1e-13 * farthest; // many steps round
   const auto found = [&](const char* oracle, double off)
   {
     std::ostringstream text;
-    text << off / made.grid.size << " of the size";
+    text << off / made.grid.size << " of the size, the farthest coordinate "
+         << farthest / made.grid.size;
     return off > allowed ? Finding{ oracle, text.str() } : Finding{};
   };
   // Coordinates of few digits may leave the faces before.
