@@ -404,8 +404,9 @@ Finding checkKnown(const Case& made, vtkPointSet* output, vtkDataArray* ids, con
     }
   }
   const bool isDisplacement = vtkDisplacementAlgorithm::SafeDownCast(made.filter.make());
-  // A warning names requests that contradict each other.
-  if (!isDisplacement || made.choices.value("with.zones") != 0 || !run.warnings.empty())
+  // Roles may contradict each other, as where one of two images slides.
+  if (!isDisplacement || made.choices.value("with.zones") != 0 || !run.warnings.empty() ||
+      made.choices.value("with.surfaces") != 0)
   {
     return {};
   }
@@ -413,8 +414,7 @@ Finding checkKnown(const Case& made, vtkPointSet* output, vtkDataArray* ids, con
   {
     return images;
   }
-  const bool isOwnRole = made.choices.value("with.surfaces") == 0;
-  return isOwnRole ? found("plane of symmetry", known.offPlane(rest, moved)) : Finding{};
+  return found("plane of symmetry", known.offPlane(rest, moved));
 }
 
 bool hasAdvice(vtkAlgorithm* filter)
