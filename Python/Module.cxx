@@ -474,7 +474,7 @@ Repaired repair(
   const Mesh& mesh, const ConstPoints& points, const Ids& nodes, bool fixesOthers, Monitor& monitor)
 {
   const Ids ids = mesh.hanging().without(Prescribed(mesh, nodes, fixesOthers).all);
-  const morph::NodePartition partition = morph::partitionNodes(mesh.mesh(), ids);
+  const morph::NodePartition partition = morph::partitionNodes(mesh.mesh(), mesh.hanging(), ids);
   const Points targets = points(ids, morph::allColumns);
   const morph::Validity validity{ morph::Validity::Mode::Repair, 0, mesh.mesh(), mesh.mesh().points,
     mesh.before(monitor), partition, mesh.orientation(), targets, mesh.outerFaces(), mesh.hanging(),

@@ -17,7 +17,7 @@ CutMesh::CutMesh(const DistributedMesh& whole, int layers, Monitor& monitor)
     [&]
     {
       monitor.check();
-      cut = std::make_unique<PolyhedronPieces>(whole.mesh(), monitor);
+      cut = std::make_unique<PolyhedronPieces>(whole.hanging().conforming(whole.mesh()), monitor);
     });
   Piece piece = this->ownPieces(*cut);
   this->pieces_ =
@@ -266,7 +266,7 @@ NodePartition CutMesh::extend(const NodePartition& partition) const
   const DistributedMesh& pieces = *this->pieces_;
   const Index plain = static_cast<Index>(this->wholeNode_.size());
   std::vector<std::uint8_t> isHeld(this->whole_->mesh().numberOfNodes(), 0);
-  for (const Index node : partition.prescribed)
+  for (const Index node : this->whole_->hanging().extend(partition).prescribed)
   {
     isHeld[node] = 1;
   }

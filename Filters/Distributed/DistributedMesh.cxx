@@ -3,7 +3,6 @@
 
 #include "Mesh/CellShape.h"
 #include "Mesh/FacesOfCells.h"
-#include "Mesh/HangingNodes.h"
 #include "Mesh/Polyhedra.h"
 #include "Mesh/ShapeVolumes.h"
 #include "Mesh/SharedCorners.h"
@@ -11,7 +10,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
+#include <map>
 #include <numeric>
 #include <set>
 #include <tuple>
@@ -133,6 +134,49 @@ struct DistributedMesh::Builder
         }
       });
     stream[length] = static_cast<std::int64_t>(stream.size() - length - 1);
+  }
+
+  /// Packs the cells around nodes for the ranks that ask for them.
+  void packAround(const std::vector<Directory::Request>& requests)
+  {
+    const Mesh& m = this->mesh.mesh_;
+    std::unordered_map<Index, std::vector<int>> ranksOf;
+    for (const Directory::Request& request : requests)
+    {
+      ranksOf[this->mesh.nodeOf(request.id)].push_back(static_cast<int>(request.rank));
+    }
+    for (Index c = 0; c < this->mesh.pieceCells_ && !ranksOf.empty(); ++c)
+    {
+      if (this->mesh.isGhost_[c] != 0 || !isVolume(m, c))
+      {
+        continue;
+      }
+      for (Index k = 0; k < m.cellSize(c); ++k)
+      {
+        const auto found = ranksOf.find(m.cell(c)[k]);
+        if (found != ranksOf.end())
+        {
+          for (int rank : found->second)
+          {
+            this->pack(c, rank);
+          }
+        }
+      }
+    }
+  }
+
+  /// Sends what is packed, and appends what comes. Returns the new nodes. Collective.
+  std::vector<Index> exchange()
+  {
+    const Ranks& ranks = *this->mesh.ranks_;
+    for (int r = 0; r < ranks.count(); ++r)
+    {
+      this->mesh.bytesSent_ +=
+        this->nodes[r].size() * sizeof(Node) + this->cells[r].size() * sizeof(std::int64_t);
+    }
+    const auto newNodes = ranks.exchange(this->nodes);
+    const auto newCells = ranks.exchange(this->cells);
+    return this->unpack(newNodes, newCells);
   }
 
   /// Appends the cells that other ranks have packed. Returns their new nodes.
@@ -342,9 +386,8 @@ void DistributedMesh::measure()
   this->size_ = std::sqrt(squares);
 }
 
-void DistributedMesh::addGhosts(int layers, Monitor&)
+void DistributedMesh::addGhosts(int layers, Monitor& monitor)
 {
-  const Ranks& ranks = *this->ranks_;
   // The cells around each node of the piece that other ranks may ask for.
   std::vector<std::int64_t> wanted;
   for (Index n = 0; n < this->pieceNodes_; ++n)
@@ -358,44 +401,229 @@ void DistributedMesh::addGhosts(int layers, Monitor&)
   for (int layer = 0; layer < layers; ++layer)
   {
     const std::vector<Directory::Request> requests = this->directory_->requests(wanted);
-    std::unordered_map<Index, std::vector<int>> ranksOf;
-    for (const Directory::Request& request : requests)
-    {
-      ranksOf[this->nodeOf(request.id)].push_back(static_cast<int>(request.rank));
-    }
     builder.open();
-    for (Index c = 0; c < this->pieceCells_ && !ranksOf.empty(); ++c)
-    {
-      if (this->isGhost_[c] != 0 || !isVolume(this->mesh_, c))
-      {
-        continue;
-      }
-      for (Index k = 0; k < this->mesh_.cellSize(c); ++k)
-      {
-        const auto found = ranksOf.find(this->mesh_.cell(c)[k]);
-        if (found != ranksOf.end())
-        {
-          for (int rank : found->second)
-          {
-            builder.pack(c, rank);
-          }
-        }
-      }
-    }
-    for (int r = 0; r < ranks.count(); ++r)
-    {
-      this->bytesSent_ += builder.nodes[r].size() * sizeof(Builder::Node) +
-                          builder.cells[r].size() * sizeof(std::int64_t);
-    }
-    const auto nodes = ranks.exchange(builder.nodes);
-    const auto cells = ranks.exchange(builder.cells);
+    builder.packAround(requests);
     wanted.clear();
-    for (Index node : builder.unpack(nodes, cells))
+    for (Index node : builder.exchange())
     {
       wanted.push_back(this->nodeIds_[node]);
     }
   }
+  this->findHanging(builder, monitor);
   this->cellHalo_ = Halo(builder.packed, builder.unpacked);
+}
+
+namespace
+{
+/// The cells with faces that one cell alone has, of all ranks, in the order of their ids.
+struct FacesOfRanks
+{
+  Mesh mesh;                         ///< of these cells; nodes in the order of their ids
+  std::vector<std::int64_t> nodeIds; ///< #nodes
+  std::vector<std::int64_t> cellIds; ///< #cells
+  std::vector<int> ranks;            ///< #cells, that own them
+  std::vector<Index> numbers;        ///< #cells, local there
+  BoundaryFaces faces;
+
+  /// `sides`: of this rank's own cells. Collective.
+  FacesOfRanks(const DistributedMesh& part, const std::map<Index, std::vector<int>>& sides)
+  {
+    const Mesh& own = part.mesh();
+    std::vector<std::int64_t> stream;
+    std::map<std::int64_t, NodeRecord> nodes;
+    for (const auto& [cell, its] : sides)
+    {
+      stream.insert(stream.end(), { part.cellId(cell), part.ranks().rank(), cell, own.types[cell],
+                                    own.cellSize(cell), static_cast<std::int64_t>(its.size()) });
+      for (Index k = 0; k < own.cellSize(cell); ++k)
+      {
+        const Index node = own.cell(cell)[k];
+        const auto x = own.points.row(node);
+        stream.push_back(part.nodeId(node));
+        nodes[part.nodeId(node)] = { part.nodeId(node), { x[0], x[1], x[2] }, 1 };
+      }
+      stream.insert(stream.end(), its.begin(), its.end());
+    }
+    std::vector<NodeRecord> records;
+    std::transform(nodes.begin(), nodes.end(), std::back_inserter(records),
+      [](const auto& node) { return node.second; });
+    stream = part.ranks().gather(stream);
+    for (const NodeRecord& node : part.ranks().gather(records))
+    {
+      nodes.emplace(node.id, node);
+    }
+    this->mesh.points.resize(static_cast<Index>(nodes.size()), 3);
+    for (const auto& [id, node] : nodes)
+    {
+      const auto [x, y, z] = node.x;
+      this->mesh.points.row(static_cast<Index>(this->nodeIds.size())) << x, y, z;
+      this->nodeIds.push_back(id);
+    }
+    this->takeCells(stream);
+  }
+
+private:
+  void takeCells(const std::vector<std::int64_t>& stream)
+  {
+    constexpr std::size_t Head = 6;
+    std::map<std::int64_t, std::size_t> starts;
+    for (std::size_t at = 0; at < stream.size(); at += Head + stream[at + 4] + stream[at + 5])
+    {
+      starts[stream[at]] = at;
+    }
+    std::vector<std::pair<Index, int>> places;
+    this->mesh.offsets = { 0 };
+    for (const auto& [id, at] : starts)
+    {
+      for (std::int64_t k = 0; k < stream[at + 5]; ++k)
+      {
+        places.emplace_back(static_cast<Index>(this->cellIds.size()),
+          static_cast<int>(stream[at + Head + stream[at + 4] + k]));
+      }
+      this->cellIds.push_back(id);
+      this->ranks.push_back(static_cast<int>(stream[at + 1]));
+      this->numbers.push_back(stream[at + 2]);
+      this->mesh.types.push_back(static_cast<std::uint8_t>(stream[at + 3]));
+      for (std::int64_t k = 0; k < stream[at + 4]; ++k)
+      {
+        const auto node =
+          std::lower_bound(this->nodeIds.begin(), this->nodeIds.end(), stream[at + Head + k]);
+        this->mesh.connectivity.push_back(node - this->nodeIds.begin());
+      }
+      this->mesh.offsets.push_back(static_cast<Index>(this->mesh.connectivity.size()));
+    }
+    this->faces = facesAt(this->mesh, places);
+  }
+};
+}
+
+/// A node may hang on a face of another rank's cell, of which it has no node. So every rank gets the
+/// faces that one cell alone has, and finds the same ties as one process.
+void DistributedMesh::findHanging(Builder& builder, Monitor& monitor)
+{
+  const Ranks& ranks = *this->ranks_;
+  if (ranks.sum(Index(hasPolyhedra(this->mesh_))) > 0)
+  {
+    return;
+  }
+  std::map<Index, std::vector<int>> sides;
+  bool mayBe = false;
+  ranks.together(
+    [&]
+    {
+      const BoundaryFaces faces = facesOfOneCell(this->mesh_, monitor);
+      std::vector<std::uint8_t> isOwn(this->isGhost_.size());
+      std::transform(this->isGhost_.begin(), this->isGhost_.end(), isOwn.begin(),
+        [](std::uint8_t ghost) { return ghost == 0; });
+      mayBe = HangingNodes::mayBeAmong(this->mesh_, faces, isOwn, monitor);
+      for (std::size_t f = 0; f < faces.cells.size(); ++f)
+      {
+        if (isOwn[faces.cells[f]] != 0)
+        {
+          sides[faces.cells[f]].push_back(faces.sides[f]);
+        }
+      }
+    });
+  if (ranks.sum(Index(mayBe)) == 0)
+  {
+    return;
+  }
+  const FacesOfRanks all(*this, sides);
+  HangingNodes hanging;
+  Mesh conforming;
+  ranks.together(
+    [&]
+    {
+      hanging.find(all.mesh, all.faces, monitor);
+      conforming = hanging.conforming(all.mesh);
+    });
+  this->hasHanging_ = !hanging.empty();
+  if (!this->hasHanging_)
+  {
+    return;
+  }
+  // Cells and the nodes that lie on them, but are not theirs: each rank gets all around its nodes.
+  std::vector<std::int64_t> wanted;
+  std::vector<std::vector<Index>> asked(ranks.count());
+  for (Index c = 0; c < all.mesh.numberOfCells(); ++c)
+  {
+    const Index *begin = all.mesh.cell(c), *end = begin + all.mesh.cellSize(c);
+    bool isAround = false;
+    for (Index k = 0; k < conforming.cellSize(c); ++k)
+    {
+      const Index node = conforming.cell(c)[k];
+      if (std::find(begin, end, node) != end)
+      {
+        continue;
+      }
+      const Index local = this->nodeOf(all.nodeIds[node]);
+      isAround = isAround || (local >= 0 && local < this->pieceNodes_ && this->isUsed_[local] != 0);
+      if (all.ranks[c] == ranks.rank())
+      {
+        wanted.push_back(all.nodeIds[node]);
+      }
+    }
+    if (isAround && all.ranks[c] != ranks.rank())
+    {
+      asked[all.ranks[c]].push_back(all.numbers[c]);
+    }
+  }
+  std::sort(wanted.begin(), wanted.end());
+  wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
+  builder.open();
+  builder.packAround(this->directory_->requests(wanted));
+  const auto requests = ranks.exchange(asked);
+  for (int r = 0; r < ranks.count(); ++r)
+  {
+    std::for_each(
+      requests[r].begin(), requests[r].end(), [&](Index cell) { builder.pack(cell, r); });
+  }
+  builder.exchange();
+
+  std::vector<Index> nodeOf, cellOf(all.cellIds.size(), -1), known, cells;
+  for (const std::int64_t id : all.nodeIds)
+  {
+    nodeOf.push_back(this->nodeOf(id));
+    if (nodeOf.back() >= 0)
+    {
+      known.push_back(static_cast<Index>(nodeOf.size()) - 1);
+    }
+  }
+  for (std::size_t c = 0; c < this->cellIds_.size(); ++c)
+  {
+    const auto found = std::lower_bound(all.cellIds.begin(), all.cellIds.end(), this->cellIds_[c]);
+    const bool isCopy = static_cast<Index>(c) < this->pieceCells_ && this->isGhost_[c] != 0;
+    if (!isCopy && found != all.cellIds.end() && *found == this->cellIds_[c])
+    {
+      cellOf[found - all.cellIds.begin()] = static_cast<Index>(c);
+      cells.push_back(found - all.cellIds.begin());
+    }
+  }
+  std::sort(cells.begin(), cells.end());
+  std::vector<Index> missing;
+  std::vector<std::int64_t> ids;
+  for (const Index node : hanging.reach(known, cells))
+  {
+    if (nodeOf[node] < 0)
+    {
+      missing.push_back(node);
+      ids.push_back(all.nodeIds[node]);
+    }
+  }
+  const std::vector<int> owners = this->directory_->owners(ids);
+  const Index before = this->mesh_.numberOfNodes();
+  this->mesh_.points.conservativeResize(before + static_cast<Index>(missing.size()), 3);
+  for (std::size_t i = 0; i < missing.size(); ++i)
+  {
+    const Index node = before + static_cast<Index>(i);
+    this->mesh_.points.row(node) = all.mesh.points.row(missing[i]);
+    this->nodeIds_.push_back(ids[i]);
+    this->owner_.push_back(owners[i]);
+    this->byId_.emplace_back(ids[i], node);
+    nodeOf[missing[i]] = node;
+  }
+  std::sort(this->byId_.begin(), this->byId_.end());
+  this->hanging_ = hanging.renumbered(nodeOf, cellOf, this->mesh_.numberOfNodes());
 }
 
 void DistributedMesh::findBodies(Monitor& monitor)
@@ -467,22 +695,18 @@ void DistributedMesh::findBodies(Monitor& monitor)
 void DistributedMesh::findOuter(Monitor& monitor)
 {
   BoundaryFaces all;
-  HangingNodes hanging;
   this->ranks_->together(
     [&]
     {
-      all = boundaryFaces(this->mesh_, hanging, monitor);
-      if (!hanging.empty())
+      all = facesOfOneCell(this->mesh_, monitor);
+      if (!this->hanging_.empty())
       {
-        std::vector<Index> ids = this->idsOfNodes(hanging.nodes());
-        std::sort(ids.begin(), ids.end());
-        throw Error("The mesh has faces that are divided on one side alone (2:1 refinement). Such "
-                    "nodes hang in faces of their neighbors, which several MPI processes cannot "
-                    "treat: point ids " +
-                    listIds(ids) + ". Run on one process, or refine both sides alike.");
+        all = boundaryFaces(this->mesh_, all, this->hanging_);
       }
       this->repeated_ = morph::repeatedCells(this->mesh_, monitor);
-      this->touching_ = morph::touchingNodes(this->mesh_, all);
+      this->touching_ = this->hanging_.empty()
+                          ? morph::touchingNodes(this->mesh_, all)
+                          : morph::touchingNodes(this->hanging_.conforming(this->mesh_), all);
     });
   const auto keepOwn = [](std::vector<Index>& ids, const auto& isOther)
   { ids.erase(std::remove_if(ids.begin(), ids.end(), isOther), ids.end()); };
@@ -492,6 +716,7 @@ void DistributedMesh::findOuter(Monitor& monitor)
   std::transform(this->isGhost_.begin(), this->isGhost_.end(), isOwn.begin(),
     [](std::uint8_t ghost) { return ghost == 0; });
   this->outerFaces_ = facesOfCells(this->mesh_, all, isOwn);
+  this->hanging_.divideEdges(this->outerFaces_);
   // All cells around a node of the piece's own cells are here, so that its faces are known.
   this->outerNodes_.between.offsets = { 0 };
   for (std::size_t i = 0; i < all.nodes.size(); ++i)

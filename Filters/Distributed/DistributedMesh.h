@@ -6,6 +6,7 @@
 #include "Distributed/Piece.h"
 #include "Distributed/Ranks.h"
 
+#include "Mesh/HangingNodes.h"
 #include "Mesh/Mesh.h"
 #include "Mesh/Topology.h"
 #include "Support/Monitor.h"
@@ -28,7 +29,9 @@ class DistributedMesh
 public:
   /// Builds the ghosts. `piece`: with node and cell ids. `layers`: of cells around the piece's
   /// nodes, 1 or more. Throws Error on all ranks where the pieces do not fit together. Collective.
-  /// Cost: messages of the size of the interfaces, and a directory of 40 bytes a node.
+  /// Cost: messages of the size of the interfaces, and a directory of 40 bytes a node. Where faces
+  /// are divided on one side alone, every rank gets the cells at the whole boundary: 24 bytes for
+  /// each of their nodes, and 8 for each corner.
   DistributedMesh(const Ranks& ranks, Piece piece, int layers, Monitor& monitor);
 
   /// The same mesh with its nodes elsewhere: what follows from cells, bodies, their orientation,
@@ -71,6 +74,12 @@ public:
   Index mirroredBodies() const { return this->mirrored_; }
   /// The outer faces of the whole mesh that belong to this rank's cells.
   const BoundaryFaces& outerFaces() const { return this->outerFaces_; }
+  /// What hangs in the whole mesh, of the local nodes and cells. What a local node is tied to, and
+  /// the nodes on faces and edges of local cells, are local nodes. Cells that a node lies on count
+  /// as those around it.
+  const HangingNodes& hanging() const { return this->hanging_; }
+  /// Whether any rank has nodes that hang, or cells at divided faces.
+  bool hasHanging() const { return this->hasHanging_; }
   /// The nodes of this rank's cells that lie on the outer boundary of the whole mesh, with
   /// `between`; its faces are not those.
   const BoundaryFaces& outerNodes() const { return this->outerNodes_; }
@@ -91,6 +100,7 @@ private:
   struct Builder;
   std::vector<NodeRecord> numberNodes();
   void addGhosts(int layers, Monitor& monitor);
+  void findHanging(Builder& builder, Monitor& monitor);
   void findBodies(Monitor& monitor);
   void findOuter(Monitor& monitor);
   void measure();
@@ -109,6 +119,8 @@ private:
   ConnectedComponents bodies_;
   std::vector<std::int8_t> orientation_;
   Index mirrored_ = 0;
+  HangingNodes hanging_;
+  bool hasHanging_ = false;
   BoundaryFaces outerFaces_, outerNodes_;
   std::vector<Index> repeated_, touching_;
   double size_ = 0;

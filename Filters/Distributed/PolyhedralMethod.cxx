@@ -3,7 +3,11 @@
 
 #include "Distributed/SystemMethod.h"
 
+#include "Support/Error.h"
+
+#include <cstdint>
 #include <utility>
+#include <vector>
 
 namespace morph::distributed
 {
@@ -30,6 +34,33 @@ void PolyhedralMethod::doPrepare(Monitor& monitor)
 {
   const DistributedMesh& whole = this->mesh();
   requirePrescribedBodies(whole, this->partition()); // its message counts cells, not pieces
+  // As their owners have them, who know all cells around them.
+  std::vector<std::int64_t> follows(whole.mesh().numberOfNodes(), 0);
+  for (const Index node : this->partition().higherOrderNodes)
+  {
+    follows[node] = 1;
+  }
+  whole.halo().update(whole.ranks(), follows);
+  std::vector<Index> followers;
+  for (std::size_t n = 0; n < follows.size(); ++n)
+  {
+    if (follows[n] != 0)
+    {
+      followers.push_back(static_cast<Index>(n));
+    }
+  }
+  const std::vector<Index> loose = whole.hanging().tiedTo(followers);
+  whole.ranks().together(
+    [&]
+    {
+      if (!loose.empty())
+      {
+        throw Error(
+          "Nodes hang on faces of quadratic cells whose middle nodes are no corners of the "
+          "small cells, which several MPI processes cannot treat: point ids " +
+          listIds(whole.idsOfNodes(loose)) + ". Run on one process.");
+      }
+    });
   this->cut_ = std::make_unique<CutMesh>(whole, this->method_->layers(), monitor);
   if (whole.ranks().sum(static_cast<Index>(this->reference_.rows())) > 0)
   {
@@ -56,30 +87,47 @@ EvaluateReport PolyhedralMethod::displace(
 {
   Points displacement = Points::Zero(this->mesh().mesh().numberOfNodes(), 3);
   displacement(this->partition().prescribed, allColumns) = prescribed;
+  this->mesh().hanging().apply(displacement);
   const Points all = this->cut_->extend(displacement);
   Points field;
   const EvaluateReport report =
     this->method_->mode(all(this->method_->partition().prescribed, allColumns), field, monitor);
-  for (Index i = 0; i < free.rows(); ++i)
-  {
-    free.row(i) = field.row(this->cut_->nodeOf(this->ownFree()[i]));
-  }
+  displacement = this->cut_->reduce(field, std::move(displacement));
+  this->mesh().hanging().apply(displacement);
+  free = displacement(this->ownFree(), allColumns);
   return report;
 }
 
 EvaluateReport PolyhedralMethod::displaceTranspose(
   const Points& free, Points& prescribed, Monitor& monitor) const
 {
-  const Index nodes = this->cut_->mesh().mesh().numberOfNodes();
-  Points gradient = Points::Zero(nodes, 3), given;
-  for (Index i = 0; i < free.rows(); ++i)
+  // The ties of a rank's own nodes give to ghosts, which give to their owners.
+  const DistributedMesh& whole = this->mesh();
+  const auto applyTies = [&](Points& rows)
   {
-    gradient.row(this->cut_->nodeOf(this->ownFree()[i])) = free.row(i);
+    whole.hanging().applyTranspose(rows);
+    whole.halo().add(whole.ranks(), rows);
+  };
+  const Index nodes = this->cut_->mesh().mesh().numberOfNodes();
+  Points own = Points::Zero(whole.mesh().numberOfNodes(), 3);
+  own(this->ownFree(), allColumns) = free;
+  applyTies(own);
+  prescribed += own(this->partition().prescribed, allColumns);
+  Points gradient = Points::Zero(nodes, 3), given;
+  for (const Index node : this->ownFree())
+  {
+    if (this->cut_->nodeOf(node) >= 0)
+    {
+      gradient.row(this->cut_->nodeOf(node)) = own.row(node);
+    }
   }
   const EvaluateReport report = this->method_->applyTranspose(gradient, given, monitor);
   Points all = Points::Zero(nodes, 3);
   all(this->method_->partition().prescribed, allColumns) = given;
-  prescribed += this->cut_->extendTranspose(all)(this->partition().prescribed, allColumns);
+  own = this->cut_->extendTranspose(all);
+  whole.halo().add(whole.ranks(), own);
+  applyTies(own);
+  prescribed += own(this->partition().prescribed, allColumns);
   return report;
 }
 }

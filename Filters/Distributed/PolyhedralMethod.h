@@ -10,8 +10,8 @@
 
 namespace morph::distributed
 {
-/// A method on a distributed mesh with polyhedra: another method on their pieces, as
-/// morph::morpherForPolyhedra() has it.
+/// A method on a distributed mesh with polyhedra, or with nodes that hang: another method on the
+/// pieces of cells, as morph::morpherForPolyhedra() has it.
 class PolyhedralMethod : public Method
 {
 public:

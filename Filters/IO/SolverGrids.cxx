@@ -151,6 +151,15 @@ void setFieldData(const SolverMesh& whole, const std::string& path, vtkFieldData
     }
     data->AddArray(pairs);
   }
+  if (!whole.symmetry.empty())
+  {
+    const auto planes = stringArray("SymmetrySurfaces");
+    for (const std::string& name : whole.symmetry)
+    {
+      planes->InsertNextValue(name);
+    }
+    data->AddArray(planes);
+  }
   const auto file = stringArray("SolverFile");
   file->InsertNextValue(path);
   data->AddArray(file);

@@ -3,6 +3,7 @@
 
 #include "InThreads.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdlib>
@@ -211,6 +212,52 @@ Mesh quadraticTets(int nx, int ny, int nz)
 {
   Mesh mesh = tets(nx, ny, nz);
   addExtraNodes(mesh, QuadraticTetra);
+  return mesh;
+}
+
+Mesh withNodesBetween(const Mesh& linear, const std::map<std::uint8_t, CellKind>& kinds)
+{
+  Mesh mesh;
+  mesh.offsets = { 0 };
+  mesh.points = linear.points;
+  std::map<std::vector<std::pair<Index, long>>, Index> known; // by shares of corners
+  for (Index c = 0; c < linear.numberOfCells(); ++c)
+  {
+    std::vector<Index> nodes(linear.cell(c), linear.cell(c) + linear.cellSize(c));
+    const auto kind = kinds.find(linear.types[c]);
+    if (kind == kinds.end())
+    {
+      add(mesh, linear.types[c], nodes);
+      continue;
+    }
+    const auto [type, count] = kind->second;
+    const morph::CellShape& shape =
+      type < morph::LagrangeCurve ? *morph::cellShape(type) : *morph::shapeOfAnyOrder(type, count);
+    for (Index k = shape.numberOfCorners; k < count; ++k)
+    {
+      double N[8];
+      morph::shapeFunctions(shape.shape, shape.extraNodes[k - shape.numberOfCorners], N, nullptr);
+      std::vector<std::pair<Index, long>> between;
+      Eigen::RowVector3d place = Eigen::RowVector3d::Zero();
+      for (int a = 0; a < shape.numberOfCorners; ++a)
+      {
+        if (N[a] != 0)
+        {
+          between.emplace_back(nodes[a], std::lround(1e6 * N[a]));
+          place += N[a] * linear.points.row(nodes[a]);
+        }
+      }
+      std::sort(between.begin(), between.end());
+      const auto [found, isNew] = known.emplace(between, mesh.numberOfNodes());
+      if (isNew)
+      {
+        mesh.points.conservativeResize(found->second + 1, 3);
+        mesh.points.row(found->second) = place;
+      }
+      nodes.push_back(found->second);
+    }
+    add(mesh, type, nodes);
+  }
   return mesh;
 }
 

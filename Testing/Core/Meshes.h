@@ -5,7 +5,9 @@
 #include "Mesh/Mesh.h"
 #include "Support/Monitor.h"
 
+#include <cstdint>
 #include <functional>
+#include <map>
 #include <random>
 #include <string>
 #include <thread>
@@ -35,6 +37,16 @@ Mesh hexesAndWedges(int nx, int ny, int nz);
 Mesh quadraticHexes(int nx, int ny, int nz, bool triquadratic);
 /// tets() with mid-side nodes.
 Mesh quadraticTets(int nx, int ny, int nz);
+
+/// A cell type, and its number of nodes.
+struct CellKind
+{
+  std::uint8_t type;
+  Index nodes;
+};
+/// The linear cells with the nodes between their corners that other types have, which cells share.
+/// `kinds`: by linear types; others stay.
+Mesh withNodesBetween(const Mesh& linear, const std::map<std::uint8_t, CellKind>& kinds);
 
 /// All of the above at one size, with a name for the message.
 std::vector<std::pair<std::string, Mesh>> all(int nx, int ny, int nz);

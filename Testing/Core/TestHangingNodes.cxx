@@ -7,6 +7,7 @@
 #include "Mesh/HangingNodes.h"
 #include "Meshes.h"
 #include "Motions.h"
+#include "Octree.h"
 #include "Quality/ScaledJacobian.h"
 #include "Session/Session.h"
 #include "Untangling/InversionFree.h"
@@ -16,6 +17,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <memory>
 #include <random>
@@ -32,127 +34,20 @@ using morph::Points;
 using morph::Session;
 using motions::Row;
 
-constexpr int Width = 3, Height = 2; // cells of the box before refinement
-
-/// A box of cubes, some of them in eight, some of these in eight again, and the nodes that hang.
-struct Octree
+/// The octree, and what a session needs with it.
+struct Octree : meshes::Octree
 {
-  using Place = std::array<int, 3>; ///< in quarters of a cube
-  struct Hanging
-  {
-    Index node;
-    std::vector<Index> corners; ///< of the face or edge that it lies on
-    std::vector<double> weights;
-  };
+  meshes::ThreadedMonitor monitor;
 
-  Mesh mesh;
-  std::map<Place, Index> nodeAt;
-  std::vector<Hanging> hanging;
-  morph::Monitor monitor;
-
-  explicit Octree(unsigned seed)
+  explicit Octree(unsigned seed, int order = 1)
+    : meshes::Octree(seed, order)
   {
-    std::mt19937 random(seed);
-    mesh.offsets = { 0 };
-    mesh.points.resize(0, 3);
-    std::vector<std::pair<Place, int>> boxes, open; // corners and sizes
-    for (int c = 0; c < Width * Width * Height; ++c)
+    if (order == 2) // faces are curved, and their nodes at the shape functions' places
     {
-      open.push_back({ { 4 * (c % Width), 4 * (c / Width % Width), 4 * (c / Width / Width) }, 4 });
+      meshes::transform(mesh,
+        [](const Row& x) -> Row
+        { return x + 0.05 * Row(x[1] * x[2], x[0] * x[0] - x[2] * x[0], x[1] * x[1]); });
     }
-    for (std::size_t i = 0; i < open.size(); ++i)
-    {
-      const auto [low, size] = open[i];
-      if (size == 1 || (i != 0 && (i == 1 || random() % 3 > 0))) // the second stays whole
-      {
-        boxes.emplace_back(low, size);
-        continue;
-      }
-      for (int k = 0; k < 8; ++k)
-      {
-        open.emplace_back(at(low, { k % 2, k / 2 % 2, k / 4 }, size / 2), size / 2);
-      }
-    }
-    for (const auto& [low, size] : boxes)
-    {
-      std::vector<Index> nodes;
-      for (const Place& corner : Corner)
-      {
-        nodes.push_back(node(at(low, corner, size)));
-      }
-      meshes::add(mesh, morph::Hexahedron, nodes);
-    }
-    for (const auto& [low, size] : boxes)
-    {
-      findHanging(low, size);
-    }
-  }
-
-  static constexpr Place Corner[8] = { { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, 0 },
-    { 0, 0, 1 }, { 1, 0, 1 }, { 1, 1, 1 }, { 0, 1, 1 } };
-
-  static Place at(const Place& low, const Place& step, int size)
-  {
-    return { low[0] + size * step[0], low[1] + size * step[1], low[2] + size * step[2] };
-  }
-  Index node(const Place& place)
-  {
-    const auto [found, isNew] = nodeAt.emplace(place, mesh.numberOfNodes());
-    if (isNew)
-    {
-      mesh.points.conservativeResize(found->second + 1, 3);
-      mesh.points.row(found->second) << place[0] / 4., place[1] / 4., place[2] / 4.;
-    }
-    return found->second;
-  }
-  /// Nodes on a box that are no corners of it.
-  void findHanging(const Place& low, int size)
-  {
-    for (int k = 0; k < (size + 1) * (size + 1) * (size + 1); ++k)
-    {
-      const Place step = { k % (size + 1), k / (size + 1) % (size + 1),
-        k / (size + 1) / (size + 1) };
-      const auto found = nodeAt.find(at(low, step, 1));
-      if (found == nodeAt.end())
-      {
-        continue;
-      }
-      Hanging own = { found->second, {}, {} };
-      for (const Place& corner : Corner)
-      {
-        double weight = 1;
-        for (int j = 0; j < 3; ++j)
-        {
-          const double part = static_cast<double>(step[j]) / size;
-          weight *= corner[j] == 1 ? part : 1 - part;
-        }
-        if (weight > 0)
-        {
-          own.corners.push_back(nodeAt.at(at(low, corner, size)));
-          own.weights.push_back(weight);
-        }
-      }
-      if (own.corners.size() > 1)
-      {
-        hanging.push_back(own);
-      }
-    }
-  }
-
-  /// The largest distance of a node that hangs from its place on its face or edge.
-  double gap(const Points& points) const
-  {
-    double most = 0;
-    for (const Hanging& own : hanging)
-    {
-      Row off = points.row(own.node);
-      for (std::size_t k = 0; k < own.corners.size(); ++k)
-      {
-        off -= own.weights[k] * points.row(own.corners[k]);
-      }
-      most = std::max(most, off.norm());
-    }
-    return most;
   }
 
   morph::BoundaryTargets boundary(const motions::Map& map)
@@ -161,6 +56,7 @@ struct Octree
     return { outer.prescribed, motions::targets(mesh, outer, map) };
   }
 };
+constexpr int Width = Octree::Width, Height = Octree::Height;
 
 Row twisted(const Row& x)
 {
@@ -191,7 +87,9 @@ TEST(HangingNodes, AreThoseOfTheRefinement)
 {
   for (unsigned trial = 0; trial < 20; ++trial)
   {
-    Octree octree(meshes::seed() + trial);
+    const int order = trial % 2 == 0 ? 1 : 2;
+    Octree octree(meshes::seed() + trial, order);
+    const meshes::Octree straight(meshes::seed() + trial, order);
     HangingNodes found;
     const morph::BoundaryFaces outer = morph::boundaryFaces(octree.mesh, found, octree.monitor);
     std::set<Index> expected;
@@ -203,7 +101,7 @@ TEST(HangingNodes, AreThoseOfTheRefinement)
       << "seed " << meshes::seed() << ", trial " << trial;
     const auto isOnBox = [&](Index node)
     {
-      const Row x = octree.mesh.points.row(node);
+      const Row x = straight.mesh.points.row(node);
       return (x.array() == 0 || x.array() == Row(Width, Width, Height).array()).any();
     };
     EXPECT_TRUE(std::all_of(outer.nodes.begin(), outer.nodes.end(), isOnBox));
@@ -211,7 +109,7 @@ TEST(HangingNodes, AreThoseOfTheRefinement)
       morph::UndeformedMesh(octree.mesh, nullptr, octree.monitor).touchingNodes().empty());
     const Mesh conforming = found.conforming(octree.mesh);
     EXPECT_NO_THROW(morph::validate(conforming));
-    EXPECT_EQ(morph::boundaryFaces(conforming, octree.monitor).nodes, outer.nodes);
+    EXPECT_EQ(morph::boundaryFaces(conforming, octree.monitor).cells.size(), outer.cells.size());
   }
 }
 
@@ -262,6 +160,70 @@ TEST(HangingNodes, OfTrianglesAndOfFacesThatAreCut)
   EXPECT_EQ(outer.cells.size(), 5u + 4u);
 }
 
+// The middle of the large edge follows its corners, and what hangs follows it.
+TEST(HangingNodes, AreTiedToNodesThatFollow)
+{
+  const Mesh mesh = meshes::dividedInThree();
+  morph::Monitor monitor;
+  const auto corners = [&](const std::vector<Index>& all)
+  {
+    std::vector<Index> ids;
+    std::copy_if(
+      all.begin(), all.end(), std::back_inserter(ids), [](Index node) { return node < 36; });
+    return ids;
+  };
+  const morph::NodePartition outer = motions::outerPartition(mesh);
+  morph::BoundaryTargets boundary;
+  boundary.ids = corners(outer.prescribed);
+  boundary.targets = motions::mapped(mesh.points, twisted)(boundary.ids, morph::allColumns);
+  Session session;
+  session.setMesh(mesh, monitor);
+  Session::Options options;
+  options.createMorpher = [] { return std::make_unique<morph::FemWarp>(); };
+
+  const Points moved = session.morph(boundary, options, monitor)->moved;
+
+  // Of the large edge from (0, 0, 1) to (3, 0, 1) at a third.
+  const Index* large = mesh.cell(9);
+  const Row expected =
+    2. / 9 * moved.row(large[0]) + 8. / 9 * moved.row(large[8]) - 1. / 9 * moved.row(large[1]);
+  ASSERT_EQ(mesh.points.row(17), Row(1, 0, 1));
+  EXPECT_LT((moved.row(17) - expected).norm(), 1e-12 * meshes::size(mesh.points));
+  EXPECT_GT((moved.row(large[8]) - mesh.points.row(large[8])).norm(), 0.01);
+}
+
+// Where all cells around an edge are on one side of it, its nodes are on the boundary.
+TEST(HangingNodes, OnAnEdgeOfTheBoundaryAreItsNodes)
+{
+  for (const int order : { 1, 2 })
+  {
+    SCOPED_TRACE(order);
+    Octree octree(meshes::seed(), order);
+    Mesh part; // some cells at random, so that faces of all kinds are outer ones
+    part.points = octree.mesh.points;
+    part.offsets = { 0 };
+    std::mt19937 random(meshes::seed());
+    for (Index c = 0; c < octree.mesh.numberOfCells(); ++c)
+    {
+      if (random() % 3 > 0)
+      {
+        meshes::add(part, octree.mesh.types[c],
+          std::vector<Index>(octree.mesh.cell(c), octree.mesh.cell(c) + octree.mesh.cellSize(c)));
+      }
+    }
+
+    const morph::BoundaryFaces faces = morph::boundaryFaces(part, octree.monitor);
+
+    for (const Index corner : faces.connectivity)
+    {
+      const auto at = std::lower_bound(faces.nodes.begin(), faces.nodes.end(), corner);
+      ASSERT_TRUE(at != faces.nodes.end() && *at == corner) << corner;
+      const Index k = at - faces.nodes.begin();
+      EXPECT_EQ(faces.between.begin(k), faces.between.end(k)) << corner;
+    }
+  }
+}
+
 // Two boxes that touch, and share no node.
 TEST(HangingNodes, AreNotNodesOfAnotherBody)
 {
@@ -281,36 +243,48 @@ TEST(HangingNodes, AreNotNodesOfAnotherBody)
 
 TEST_P(HangingNodesOf, FollowAnAffineMotion)
 {
-  Octree octree(meshes::seed());
-  const auto step = morphed(octree, motions::affine, this->options());
-  const Points expected = motions::mapped(octree.mesh.points, motions::affine);
-  EXPECT_LT(motions::difference(step->moved, expected), 1e-10 * meshes::size(octree.mesh.points));
+  for (const int order : { 1, 2 })
+  {
+    Octree octree(meshes::seed(), order);
+    const auto step = morphed(octree, motions::affine, this->options());
+    const Points expected = motions::mapped(octree.mesh.points, motions::affine);
+    EXPECT_LT(motions::difference(step->moved, expected), 1e-10 * meshes::size(octree.mesh.points))
+      << "order " << order;
+  }
 }
 
 TEST_P(HangingNodesOf, LeaveNoGapUnderATwist)
 {
-  Octree octree(meshes::seed());
-  ASSERT_GT(octree.hanging.size(), 5u);
-  ASSERT_GT(octree.gap(motions::mapped(octree.mesh.points, twisted)), 0.01);
-  const auto step = morphed(octree, twisted, this->options());
-  EXPECT_LT(octree.gap(step->moved), 1e-12 * meshes::size(octree.mesh.points));
-  EXPECT_EQ(step->valid.status, "Valid");
+  for (const int order : { 1, 2 })
+  {
+    Octree octree(meshes::seed(), order);
+    ASSERT_GT(octree.hanging.size(), 5u);
+    ASSERT_GT(octree.gap(motions::mapped(octree.mesh.points, twisted)), 1e-4);
+    const auto step = morphed(octree, twisted, this->options());
+    EXPECT_LT(octree.gap(step->moved), 1e-12 * meshes::size(octree.mesh.points));
+    EXPECT_EQ(step->valid.status, "Valid") << "order " << order;
+  }
 }
 
 TEST_P(HangingNodesOf, HaveTheAdjointOfTheMotion)
 {
-  Octree octree(meshes::seed());
-  const morph::BoundaryTargets still = octree.boundary([](const Row& x) { return x; });
-  const morph::BoundaryTargets moved = octree.boundary(twisted);
-  const Points gradient = Points::Random(octree.mesh.numberOfNodes(), 3);
-  Session session;
-  session.setMesh(octree.mesh, octree.monitor);
+  for (const int order : { 1, 2 })
+  {
+    Octree octree(meshes::seed(), order);
+    const morph::BoundaryTargets still = octree.boundary([](const Row& x) { return x; });
+    const morph::BoundaryTargets moved = octree.boundary(twisted);
+    const Points gradient = Points::Random(octree.mesh.numberOfNodes(), 3);
+    Session session;
+    session.setMesh(octree.mesh, octree.monitor);
 
-  const Points derivative = session.transpose(still.ids, gradient, this->options(), octree.monitor);
+    const Points derivative =
+      session.transpose(still.ids, gradient, this->options(), octree.monitor);
 
-  const auto step = session.morph(moved, this->options(), octree.monitor);
-  const double change = gradient.cwiseProduct(step->moved - octree.mesh.points).sum();
-  EXPECT_NEAR(derivative.cwiseProduct(moved.targets - still.targets).sum(), change, 1e-6);
+    const auto step = session.morph(moved, this->options(), octree.monitor);
+    const double change = gradient.cwiseProduct(step->moved - octree.mesh.points).sum();
+    EXPECT_NEAR(derivative.cwiseProduct(moved.targets - still.targets).sum(), change, 1e-6)
+      << "order " << order;
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Linear, HangingNodesOf, testing::ValuesIn(meshes::linearMethods()),
@@ -318,15 +292,44 @@ INSTANTIATE_TEST_SUITE_P(Linear, HangingNodesOf, testing::ValuesIn(meshes::linea
 
 TEST(HangingNodes, LeaveNoGapWhereCellsAreRepairedOrSmoothed)
 {
-  Octree octree(meshes::seed());
   Session::Options options;
   options.createMorpher = [] { return std::make_unique<morph::InversionFree>(); };
-  for (const bool smooths : { false, true })
+  for (const int order : { 1, 2 })
   {
-    options.postSmooth = smooths;
-    const auto step = morphed(octree, twisted, options);
-    EXPECT_LT(octree.gap(step->moved), 1e-12 * meshes::size(octree.mesh.points));
-    EXPECT_EQ(step->valid.status, "Valid");
-    EXPECT_TRUE(morph::invertedCells(octree.mesh, step->moved, {}, octree.monitor).empty());
+    Octree octree(meshes::seed(), order);
+    for (const bool smooths : { false, true })
+    {
+      options.postSmooth = smooths;
+      const auto step = morphed(octree, twisted, options);
+      EXPECT_LT(octree.gap(step->moved), 1e-12 * meshes::size(octree.mesh.points));
+      EXPECT_EQ(step->valid.status, "Valid") << "order " << order;
+      EXPECT_TRUE(morph::invertedCells(octree.mesh, step->moved, {}, octree.monitor).empty());
+    }
   }
+}
+
+TEST(HangingNodes, OfTheBoundaryAreNamedWhereTheyAreNotAtTheirTargets)
+{
+  Session::Options options;
+  options.createMorpher = [] { return std::make_unique<morph::FemWarp>(); };
+  Octree octree(meshes::seed());
+  const auto step = morphed(octree, twisted, options);
+  const morph::BoundaryTargets boundary = octree.boundary(twisted);
+  std::vector<Index> dropped;
+  for (std::size_t k = 0; k < boundary.ids.size(); ++k)
+  {
+    const Row off = step->moved.row(boundary.ids[k]) - boundary.targets.row(Index(k));
+    if (off.norm() > 1e-6 * meshes::size(octree.mesh.points))
+    {
+      dropped.push_back(boundary.ids[k]);
+    }
+  }
+  ASSERT_FALSE(dropped.empty());
+  ASSERT_EQ(octree.monitor.warnings.size(), 1u);
+  EXPECT_EQ(octree.monitor.warnings[0], morph::noteOfDropped(dropped));
+  EXPECT_EQ(octree.monitor.warnings[0].find(std::to_string(dropped.size()) + " nodes"), 0u);
+
+  Octree straight(meshes::seed());
+  morphed(straight, motions::affine, options);
+  EXPECT_TRUE(straight.monitor.warnings.empty());
 }

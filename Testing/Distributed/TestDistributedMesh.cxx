@@ -75,23 +75,6 @@ TEST(DistributedMesh, TakesIdsBeyond32Bits)
   EXPECT_NE(message.find("2^52"), std::string::npos) << message;
 }
 
-// A cube of eight cells beside one of the same size.
-TEST(DistributedMesh, RefusesFacesThatAreDividedOnOneSideAlone)
-{
-  const Ranks ranks = pieces::world();
-  Mesh whole = meshes::hexes(2, 2, 2);
-  whole.points.conservativeResize(31, 3);
-  whole.points.bottomRows(4) << 4, 0, 0, 4, 2, 0, 4, 0, 2, 4, 2, 2;
-  meshes::add(whole, morph::Hexahedron, { 2, 27, 28, 8, 20, 29, 30, 26 });
-  Monitor monitor;
-  const auto owners = pieces::randomOwners(whole, ranks.count(), meshes::seed());
-  const std::string message = pieces::messageOf(
-    [&] { DistributedMesh(ranks, pieces::pieceOf(whole, owners, ranks.rank()), 1, monitor); });
-  EXPECT_NE(message.find("divided on one side alone"), std::string::npos) << message;
-  EXPECT_NE(message.find("point ids 5, 11, 14, 17, 23. Run on one process"), std::string::npos)
-    << message;
-}
-
 TEST(DistributedMesh, OwnsEachNodeOnceAndHasAllCellsAroundItsNodes)
 {
   const Ranks ranks = pieces::world();

@@ -17,10 +17,15 @@
 #include <vtkInformationStringKey.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
+#include <vtkSelection.h>
+#include <vtkSelectionNode.h>
 #include <vtkStringArray.h>
 #include <vtkUnsignedCharArray.h>
 
 #include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
 
 using grids::Row;
 
@@ -507,4 +512,54 @@ TEST(SurfaceNames, AnInterfaceIsHeldOrSlidesOrGoesAlong)
   }
   EXPECT_TRUE(anyAlong);
   EXPECT_TRUE(anySlid);
+}
+
+TEST(SurfaceNames, PlanesOfSymmetryOfTheFileSlide)
+{
+  const auto grid = bar();
+  vtkNew<vtkStringArray> planes;
+  planes->SetName("SymmetrySurfaces");
+  planes->InsertNextValue("wall");
+  grid->GetFieldData()->AddArray(planes);
+  auto filter = displaced::make(grid);
+  filter->SetMovingToSelection();
+  filter->SetSelectionData(displaced::indices(
+    vtkSelectionNode::POINT, displaced::nodesWhere(grid, [](const Row& x) { return x[0] == 6; })));
+  filter->SetDisplacementToVector();
+  filter->SetVector(0.5, 0.2, 0);
+  filter->Update();
+
+  const morph::Points rest = displaced::restPositions(filter->GetOutput());
+  const morph::Points step = grids::points(filter->GetOutput()) - rest;
+  double along = 0, off = 0;
+  for (morph::Index i = 0; i < rest.rows(); ++i)
+  {
+    if (rest(i, 1) == 0 || rest(i, 1) == 3)
+    {
+      off = std::max(off, std::abs(step(i, 1)));
+      along = std::max(along, std::abs(step(i, 0)));
+    }
+  }
+  EXPECT_LT(off, 1e-12);
+  EXPECT_GT(along, 0.05);
+}
+
+TEST(SurfaceNames, APatchOfSymmetryThatIsAPartOfAPlaneIsNamed)
+{
+  const auto grid = bar();
+  vtkNew<vtkStringArray> planes;
+  planes->SetName("SymmetrySurfaces");
+  planes->InsertNextValue("inlet");
+  grid->GetFieldData()->AddArray(planes);
+  auto filter = displaced::make(grid);
+  filter->AddSurface("wall");
+  filter->SetDisplacementToVector();
+  filter->SetVector(0.5, 0, 0);
+  const grids::Listener listener(filter);
+  filter->Update();
+  ASSERT_EQ(listener.Warnings.size(), 1u);
+  EXPECT_NE(listener.Warnings[0].find("'inlet' is one of symmetry"), std::string::npos);
+  filter->AddFixedSurface("inlet");
+  filter->Update();
+  EXPECT_EQ(listener.Warnings.size(), 1u);
 }

@@ -231,7 +231,7 @@ int main(int argc, char** argv)
   std::map<std::string, int> findings;
   Features features;
   int found = 0;
-  fuzz::runSeeds(options.from, options.count, options.filter,
+  fuzz::runSeeds(options.from, options.count, options.filter, options.set,
     [&](const fuzz::Report& report)
     {
       Share& share = shares[report.filter];
@@ -249,13 +249,13 @@ int main(int argc, char** argv)
       std::cout << ": " << report.detail.substr(0, alike < 2 ? 3000 : 120) << std::endl;
       if (options.reduces && alike < 2)
       {
-        printReduced(fuzz::runOne(report.seed, options.filter, {}), options);
+        printReduced(fuzz::runOne(report.seed, options.filter, options.set), options);
       }
       return !options.stops;
     });
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-  const bool isChecked =
-    options.filter.empty() && options.count >= 1000 && !(options.stops && found);
+  const bool isChecked = options.filter.empty() && options.set.empty() && options.count >= 1000 &&
+                         !(options.stops && found);
   const bool areCovered = printFeatures(features, isChecked);
   const bool good = printShares(shares, isChecked) && areCovered;
   std::cout << "Seeds " << options.from << " to " << options.from + options.count - 1 << ": "

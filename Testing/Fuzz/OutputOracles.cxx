@@ -7,6 +7,7 @@
 #include "Mesh/HangingNodes.h"
 #include "RandomMesh.h"
 #include "Recount.h"
+#include "vtkDisplacementAlgorithm.h"
 #include "vtkInversionFreeMorph.h"
 #include "vtkMorphAlgorithm.h"
 #include "vtkMorphMesh.h"
@@ -368,6 +369,54 @@ Finding checkAccepted(const Case& made, vtkMorphAlgorithm* filter, const Run& ru
   return run.errors.empty() || !hasResult ? Finding{} : Finding{ "refused", run.errors.front() };
 }
 
+/// Nodes that hang stay on their faces, images stay images, and nodes of a plane of symmetry in it.
+/// `ids`: the node of each point of the output; none: all of the mesh.
+Finding checkKnown(const Case& made, vtkPointSet* output, vtkDataArray* ids, const Run& run)
+{
+  const Known& known = made.grid.known;
+  const morph::Points& rest = made.grid.mesh.points;
+  if (!known.isAny() || !made.grid.isAsMesh || isFloat(output) || !run.errors.empty() ||
+      made.choices.value("hostile.grid") != 0)
+  {
+    return {};
+  }
+  morph::Points moved = rest;
+  const morph::Points points = pointsOf(output);
+  for (Index p = 0; p < points.rows(); ++p)
+  {
+    moved.row(ids ? static_cast<Index>(ids->GetComponent(p, 0)) : p) = points.row(p);
+  }
+  const double farthest = std::max(rest.cwiseAbs().maxCoeff(), moved.cwiseAbs().maxCoeff());
+  const double allowed = 1e-12 * made.grid.size + 1e-13 * farthest; // many steps round
+  const auto found = [&](const char* oracle, double off)
+  {
+    std::ostringstream text;
+    text << off / made.grid.size << " of the size, the farthest coordinate "
+         << farthest / made.grid.size;
+    return off > allowed ? Finding{ oracle, text.str() } : Finding{};
+  };
+  // Coordinates of few digits may leave the faces before.
+  if (known.gap(rest) <= allowed && !ids)
+  {
+    if (const Finding gap = found("gap", known.gap(moved)))
+    {
+      return gap;
+    }
+  }
+  const bool isDisplacement = vtkDisplacementAlgorithm::SafeDownCast(made.filter.make());
+  // Roles may contradict each other, as where one of two images slides.
+  if (!isDisplacement || made.choices.value("with.zones") != 0 || !run.warnings.empty() ||
+      made.choices.value("with.surfaces") != 0)
+  {
+    return {};
+  }
+  if (const Finding images = found("images", known.parted(rest, moved)))
+  {
+    return images;
+  }
+  return found("plane of symmetry", known.offPlane(rest, moved));
+}
+
 bool hasAdvice(vtkAlgorithm* filter)
 {
   auto* mesh = vtkMorphMesh::SafeDownCast(filter);
@@ -405,7 +454,7 @@ Finding checkMesh(const Case& made, F* filter, const Run& run)
     return {};
   }
   for (const auto& found : { checkCells(made.grid.grid(), output), checkCounts(made, output),
-         checkMirrored(made, output, run) })
+         checkMirrored(made, output, run), checkKnown(made, output, nullptr, run) })
   {
     if (found)
     {
@@ -561,7 +610,10 @@ Finding checkOutput(const Case& made, vtkAlgorithm* filter, const Run& run)
   }
   if (made.filter.name == "BoundaryDisplacement")
   {
-    return checkDisplaced(made, output);
+    vtkDataArray* ids = output->GetPointData()->GetArray("MorphPointId");
+    const Finding known =
+      made.inputs[0] == made.grid.data && ids ? checkKnown(made, output, ids, run) : Finding{};
+    return known ? known : checkDisplaced(made, output);
   }
   return {};
 }

@@ -195,6 +195,44 @@ void nameWalls(vtkIdType first, vtkUnstructuredGrid* grid)
   addName("Walls", grid->GetCellData(), isWall, grid);
 }
 
+/// Names the sides that are images of each other, or the plane of symmetry, as OpenFOAM's files do.
+void nameSides(const Known& known, vtkUnstructuredGrid* grid)
+{
+  const auto name = [&](const char* set, const std::vector<Index>& nodes)
+  {
+    std::vector<std::uint8_t> isIn(grid->GetNumberOfPoints(), 0);
+    for (const Index node : nodes)
+    {
+      isIn[node] = 1;
+    }
+    addName(set, grid->GetPointData(), isIn, grid);
+  };
+  const auto tell = [&](const char* array, const char* text)
+  {
+    vtkNew<vtkStringArray> texts;
+    texts->SetName(array);
+    texts->InsertNextValue(text);
+    grid->GetFieldData()->AddArray(texts);
+  };
+  std::vector<Index> one, other;
+  for (const auto& [node, image] : known.images)
+  {
+    one.push_back(node);
+    other.push_back(image);
+  }
+  if (!one.empty())
+  {
+    name("One", one);
+    name("Other", other);
+    tell("PeriodicSurfaces", "One = Other");
+  }
+  if (!known.plane.empty())
+  {
+    name("Plane", known.plane);
+    tell("SymmetrySurfaces", "Plane");
+  }
+}
+
 /// Names cells on two sides of a plane, or any, and the nodes that both have. Some cells have no
 /// name.
 void nameParts(Choices& choices, const morph::Mesh& mesh, vtkUnstructuredGrid* grid)
@@ -393,7 +431,7 @@ morph::Points pointsOf(vtkPointSet* data)
 RandomGrid randomGrid(Choices& choices)
 {
   RandomGrid result;
-  result.mesh = randomMesh(choices);
+  result.mesh = randomMesh(choices, result.known);
   result.hasWalls = choices.chance("with.walls", 0.06);
   const Index firstWall = result.mesh.numberOfCells();
   if (result.hasWalls)
@@ -416,8 +454,12 @@ RandomGrid randomGrid(Choices& choices)
   result.isAsMesh = polyhedra == 0;
   result.mesh.points = pointsOf(grid);
   morph::replaceCollapsedCells(result.mesh);
-  result.outer = outerNodes(result.mesh);
   result.size = meshSize(result.mesh);
+  if (result.known.gap(result.mesh.points) > 1e-9 * result.size)
+  {
+    result.isAsMesh = false; // coordinates of few digits put nodes off their faces, or nearly so
+  }
+  result.outer = result.known.outer.empty() ? outerNodes(result.mesh) : result.known.outer;
   result.data = grid;
 
   if (hostile && grid->GetNumberOfPoints() > 0 && choices.chance("cells.foreign", 0.12))
@@ -434,6 +476,7 @@ RandomGrid randomGrid(Choices& choices)
   {
     nameParts(choices, result.mesh, grid);
   }
+  nameSides(result.known, grid);
   if (choices.chance("with.marks", 0.2))
   {
     addMarks(choices, grid);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "Choices.h"
+#include "RandomMesh.h"
 
 #include "Mesh/Mesh.h"
 
@@ -18,7 +19,8 @@ struct RandomGrid
 {
   vtkSmartPointer<vtkDataObject> data; ///< null, or of any type
   morph::Mesh mesh;                    ///< what `data` was made from
-  std::vector<morph::Index> outer;     ///< outerNodes() of `mesh`
+  Known known;                         ///< of `mesh`
+  std::vector<morph::Index> outer;     ///< outerNodes() of `mesh`, or those that are known
   double size = 0;                     ///< of `mesh`
   /// false: `data` is no grid, or its cells, ids or points are not those of `mesh`
   bool isAsMesh = true;

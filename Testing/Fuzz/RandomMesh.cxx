@@ -10,11 +10,13 @@
 #include <vtkGenericCell.h>
 #include <vtkNew.h>
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numeric>
 #include <set>
 #include <utility>
@@ -128,8 +130,54 @@ Mesh soup(Random random)
   return mesh;
 }
 
-Mesh lattice(Choices& choices)
+/// A box some of whose cells are in eight, and some of these in eight again.
+Mesh octree(Choices& choices, int order, Known& known)
 {
+  Random random = choices.stream("octree");
+  const auto length = [&] { return 1 + random.below(2); };
+  const meshes::Octree made(
+    static_cast<unsigned>(random.bits()), order, { 2, length(), order == 1 ? length() : 1 });
+  known.outer = made.outer();
+  known.hanging = made.hanging;
+  return made.mesh;
+}
+
+/// Makes the sides at the ends of x images of each other, or the one at x = 0 a plane of symmetry.
+void nameSides(Choices& choices, const Mesh& mesh, Known& known)
+{
+  const int sides = choices.pick("with.sides", { "none", "periodic", "symmetry" }, { 20, 1, 1 });
+  const std::vector<Index> outer = outerNodes(mesh);
+  const double end = mesh.points.col(0).maxCoeff();
+  std::map<std::pair<double, double>, Index> image;
+  for (const Index n : outer)
+  {
+    if (mesh.points(n, 0) == end)
+    {
+      image[{ mesh.points(n, 1), mesh.points(n, 2) }] = n;
+    }
+  }
+  for (const Index n : outer)
+  {
+    const auto found = image.find({ mesh.points(n, 1), mesh.points(n, 2) });
+    if (sides == 1 && mesh.points(n, 0) == 0 && found != image.end())
+    {
+      known.images.emplace_back(n, found->second);
+    }
+    if (sides == 2 && mesh.points(n, 0) == 0)
+    {
+      known.plane.push_back(n);
+    }
+  }
+}
+
+Mesh lattice(Choices& choices, Known& known)
+{
+  if (const int order =
+        choices.pick("with.octree", { "none", "linear", "quadratic" }, { 20, 1.2, 0.8 }))
+  {
+    choices.whole("mesh.order", 0, [order](Random&) { return order - 1; });
+    return octree(choices, order, known);
+  }
   const int kind = choices.pick("mesh.cells",
     { "hexahedra", "tetrahedra", "wedges", "hexahedra and pyramids", "hexahedra and wedges",
       "voxels", "pyramids", "block with a fin", "soup" },
@@ -154,7 +202,12 @@ Mesh lattice(Choices& choices)
   Mesh mesh = kind == 8 ? soup(choices.stream("mesh.soup")) : makers[kind](nx, ny, nz);
   // In part: mid-side nodes that the neighbor does not have.
   const double part = order > 0 && choices.chance("mesh.partlyQuadratic", 0.1) ? 0.5 : 1;
-  return order == 0 ? mesh : quadratic(mesh, order, part, choices.stream("mesh.quadraticCells"));
+  mesh = order == 0 ? mesh : quadratic(mesh, order, part, choices.stream("mesh.quadraticCells"));
+  if (kind < 7 && part == 1)
+  {
+    nameSides(choices, mesh, known);
+  }
+  return mesh;
 }
 
 Mesh withCells(const Mesh& mesh, const std::vector<Index>& cells)
@@ -172,13 +225,15 @@ Mesh withCells(const Mesh& mesh, const std::vector<Index>& cells)
 
 /// Cells that lie elsewhere in the list, are missing or come twice: holes, several bodies, edges
 /// with four faces.
-void changeCells(Choices& choices, Mesh& mesh, bool hostile)
+/// `isWhole`: none is missing.
+void changeCells(Choices& choices, Mesh& mesh, bool hostile, bool isWhole)
 {
   std::vector<Index> cells(mesh.numberOfCells());
   std::iota(cells.begin(), cells.end(), Index{ 0 });
   Random random = choices.stream("cells.random");
-  if (const double part =
-        choices.chance("cells.missing", 0.08) ? choices.stream("part").between(0.1, 0.7) : 0)
+  if (const double part = !isWhole && choices.chance("cells.missing", 0.08)
+                            ? choices.stream("part").between(0.1, 0.7)
+                            : 0)
   {
     std::vector<Index> left;
     for (const Index c : cells)
@@ -272,9 +327,10 @@ void changeCells(Choices& choices, Mesh& mesh, bool hostile)
 }
 
 /// Moves nodes at random, in units of a cell.
-void jitter(Choices& choices, Mesh& mesh, bool hostile)
+void jitter(Choices& choices, Mesh& mesh, bool hostile, const Known& known)
 {
-  const std::vector<Index> outer = outerNodes(mesh);
+  const morph::Points before = mesh.points;
+  const std::vector<Index> outer = known.outer.empty() ? outerNodes(mesh) : known.outer;
   const std::set<Index> isOuter(outer.begin(), outer.end());
   const double inside = choices.number("jitter.inside", 0,
     [hostile](Random& r)
@@ -285,17 +341,39 @@ void jitter(Choices& choices, Mesh& mesh, bool hostile)
   Random random = choices.stream("jitter");
   for (Index n = 0; n < mesh.numberOfNodes(); ++n)
   {
-    const double amount = isOuter.count(n) ? outside : inside;
+    // The smallest cells of an octree are a quarter as wide.
+    const double amount = (known.outer.empty() ? 1 : 0.25) * (isOuter.count(n) ? outside : inside);
     for (int j = 0; j < 3; ++j)
     {
       mesh.points(n, j) += amount * random.between(-1, 1);
+    }
+  }
+  for (const auto& [node, image] : known.images)
+  {
+    mesh.points.row(image) = before.row(image) + mesh.points.row(node) - before.row(node);
+  }
+  for (const Index node : known.plane)
+  {
+    mesh.points(node, 0) = 0;
+  }
+  // What a node hangs on may hang itself, a level above.
+  for (int level = 0; level < 3; ++level)
+  {
+    for (const auto& own : known.hanging)
+    {
+      Row place = Row::Zero();
+      for (std::size_t k = 0; k < own.masters.size(); ++k)
+      {
+        place += own.weights[k] * mesh.points.row(own.masters[k]);
+      }
+      mesh.points.row(own.node) = place;
     }
   }
 }
 
 /// Adds a copy beside the mesh, which shares no node and touches it or leaves a gap. Boxes round
 /// both have no more than a side in common.
-void addTwin(Choices& choices, Mesh& mesh)
+void addTwin(Choices& choices, Mesh& mesh, Known& known)
 {
   if (mesh.numberOfNodes() == 0 || !choices.chance("with.twin", 0.05))
   {
@@ -305,7 +383,20 @@ void addTwin(Choices& choices, Mesh& mesh)
   const int gap = choices.pick("twin.gap", { "none", "small", "large" }, { 2, 1, 1 });
   Mesh twin = mesh;
   twin.points.col(0).array() += size * (gap == 0 ? 1 : gap == 1 ? 1.01 : 1.5);
+  const Index nodes = mesh.numberOfNodes();
   mesh = shapes::together(mesh, twin);
+  const auto shifted = [nodes](std::vector<Index> ids)
+  {
+    std::for_each(ids.begin(), ids.end(), [nodes](Index& id) { id += nodes; });
+    return ids;
+  };
+  const std::vector<Index> outer = shifted(known.outer);
+  known.outer.insert(known.outer.end(), outer.begin(), outer.end());
+  const std::vector<meshes::Octree::Hanging> hanging = known.hanging;
+  for (const auto& own : hanging)
+  {
+    known.hanging.push_back({ own.node + nodes, shifted(own.masters), own.weights });
+  }
 }
 
 /// Turns, stretches, mirrors, scales and moves the mesh.
@@ -359,7 +450,7 @@ void place(Choices& choices, Mesh& mesh, bool hostile)
 }
 
 /// Coordinates that are not finite, points on one place, points without cells.
-void spoilPoints(Choices& choices, Mesh& mesh, bool hostile)
+void spoilPoints(Choices& choices, Mesh& mesh, bool hostile, Known& known)
 {
   Random random = choices.stream("points");
   if (choices.chance("points.unused", 0.08))
@@ -380,6 +471,21 @@ void spoilPoints(Choices& choices, Mesh& mesh, bool hostile)
       std::swap(order[i - 1], order[random.below(static_cast<int>(i))]);
     }
     mesh = meshes::renumbered(mesh, order);
+    const auto rename = [&order](std::vector<Index>& ids)
+    { std::for_each(ids.begin(), ids.end(), [&order](Index& id) { id = order[id]; }); };
+    for (auto& own : known.hanging)
+    {
+      own.node = order[own.node];
+      rename(own.masters);
+    }
+    for (auto& [node, image] : known.images)
+    {
+      node = order[node];
+      image = order[image];
+    }
+    rename(known.outer);
+    rename(known.plane);
+    std::sort(known.outer.begin(), known.outer.end());
   }
   if (!hostile || mesh.numberOfNodes() == 0)
   {
@@ -534,15 +640,55 @@ double meshSize(const Mesh& mesh)
   return 2 * (box.max() / 2 - box.min() / 2).stableNorm();
 }
 
-Mesh randomMesh(Choices& choices)
+double Known::gap(const morph::Points& points) const
 {
-  const bool hostile = choices.chance("hostile.mesh", 0.17);
-  Mesh mesh = lattice(choices);
-  changeCells(choices, mesh, hostile);
-  jitter(choices, mesh, hostile);
-  addTwin(choices, mesh);
+  double most = 0;
+  for (const auto& own : this->hanging)
+  {
+    Row off = points.row(own.node);
+    for (std::size_t k = 0; k < own.masters.size(); ++k)
+    {
+      off -= own.weights[k] * points.row(own.masters[k]);
+    }
+    most = std::max(most, off.norm());
+  }
+  return most;
+}
+
+double Known::parted(const morph::Points& rest, const morph::Points& moved) const
+{
+  double most = 0;
+  for (const auto& [node, image] : this->images)
+  {
+    const Row step = moved.row(node) - rest.row(node);
+    most = std::max(most, (moved.row(image) - rest.row(image) - step).norm());
+  }
+  return most;
+}
+
+double Known::offPlane(const morph::Points& rest, const morph::Points& moved) const
+{
+  if (this->plane.empty())
+  {
+    return 0;
+  }
+  const morph::Points nodes = rest(this->plane, morph::allColumns);
+  const morph::Points steps = moved(this->plane, morph::allColumns) - nodes;
+  const morph::Points fromMiddle = nodes.rowwise() - nodes.colwise().mean();
+  const Eigen::Matrix3d squares = fromMiddle.transpose() * fromMiddle;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(squares); // the least comes first
+  return (steps * axes.eigenvectors().col(0)).cwiseAbs().maxCoeff();
+}
+
+Mesh randomMesh(Choices& choices, Known& known)
+{
+  Mesh mesh = lattice(choices, known);
+  const bool hostile = choices.chance("hostile.mesh", known.isAny() ? 0 : 0.17);
+  changeCells(choices, mesh, hostile, known.isAny());
+  jitter(choices, mesh, hostile, known);
+  addTwin(choices, mesh, known);
   place(choices, mesh, hostile);
-  spoilPoints(choices, mesh, hostile);
+  spoilPoints(choices, mesh, hostile, known);
   return mesh;
 }
 }

@@ -3,14 +3,40 @@
 
 #include "Choices.h"
 
+#include "../Core/Octree.h"
 #include "Mesh/Mesh.h"
+
+#include <utility>
+#include <vector>
 
 namespace fuzz
 {
+/// What is known of a mesh by how it was made. Such meshes are never hostile.
+struct Known
+{
+  std::vector<morph::Index> outer;              ///< of an octree, ascending; else none
+  std::vector<meshes::Octree::Hanging> hanging; ///< of an octree
+  /// Nodes of one side and their images on the other, which are translated.
+  std::vector<std::pair<morph::Index, morph::Index>> images;
+  std::vector<morph::Index> plane; ///< the nodes of a plane of symmetry
+
+  bool isAny() const
+  {
+    return !this->outer.empty() || !this->images.empty() || !this->plane.empty();
+  }
+  /// The largest distance of a node that hangs from its place.
+  double gap(const morph::Points& points) const;
+  /// The largest difference of the motions of two images, and that along the plane's normal.
+  ///@{
+  double parted(const morph::Points& rest, const morph::Points& moved) const;
+  double offPlane(const morph::Points& rest, const morph::Points& moved) const;
+  ///@}
+};
+
 /// A small random volume mesh: all cell types, shapes from perfect to tangled, several bodies,
 /// places far away and sizes out of bounds. Node ids are right and every cell has the nodes that
 /// its type asks for.
-morph::Mesh randomMesh(Choices& choices);
+morph::Mesh randomMesh(Choices& choices, Known& known);
 
 /// Nodes on faces that belong to one volume cell alone, mid-side and face nodes included,
 /// ascending. Told by the nodes of VTK's own faces, so that it does not depend on what is tested.

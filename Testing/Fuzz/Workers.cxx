@@ -155,7 +155,7 @@ Report reportOf(const std::vector<std::string>& fields)
 }
 
 void runSeeds(std::uint64_t from, std::uint64_t count, const std::string& filter,
-  const std::function<bool(const Report&)>& report)
+  const Choices::Values& set, const std::function<bool(const Report&)>& report)
 {
   const std::uint64_t end = from + count;
   bool goesOn = true;
@@ -167,7 +167,7 @@ void runSeeds(std::uint64_t from, std::uint64_t count, const std::string& filter
       for (std::uint64_t s = seed; s < last; ++s)
       {
         limitTime();
-        Choices choices(s);
+        Choices choices(s, set);
         tell(lineOf(s, judge(choices, filterFor(s, filter))));
       }
     };

@@ -23,9 +23,9 @@ struct Report
 };
 
 /// Runs the seeds in processes of their own, 500 in each, so that a crash ends no more than that
-/// case. Calls `report` for each, in order, until it returns false.
+/// case. Calls `report` for each, in order, until it returns false. `set`: see Choices.
 void runSeeds(std::uint64_t from, std::uint64_t count, const std::string& filter,
-  const std::function<bool(const Report&)>& report);
+  const Choices::Values& set, const std::function<bool(const Report&)>& report);
 
 /// One case with all that it was made from.
 struct Trial

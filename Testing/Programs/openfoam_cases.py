@@ -43,6 +43,9 @@ FLAT = BLOCKS.replace("(5 5 4)", "(5 1 4)").replace(SIDES, """
 frontAndBack { type empty; faces ((0 1 5 4) (2 3 7 6) (4 5 9 8) (6 7 11 10)); }
 sides { type patch; faces ((3 0 4 7) (7 4 8 11) (1 2 6 5) (5 6 10 9)); });
 """)
+# Left is a plane of symmetry, of which the file of the patches knows.
+SYMMETRIC = CYCLIC.replace("left { type cyclic; neighbourPatch right;", "left { type symmetryPlane;")
+SYMMETRIC = SYMMETRIC.replace("right { type cyclic; neighbourPatch left;", "right { type patch;")
 TOP = ("--move", "top", "--translate", "0,0,0.2", "--quiet")
 
 
@@ -114,6 +117,20 @@ class Cases(solver_files.SolverFiles):
         handle = self.folder / "handle.csv"
         handle.write_text("x,y,z,dx,dy,dz,radius\n0,.5,1,0.02,0,0.2,.5\n")
         self.check_images(CYCLIC, 0, "--move", "top", "--handles", handle)
+
+    def test_planes_of_symmetry_stay_planes(self):
+        """A handle beside one moves nodes along it alone."""
+        handle = self.folder / "handle.csv"
+        handle.write_text("x,y,z,dx,dy,dz,radius\n.25,.5,1,0.1,0,0.2,.6\n")
+        self.make("checkMesh", blocks=SYMMETRIC)
+        openfoam("blockMesh", self.case)
+        self.copy()
+        before = self.points(self.case)
+        self.morph("--move", "top", "--handles", handle, "--quiet", self.case, self.out)
+        after = self.points(self.out)
+        sides = [i for i, x in enumerate(before) if x[0] == 0]
+        self.assertEqual([after[i][0] for i in sides], [0] * len(sides))
+        self.assertGreater(max(abs(after[i][2] - before[i][2]) for i in sides), 0.02)
 
     def test_front_and_back_of_a_plane_case_stay_images(self):
         for method in ("WeightedResidual", "Smoothing", "MeshSmoothing"):

@@ -102,22 +102,17 @@ void addSheets(const Mesh& mesh, const BoundaryFaces& faces, const BoundaryFaces
 Classification classifyWithSheets(const Mesh& mesh, const BoundaryFaces& faces,
   const ClassificationOptions& options, Monitor& monitor)
 {
-  std::vector<std::pair<Index, int>> places;
-  for (std::size_t f = 0; f < faces.cells.size(); ++f)
-  {
-    places.emplace_back(faces.cells[f], faces.sides[f]);
-  }
-  const auto outer = static_cast<std::ptrdiff_t>(places.size() - options.sheets.size());
+  const auto all = static_cast<Index>(faces.cells.size());
+  const Index outer = all - static_cast<Index>(options.sheets.size());
   ClassificationOptions without = options;
   without.sheets.clear();
   if (!without.given.surface.empty())
   {
     without.given.surface.resize(outer);
   }
-  Classification result = classify(ConstPoints(mesh.points),
-    facesAt(mesh, { places.begin(), places.begin() + outer }), without, monitor);
-  addSheets(
-    mesh, faces, facesAt(mesh, { places.begin() + outer, places.end() }), options, result, monitor);
+  Classification result =
+    classify(ConstPoints(mesh.points), facesBetween(mesh, faces, 0, outer), without, monitor);
+  addSheets(mesh, faces, facesBetween(mesh, faces, outer, all), options, result, monitor);
   SurfaceEdges edges = surfaceEdges(ConstPoints(mesh.points), faces, monitor);
   for (GeometryCurve& curve : result.curves)
   {

@@ -3,6 +3,7 @@
 
 #include "Boundary/FaceAreas.h"
 #include "Mesh/FacesOfCells.h"
+#include "Mesh/HangingNodes.h"
 
 #include <Eigen/Geometry>
 
@@ -29,15 +30,13 @@ std::vector<Index> facesOfCells(const Mesh& mesh, const BoundaryFaces& faces, st
 {
   const bool isMesh = mesh.numberOfCells() > 0;
   const std::map<Corners, int> flat = isMesh ? flatCells(mesh, isMarked) : std::map<Corners, int>();
-  const Index* all = faces.connectivity.data();
   const std::size_t count = faces.offsets.size() - 1;
   std::vector<Index> result;
   for (std::size_t f = 0; f < (flat.empty() ? count - inside : count); ++f)
   {
     const Index behind = isMesh ? faces.cells[f] : static_cast<Index>(f);
-    if (flat.empty()
-          ? isMarked[behind] != 0
-          : flat.count(sortedCorners(all + faces.offsets[f], all + faces.offsets[f + 1])) > 0)
+    if (flat.empty() ? isMarked[behind] != 0
+                     : flat.count(cornersOfCell(mesh, faces, static_cast<Index>(f))) > 0)
     {
       result.push_back(static_cast<Index>(f));
     }
@@ -184,7 +183,8 @@ void BoundaryModel::findFaces(const std::vector<std::uint8_t>& isNamed, Monitor&
 {
   const ConnectedComponents bodies = connectedComponents(this->mesh);
   this->bodyOfNode = bodyOfNodes(this->mesh, bodies);
-  this->faces = boundaryFaces(this->mesh, monitor);
+  HangingNodes hanging;
+  this->faces = boundaryFaces(this->mesh, hanging, monitor);
   this->inner = innerFaces(this->mesh, this->faces, isNamed, monitor);
   InnerFaces::Places& sheets = this->inner.sheets;
   for (const InnerSurface& surface : this->innerSurfaces)
@@ -213,6 +213,7 @@ void BoundaryModel::findFaces(const std::vector<std::uint8_t>& isNamed, Monitor&
       places.insert(places.end(), some->begin(), some->end());
     }
     this->faces = facesAt(this->mesh, places);
+    hanging.divideEdges(this->faces);
   }
   const std::vector<std::int8_t> ofCell = cellSigns(this->mesh, bodies);
   this->orientation.clear();

@@ -2,6 +2,7 @@
 #include "BoundaryMover/Patches.h"
 
 #include "Boundary/FaceAreas.h"
+#include "BoundaryMover/SurfaceShape.h"
 #include "Mesh/FacesOfCells.h"
 #include "Mesh/PlaneLayer.h"
 #include "Support/Error.h"
@@ -244,6 +245,47 @@ PatchPart findPatches(
   }
   requireNone(missing, model, option);
   return part;
+}
+
+SymmetryPlanes symmetryPlanes(const BoundaryModel& model, const std::set<std::string>& names)
+{
+  const Classification& geometry = model.geometry;
+  SymmetryPlanes result;
+  for (const NamedSet& set : model.namedSets)
+  {
+    if (names.count(set.name) == 0 || set.faces.empty())
+    {
+      continue;
+    }
+    std::map<Index, std::size_t> faces; // of each surface
+    for (const Index face : set.faces)
+    {
+      ++faces[geometry.surfaceOfFace[face]];
+    }
+    const bool arePlanes = std::all_of(faces.begin(), faces.end(),
+      [&](const auto& its)
+      {
+        const GeometrySurface& surface = geometry.surfaces[its.first];
+        return its.second == surface.faces.size() &&
+               SurfaceShape(model.points(), model.faces, surface).kind() ==
+                 SurfaceShape::Kind::Plane;
+      });
+    for (const auto& its : faces)
+    {
+      if (arePlanes)
+      {
+        result.surfaces.push_back(its.first);
+      }
+    }
+    if (!arePlanes)
+    {
+      result.others.push_back(set.name);
+    }
+  }
+  std::sort(result.surfaces.begin(), result.surfaces.end());
+  result.surfaces.erase(
+    std::unique(result.surfaces.begin(), result.surfaces.end()), result.surfaces.end());
+  return result;
 }
 
 std::vector<Index> surfacesNamed(

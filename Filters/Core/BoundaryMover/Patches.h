@@ -43,6 +43,16 @@ struct PatchPart
 std::vector<Index> surfacesNamed(
   const BoundaryModel& model, const std::set<std::string>& names, const char* option);
 
+/// What of the patches that a file calls planes of symmetry can slide.
+struct SymmetryPlanes
+{
+  std::vector<Index> surfaces;     ///< ascending, each a plane
+  std::vector<std::string> others; ///< names of patches that have other surfaces, or parts of them
+};
+/// `names`: those that stand for no faces of the boundary count for nothing. Cost: a pass over the
+/// patches' nodes.
+SymmetryPlanes symmetryPlanes(const BoundaryModel& model, const std::set<std::string>& names);
+
 /// All nodes, those on the edges included, and all faces of the patches of these names; a curve has
 /// no faces. For a name that does not exist, throws an Error that names `option` and lists
 /// the names that do.

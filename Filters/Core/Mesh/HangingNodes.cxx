@@ -2,6 +2,8 @@
 #include "Mesh/HangingNodes.h"
 
 #include "Mesh/CellShape.h"
+#include "Mesh/FacesOfCells.h"
+#include "Mesh/HigherOrderNodes.h"
 #include "Mesh/Polyhedra.h"
 #include "Support/Buckets.h"
 #include "Support/Parallel.h"
@@ -13,6 +15,7 @@
 #include <cmath>
 #include <iterator>
 #include <optional>
+#include <set>
 #include <tuple>
 
 namespace morph
@@ -22,9 +25,141 @@ namespace
 constexpr Index FaceGrain = 256;
 /// Of a face's size: how far a node may be off it, and a vector area off that of the small faces.
 constexpr double OnFace = 1e-6;
+constexpr int MostNodes = 9; // of a face
 
-/// The shape functions of a triangle or quadrilateral, in the order of its corners.
-using FaceWeights = std::array<double, 4>;
+/// The shape functions of a face at a place, in the order of its nodes, and their derivatives.
+struct FaceFunctions
+{
+  std::array<double, MostNodes> N = {};
+  std::array<double, MostNodes> dU = {}, dV = {};
+};
+
+/// Of a triangle of 3 or 6 nodes at (u, v), where its corners are at (0, 0), (1, 0) and (0, 1).
+FaceFunctions triangleFunctions(int nodes, double u, double v)
+{
+  FaceFunctions f;
+  const double L[] = { 1 - u - v, u, v };
+  constexpr double dU[] = { -1, 1, 0 }, dV[] = { -1, 0, 1 };
+  for (int a = 0; a < 3; ++a)
+  {
+    const int b = (a + 1) % 3;
+    const bool isLinear = nodes == 3;
+    const double slope = isLinear ? 1 : 4 * L[a] - 1;
+    f.N[a] = isLinear ? L[a] : L[a] * (2 * L[a] - 1);
+    f.dU[a] = slope * dU[a];
+    f.dV[a] = slope * dV[a];
+    if (!isLinear)
+    {
+      f.N[3 + a] = 4 * L[a] * L[b];
+      f.dU[3 + a] = 4 * (dU[a] * L[b] + L[a] * dU[b]);
+      f.dV[3 + a] = 4 * (dV[a] * L[b] + L[a] * dV[b]);
+    }
+  }
+  return f;
+}
+
+/// Of a quadrilateral of 4, 8 or 9 nodes at (u, v) in the unit square. Eight are those of nine
+/// without the bubble: its share goes to corners, by -1/4, and to the middles of sides, by 1/2.
+FaceFunctions quadrilateralFunctions(int nodes, double u, double v)
+{
+  const auto along = [nodes](double t, std::array<double, 3>& N, std::array<double, 3>& d)
+  {
+    N = nodes == 4
+          ? std::array<double, 3>{ 1 - t, 0, t }
+          : std::array<double, 3>{ (1 - t) * (1 - 2 * t), 4 * t * (1 - t), t * (2 * t - 1) };
+    d = nodes == 4 ? std::array<double, 3>{ -1, 0, 1 }
+                   : std::array<double, 3>{ 4 * t - 3, 4 - 8 * t, 4 * t - 1 };
+  };
+  constexpr int at[MostNodes][2] = { { 0, 0 }, { 2, 0 }, { 2, 2 }, { 0, 2 }, { 1, 0 }, { 2, 1 },
+    { 1, 2 }, { 0, 1 }, { 1, 1 } };
+  std::array<double, 3> U, V, dU, dV;
+  along(u, U, dU);
+  along(v, V, dV);
+  FaceFunctions f;
+  for (int a = 0; a < MostNodes; ++a)
+  {
+    const auto [i, j] = at[a];
+    f.N[a] = U[i] * V[j];
+    f.dU[a] = dU[i] * V[j];
+    f.dV[a] = U[i] * dV[j];
+  }
+  for (int a = 0; nodes == 8 && a < 8; ++a)
+  {
+    const double share = a < 4 ? -0.25 : 0.5;
+    f.N[a] += share * f.N[8];
+    f.dU[a] += share * f.dU[8];
+    f.dV[a] += share * f.dV[8];
+  }
+  return f;
+}
+
+/// A place on a face, and the weights of its nodes there.
+struct PlaceOnFace
+{
+  double u, v;
+  std::array<double, MostNodes> N;
+};
+
+/// The nodes of each face: its corners, then the middles of its sides, then its own middle. None of
+/// a face whose shape functions are not known here.
+Adjacency nodesOfFaces(const Mesh& mesh, const BoundaryFaces& faces)
+{
+  Adjacency result;
+  result.offsets = { 0 };
+  for (std::size_t f = 0; f < faces.cells.size(); ++f)
+  {
+    const Index cell = faces.cells[f];
+    const CellShape& shape = *cellShape(mesh, cell);
+    const Index* corners = faces.connectivity.data() + faces.offsets[f];
+    const Index size = faces.offsets[f + 1] - faces.offsets[f];
+    std::vector<Index> nodes(corners, corners + size), middles(size, -1), center;
+    const Index last = shape.shape == Shape::Polyhedron ? 0 : shape.numberOfNodes;
+    for (int k = shape.numberOfCorners; k < last; ++k)
+    {
+      double N[8];
+      shapeFunctions(shape.shape, shape.extraNodes[k - shape.numberOfCorners], N, nullptr);
+      std::vector<Index> between;
+      bool isOn = true;
+      for (int a = 0; a < shape.numberOfCorners; ++a)
+      {
+        const Index node = mesh.cell(cell)[shape.cornerNode[a]];
+        const Index place = std::find(corners, corners + size, node) - corners;
+        if (N[a] != 0)
+        {
+          isOn = isOn && place < size;
+          between.push_back(place);
+        }
+      }
+      if (isOn && between.size() == 2)
+      {
+        std::sort(between.begin(), between.end());
+        const bool isLast = between[0] == 0 && between[1] == size - 1;
+        middles[isLast ? size - 1 : between[0]] = mesh.cell(cell)[k];
+      }
+      else if (isOn)
+      {
+        center.push_back(mesh.cell(cell)[k]);
+      }
+    }
+    const auto count =
+      std::count_if(middles.begin(), middles.end(), [](Index node) { return node >= 0; });
+    const bool isLinear = count == 0 && center.empty();
+    const bool isQuadratic = count == size && (center.empty() || (size == 4 && center.size() == 1));
+    const bool isKnown = shape.shape != Shape::Polyhedron && (size == 3 || size == 4) &&
+                         mesh.types[cell] < LagrangeCurve && (isLinear || isQuadratic);
+    if (isKnown)
+    {
+      result.values.insert(result.values.end(), nodes.begin(), nodes.end());
+    }
+    if (isKnown && isQuadratic)
+    {
+      result.values.insert(result.values.end(), middles.begin(), middles.end());
+      result.values.insert(result.values.end(), center.begin(), center.end());
+    }
+    result.offsets.push_back(static_cast<Index>(result.values.size()));
+  }
+  return result;
+}
 
 /// Finds the small faces in a large one.
 class DividedFaces
@@ -33,19 +168,10 @@ public:
   DividedFaces(const Mesh& mesh, const BoundaryFaces& faces, Monitor& monitor)
     : mesh_(mesh)
     , faces_(faces)
+    , nodes_(nodesOfFaces(mesh, faces))
     , area_(static_cast<Index>(faces.cells.size()), 3)
   {
-    parallel(this->area_.rows(), monitor,
-      [&](Index f)
-      {
-        const Eigen::RowVector3d origin = this->place(f, 0);
-        Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
-        for (Index k = 2; k < this->size(f); ++k)
-        {
-          sum += (this->place(f, k - 1) - origin).cross(this->place(f, k) - origin) / 2;
-        }
-        this->area_.row(f) = sum;
-      });
+    parallel(this->area_.rows(), monitor, [&](Index f) { this->area_.row(f) = this->areaOf(f); });
     this->ofNode_ = sortIntoBuckets(this->area_.rows(), mesh.numberOfNodes(), monitor,
       [&](Index first, Index last, const auto& add)
       {
@@ -56,25 +182,38 @@ public:
       });
   }
 
-  const Index* begin(Index f) const
-  {
-    return this->faces_.connectivity.data() + this->faces_.offsets[f];
-  }
-  const Index* end(Index f) const
-  {
-    return this->faces_.connectivity.data() + this->faces_.offsets[f + 1];
-  }
-  Index size(Index f) const { return this->faces_.offsets[f + 1] - this->faces_.offsets[f]; }
-  bool isCorner(Index f, Index node) const
+  /// The nodes of a face, corners first.
+  const Index* begin(Index f) const { return this->nodes_.begin(f); }
+  const Index* end(Index f) const { return this->nodes_.end(f); }
+  Index size(Index f) const { return this->end(f) - this->begin(f); }
+  Index corners(Index f) const { return this->faces_.offsets[f + 1] - this->faces_.offsets[f]; }
+  bool has(Index f, Index node) const
   {
     return std::find(this->begin(f), this->end(f), node) != this->end(f);
+  }
+  bool isCorner(Index f, Index node) const
+  {
+    const Index* last = this->begin(f) + std::min(this->corners(f), this->size(f));
+    return std::find(this->begin(f), last, node) != last;
+  }
+
+  /// Whether other faces lie in `f` at each of its corners, as where it is divided.
+  bool hasPartsAtCorners(Index f) const
+  {
+    return this->size(f) > 0 &&
+           std::all_of(this->begin(f), this->begin(f) + this->corners(f),
+             [&](Index corner)
+             {
+               return std::any_of(this->ofNode_.begin(corner), this->ofNode_.end(corner),
+                 [&](Index g) { return this->isCorner(g, corner) && this->isPart(g, f); });
+             });
   }
 
   /// Returns the faces that lie in `f` and fill it, ascending; none if there are no such.
   std::vector<Index> parts(Index f) const
   {
     std::vector<Index> found;
-    if (!this->isLinear(f))
+    if (!this->hasPartsAtCorners(f))
     {
       return found;
     }
@@ -101,13 +240,7 @@ public:
     {
       rest += this->area_.row(part);
     }
-    const bool hasCorners = std::all_of(this->begin(f), this->end(f),
-      [&](Index corner)
-      {
-        return std::any_of(
-          found.begin(), found.end(), [&](Index part) { return this->isCorner(part, corner); });
-      });
-    if (!hasCorners || rest.norm() > OnFace * this->area_.row(f).norm())
+    if (rest.norm() > OnFace * this->area_.row(f).norm())
     {
       found.clear();
     }
@@ -115,26 +248,32 @@ public:
     return found;
   }
 
-  /// Returns the weights of the corners of `f` at a place on it, or nothing off it.
-  std::optional<FaceWeights> weights(Index f, const Eigen::RowVector3d& x) const
+  /// Returns where on `f` a place is, and the weights of its nodes there; nothing off it.
+  std::optional<PlaceOnFace> placeOn(Index f, const Eigen::RowVector3d& x) const
   {
+    const auto nodes = static_cast<int>(this->size(f));
+    const bool isTriangle = this->corners(f) == 3;
     const Eigen::RowVector3d origin = this->place(f, 0);
-    const bool isTriangle = this->size(f) == 3;
-    // origin + u a + v b + u v c
-    const Eigen::RowVector3d a = this->place(f, 1) - origin,
-                             b = this->place(f, isTriangle ? 2 : 3) - origin;
-    const Eigen::RowVector3d c = isTriangle
-                                   ? Eigen::RowVector3d::Zero()
-                                   : Eigen::RowVector3d(this->place(f, 2) - origin - a - b);
-    constexpr int Steps = 20; // of Gauss and Newton; one for a parallelogram
-    double u = 0.5, v = 0.5;
-    Eigen::Vector3d off;
+    const auto functions = [&](double u, double v)
+    { return isTriangle ? triangleFunctions(nodes, u, v) : quadrilateralFunctions(nodes, u, v); };
+    const auto sum = [&](const std::array<double, MostNodes>& weights)
+    {
+      Eigen::Vector3d result = Eigen::Vector3d::Zero();
+      for (int a = 0; a < nodes; ++a)
+      {
+        result += weights[a] * (this->place(f, a) - origin).transpose();
+      }
+      return result;
+    };
+    constexpr int Steps = 20; // of Gauss and Newton; one for a flat parallelogram
+    const Eigen::Vector3d wanted = (x - origin).transpose();
+    auto [u, v] = this->nearestNode(f, x);
     for (int step = 0; step < Steps; ++step)
     {
+      const FaceFunctions at = functions(u, v);
       Eigen::Matrix<double, 3, 2> tangents;
-      tangents << (a + v * c).transpose(), (b + u * c).transpose();
-      off = (x - origin - u * a - v * b - u * v * c).transpose();
-      const Eigen::Vector2d change = tangents.colPivHouseholderQr().solve(off);
+      tangents << sum(at.dU), sum(at.dV);
+      const Eigen::Vector2d change = tangents.colPivHouseholderQr().solve(wanted - sum(at.N));
       u += change[0];
       v += change[1];
       if (!(change.norm() > 1e-15))
@@ -142,50 +281,117 @@ public:
         break;
       }
     }
-    off = (x - origin - u * a - v * b - u * v * c).transpose();
+    const double off = (wanted - sum(functions(u, v).N)).norm();
     for (double* value : { &u, &v })
     {
       *value = std::abs(*value) < OnFace ? 0 : std::abs(*value - 1) < OnFace ? 1 : *value;
     }
-    FaceWeights N = isTriangle ? FaceWeights{ 1 - u - v, u, v, 0 }
-                               : FaceWeights{ (1 - u) * (1 - v), u * (1 - v), u * v, (1 - u) * v };
-    if (isTriangle && std::abs(N[0]) < OnFace)
+    const bool isOnSlope = isTriangle && std::abs(1 - u - v) < OnFace;
+    v = isOnSlope ? 1 - u : v;
+    const bool isInside = u >= 0 && v >= 0 && u <= 1 && v <= 1 && (!isTriangle || 1 - u - v >= 0);
+    if (!isInside || !(off <= OnFace * std::sqrt(this->area_.row(f).norm())))
     {
-      N = { 0, u, 1 - u, 0 };
+      return std::nullopt;
     }
-    const double size = std::sqrt(this->area_.row(f).norm());
-    const bool isOn = off.norm() <= OnFace * size &&
-                      std::all_of(N.begin(), N.end(), [](double weight) { return weight >= 0; });
-    return isOn ? std::make_optional(N) : std::nullopt;
+    PlaceOnFace result = { u, v, functions(u, v).N };
+    for (int a = 0; a < nodes; ++a)
+    {
+      // Of nodes on other sides: zero but for rounding.
+      result.N[a] = std::abs(result.N[a]) < 1e-15 ? 0 : result.N[a];
+    }
+    return result;
+  }
+
+  /// The ends of the side of `f` that a place is on, by their numbers in it, and how far it is from
+  /// the first; nothing inside the face and at its corners.
+  std::optional<std::tuple<Index, Index, double>> sideOf(Index f, const PlaceOnFace& at) const
+  {
+    const double w = 1 - at.u - at.v;
+    const bool isTriangle = this->corners(f) == 3;
+    const auto inner = [](double t) { return t > 0 && t < 1; };
+    using Side = std::tuple<Index, Index, double>;
+    if (at.v == 0 && inner(at.u))
+    {
+      return Side{ 0, 1, at.u };
+    }
+    if (at.u == 0 && inner(at.v))
+    {
+      return Side{ 0, isTriangle ? 2 : 3, at.v };
+    }
+    if (isTriangle && w == 0 && inner(at.v))
+    {
+      return Side{ 1, 2, at.v };
+    }
+    if (!isTriangle && at.u == 1 && inner(at.v))
+    {
+      return Side{ 1, 2, at.v };
+    }
+    if (!isTriangle && at.v == 1 && inner(at.u))
+    {
+      return Side{ 3, 2, at.u };
+    }
+    return std::nullopt;
   }
 
 private:
-  Eigen::RowVector3d place(Index f, Index corner) const
+  /// The place of the node of `f` next to `x`, where steps to it start.
+  std::pair<double, double> nearestNode(Index f, const Eigen::RowVector3d& x) const
   {
-    return this->mesh_.points.row(this->begin(f)[corner]);
+    constexpr std::pair<double, double> OfTriangle[] = { { 0, 0 }, { 1, 0 }, { 0, 1 }, { 0.5, 0 },
+      { 0.5, 0.5 }, { 0, 0.5 } };
+    constexpr std::pair<double, double> OfQuadrilateral[] = { { 0, 0 }, { 1, 0 }, { 1, 1 },
+      { 0, 1 }, { 0.5, 0 }, { 1, 0.5 }, { 0.5, 1 }, { 0, 0.5 }, { 0.5, 0.5 } };
+    const Index* nearest = std::min_element(this->begin(f), this->end(f),
+      [&](Index a, Index b)
+      {
+        return (this->mesh_.points.row(a) - x).squaredNorm() <
+               (this->mesh_.points.row(b) - x).squaredNorm();
+      });
+    const Index place = nearest - this->begin(f);
+    return this->corners(f) == 3 ? OfTriangle[place] : OfQuadrilateral[place];
   }
-  bool isLinear(Index f) const
+  Eigen::RowVector3d place(Index f, Index node) const
   {
-    const CellShape& shape = *cellShape(this->mesh_, this->faces_.cells[f]);
-    return shape.numberOfNodes == shape.numberOfCorners;
+    return this->mesh_.points.row(this->begin(f)[node]);
+  }
+  /// The vector area, outward: half the integral of x times dx along the rim. A side through its
+  /// middle m is a parabola, for which that of a to b is (4 a x m + 4 m x b - a x b) / 6.
+  Eigen::RowVector3d areaOf(Index f) const
+  {
+    Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
+    const Index corners = this->corners(f);
+    for (Index k = 0; k<corners&& this->size(f)> 0; ++k)
+    {
+      const Eigen::RowVector3d a = this->place(f, k) - this->place(f, 0);
+      const Eigen::RowVector3d b = this->place(f, (k + 1) % corners) - this->place(f, 0);
+      if (this->size(f) == corners)
+      {
+        sum += a.cross(b) / 2;
+        continue;
+      }
+      const Eigen::RowVector3d m = this->place(f, corners + k) - this->place(f, 0);
+      sum += (4 * a.cross(m) + 4 * m.cross(b) - a.cross(b)) / 6;
+    }
+    return sum;
   }
   /// Whether `g` lies in `f`, on its other side.
   bool isPart(Index g, Index f) const
   {
     const auto own = this->area_.row(g), all = this->area_.row(f);
     if (!(own.dot(all) < 0 && own.squaredNorm() < (1 - OnFace) * all.squaredNorm()) ||
-        this->faces_.cells[g] == this->faces_.cells[f] || !this->isLinear(g))
+        this->faces_.cells[g] == this->faces_.cells[f])
     {
       return false;
     }
     return std::all_of(this->begin(g), this->end(g),
       [&](Index node)
-      { return this->isCorner(f, node) || this->weights(f, this->mesh_.points.row(node)); });
+      { return this->has(f, node) || this->placeOn(f, this->mesh_.points.row(node)); });
   }
 
   const Mesh& mesh_;
   const BoundaryFaces& faces_;
-  Points area_; ///< vector areas, outward
+  Adjacency nodes_;
+  Points area_;
   Adjacency ofNode_;
 };
 
@@ -271,21 +477,19 @@ void resolve(std::map<Index, Tie>& ties)
 }
 }
 
-std::vector<std::uint8_t> HangingNodes::find(
-  const Mesh& mesh, const BoundaryFaces& faces, Monitor& monitor)
+void HangingNodes::find(const Mesh& mesh, const BoundaryFaces& faces, Monitor& monitor)
 {
   *this = HangingNodes();
   const Index count = static_cast<Index>(faces.cells.size());
   if (hasPolyhedra(mesh))
   {
-    return {};
+    return;
   }
   const DividedFaces divided(mesh, faces, monitor);
   std::vector<std::vector<Index>> parts(count);
   parallel(count, FaceGrain, monitor, [&](Index f) { parts[f] = divided.parts(f); });
   monitor.check();
 
-  std::vector<std::uint8_t> isInside(count, 0);
   std::map<Index, Tie> ties;
   NodesOnEdges onEdge;
   for (Index f = 0; f < count; ++f)
@@ -294,31 +498,39 @@ std::vector<std::uint8_t> HangingNodes::find(
     {
       continue;
     }
-    isInside[f] = 1;
-    std::vector<Polygon>& polygons = this->covers_[{ faces.cells[f], faces.sides[f] }];
+    this->inside_.emplace(faces.cells[f], faces.sides[f]);
+    std::vector<Polygon>& cover = this->covers_[{ faces.cells[f], faces.sides[f] }];
     for (const Index part : parts[f])
     {
-      isInside[part] = 1;
-      polygons.emplace_back(std::make_reverse_iterator(divided.end(part)),
-        std::make_reverse_iterator(divided.begin(part)));
-      for (const Index* node = divided.begin(part); node != divided.end(part); ++node)
+      this->inside_.emplace(faces.cells[part], faces.sides[part]);
+      const Index* corners = divided.begin(part);
+      cover.emplace_back(corners, corners + divided.corners(part));
+      std::reverse(cover.back().begin(), cover.back().end());
+      for (const Index* node = corners; node != divided.end(part); ++node)
       {
         if (divided.isCorner(f, *node))
         {
           continue;
         }
-        const FaceWeights N = *divided.weights(f, mesh.points.row(*node));
+        const auto at = divided.placeOn(f, mesh.points.row(*node));
+        if (const auto side = at ? divided.sideOf(f, *at) : std::nullopt;
+            side && divided.isCorner(part, *node))
+        {
+          const auto& [from, to, along] = *side;
+          const Index first = divided.begin(f)[from], last = divided.begin(f)[to];
+          onEdge[std::minmax(first, last)].emplace(*node, first < last ? along : 1 - along);
+        }
+        if (divided.has(f, *node))
+        {
+          continue;
+        }
         Tie tie;
         for (Index k = 0; k < divided.size(f); ++k)
         {
-          if (N[k] > 0)
+          if (at->N[k] != 0)
           {
-            tie[divided.begin(f)[k]] = N[k];
+            tie[divided.begin(f)[k]] = at->N[k];
           }
-        }
-        if (tie.size() == 2)
-        {
-          onEdge[{ tie.begin()->first, tie.rbegin()->first }].emplace(*node, tie.rbegin()->second);
         }
         // On an edge of one face and inside another, the edge is what all sides have.
         const auto [known, isNew] = ties.try_emplace(*node, tie);
@@ -328,10 +540,6 @@ std::vector<std::uint8_t> HangingNodes::find(
         }
       }
     }
-  }
-  if (this->covers_.empty())
-  {
-    return {};
   }
   complete(onEdge);
   for (const auto& [edge, nodes] : onEdge)
@@ -348,6 +556,12 @@ std::vector<std::uint8_t> HangingNodes::find(
     }
   }
   resolve(ties);
+  this->take(ties, mesh.numberOfNodes());
+}
+
+void HangingNodes::take(const std::map<Index, std::map<Index, double>>& ties, Index nodes)
+{
+  this->ids_.clear();
   std::vector<Eigen::Triplet<double, int>> entries;
   for (const auto& [node, tie] : ties)
   {
@@ -357,9 +571,150 @@ std::vector<std::uint8_t> HangingNodes::find(
     }
     this->ids_.push_back(node);
   }
-  this->weights_.resize(static_cast<Index>(this->ids_.size()), mesh.numberOfNodes());
+  this->weights_.resize(static_cast<Index>(this->ids_.size()), nodes);
   this->weights_.setFromTriplets(entries.begin(), entries.end());
-  return isInside;
+}
+
+std::map<Index, std::map<Index, double>> HangingNodes::ties() const
+{
+  std::map<Index, Tie> result;
+  for (std::size_t i = 0; i < this->ids_.size(); ++i)
+  {
+    for (Weights::InnerIterator at(this->weights_, static_cast<Index>(i)); at; ++at)
+    {
+      result[this->ids_[i]][at.col()] = at.value();
+    }
+  }
+  return result;
+}
+
+bool HangingNodes::mayBeAmong(const Mesh& mesh, const BoundaryFaces& faces,
+  const std::vector<std::uint8_t>& isOf, Monitor& monitor)
+{
+  const DividedFaces divided(mesh, faces, monitor);
+  std::vector<std::uint8_t> isDivided(faces.cells.size(), 0);
+  parallel(static_cast<Index>(isDivided.size()), FaceGrain, monitor,
+    [&](Index f) { isDivided[f] = isOf[faces.cells[f]] != 0 && divided.hasPartsAtCorners(f); });
+  monitor.check();
+  return std::find(isDivided.begin(), isDivided.end(), 1) != isDivided.end();
+}
+
+HangingNodes HangingNodes::following(const HigherOrderNodes& followers) const
+{
+  std::map<Index, Tie> ties = this->ties();
+  std::vector<Index> open = this->ids_, added;
+  while (!open.empty())
+  {
+    const Tie tie = ties.at(open.back());
+    open.pop_back();
+    for (const auto& [master, weight] : tie)
+    {
+      Tie own = followers.weightsOf(master);
+      if (!own.empty() && ties.emplace(master, std::move(own)).second)
+      {
+        open.push_back(master);
+        added.push_back(master);
+      }
+    }
+  }
+  resolve(ties);
+  for (const Index follower : added)
+  {
+    ties.erase(follower);
+  }
+  HangingNodes result = *this;
+  result.take(ties, this->weights_.cols());
+  return result;
+}
+
+HangingNodes HangingNodes::renumbered(
+  const std::vector<Index>& nodeOf, const std::vector<Index>& cellOf, Index nodes) const
+{
+  const auto areKnown = [&](const auto& ids)
+  { return std::all_of(ids.begin(), ids.end(), [&](Index id) { return nodeOf[id] >= 0; }); };
+  const auto rename = [&](std::vector<Index> ids)
+  {
+    std::transform(ids.begin(), ids.end(), ids.begin(), [&](Index id) { return nodeOf[id]; });
+    return ids;
+  };
+  HangingNodes result;
+  for (const auto& [cell, side] : this->inside_)
+  {
+    if (cellOf[cell] >= 0)
+    {
+      result.inside_.emplace(cellOf[cell], side);
+    }
+  }
+  for (const auto& [place, cover] : this->covers_)
+  {
+    if (cellOf[place.first] >= 0 && std::all_of(cover.begin(), cover.end(), areKnown))
+    {
+      std::vector<Polygon>& own = result.covers_[{ cellOf[place.first], place.second }];
+      std::transform(cover.begin(), cover.end(), std::back_inserter(own), rename);
+    }
+  }
+  for (const auto& [edge, own] : this->onEdge_)
+  {
+    const Index first = nodeOf[edge.first], last = nodeOf[edge.second];
+    if (first >= 0 && last >= 0 && areKnown(own))
+    {
+      std::vector<Index>& between = result.onEdge_[std::minmax(first, last)] = rename(own);
+      if (first > last)
+      {
+        std::reverse(between.begin(), between.end());
+      }
+    }
+  }
+  std::map<Index, Tie> ties;
+  for (const auto& [node, tie] : this->ties())
+  {
+    const auto isKnown = [&](const auto& master) { return nodeOf[master.first] >= 0; };
+    if (nodeOf[node] >= 0 && std::all_of(tie.begin(), tie.end(), isKnown))
+    {
+      for (const auto& [master, weight] : tie)
+      {
+        ties[nodeOf[node]][nodeOf[master]] = weight;
+      }
+    }
+  }
+  result.take(ties, nodes);
+  return result;
+}
+
+std::vector<Index> HangingNodes::reach(
+  const std::vector<Index>& known, const std::vector<Index>& cells) const
+{
+  std::set<Index> nodes(known.begin(), known.end());
+  for (const auto& [place, cover] : this->covers_)
+  {
+    if (std::binary_search(cells.begin(), cells.end(), place.first))
+    {
+      for (const Polygon& polygon : cover)
+      {
+        nodes.insert(polygon.begin(), polygon.end());
+      }
+    }
+  }
+  std::set<Index> more = nodes;
+  for (const auto& [edge, own] : this->onEdge_)
+  {
+    if (nodes.count(edge.first) > 0 && nodes.count(edge.second) > 0)
+    {
+      more.insert(own.begin(), own.end());
+    }
+  }
+  for (const auto& [node, tie] : this->ties())
+  {
+    if (more.count(node) > 0)
+    {
+      for (const auto& [master, weight] : tie)
+      {
+        nodes.insert(master);
+      }
+    }
+  }
+  nodes.insert(more.begin(), more.end());
+  return { nodes.begin(), nodes.end() };
 }
 
 bool HangingNodes::hangs(Index node) const
@@ -373,8 +728,7 @@ NodePartition HangingNodes::extend(NodePartition partition) const
   for (std::size_t i = 0; i < this->ids_.size(); ++i)
   {
     bool isGiven = true;
-    using Masters = Eigen::SparseMatrix<double, Eigen::RowMajor, int>::InnerIterator;
-    for (Masters master(this->weights_, static_cast<Index>(i)); master; ++master)
+    for (Weights::InnerIterator master(this->weights_, static_cast<Index>(i)); master; ++master)
     {
       isGiven = isGiven && std::binary_search(partition.prescribed.begin(),
                              partition.prescribed.end(), static_cast<Index>(master.col()));
@@ -392,6 +746,20 @@ NodePartition HangingNodes::extend(NodePartition partition) const
   partition.prescribed = std::move(prescribed);
   partition.free = std::move(free);
   return partition;
+}
+
+std::vector<Index> HangingNodes::tiedTo(const std::vector<Index>& nodes) const
+{
+  std::set<Index> masters;
+  for (const auto& [node, tie] : this->ties())
+  {
+    std::transform(tie.begin(), tie.end(), std::inserter(masters, masters.end()),
+      [](const auto& master) { return master.first; });
+  }
+  std::vector<Index> result;
+  std::set_intersection(
+    masters.begin(), masters.end(), nodes.begin(), nodes.end(), std::back_inserter(result));
+  return result;
 }
 
 std::vector<Index> HangingNodes::without(const std::vector<Index>& ids) const
@@ -458,6 +826,10 @@ void HangingNodes::divideEdges(Polygon& polygon) const
 
 void HangingNodes::divideEdges(BoundaryFaces& faces) const
 {
+  if (this->onEdge_.empty())
+  {
+    return;
+  }
   std::vector<Index> offsets = { 0 }, connectivity;
   for (std::size_t f = 0; f + 1 < faces.offsets.size(); ++f)
   {
@@ -467,8 +839,7 @@ void HangingNodes::divideEdges(BoundaryFaces& faces) const
     connectivity.insert(connectivity.end(), polygon.begin(), polygon.end());
     offsets.push_back(static_cast<Index>(connectivity.size()));
   }
-  faces.offsets = std::move(offsets);
-  faces.connectivity = std::move(connectivity);
+  setCorners(std::move(offsets), std::move(connectivity), faces);
 }
 
 Mesh HangingNodes::conforming(const Mesh& mesh) const
@@ -494,8 +865,7 @@ Mesh HangingNodes::conforming(const Mesh& mesh) const
     const CellShape* shape = cellShape(mesh, c);
     const auto cover = this->covers_.lower_bound({ c, 0 });
     const bool isCovered = cover != this->covers_.end() && cover->first.first == c;
-    const bool isVolume =
-      shape && shape->dimension == 3 && shape->numberOfNodes == shape->numberOfCorners;
+    const bool isVolume = shape && shape->dimension == 3 && shape->shape != Shape::Polyhedron;
     if (isVolume && (isCovered || std::count_if(begin, end, [&](Index n) { return isEnd[n]; }) > 1))
     {
       std::vector<Polygon> polygons;
@@ -529,6 +899,7 @@ Mesh HangingNodes::conforming(const Mesh& mesh) const
       if (isDivided)
       {
         result.types[c] = Polyhedron;
+        nodes.clear(); // those between its corners are in no piece
         for (const Polygon& polygon : polygons)
         {
           result.faces.push_back(static_cast<Index>(polygon.size()));
@@ -544,5 +915,19 @@ Mesh HangingNodes::conforming(const Mesh& mesh) const
     result.faceOffsets.push_back(static_cast<Index>(result.faces.size()));
   }
   return result;
+}
+
+NodePartition partitionNodes(
+  const Mesh& mesh, const HangingNodes& hanging, std::vector<Index> prescribed)
+{
+  NodePartition partition = partitionNodes(mesh, std::move(prescribed));
+  std::vector<Index>& between = partition.higherOrderNodes;
+  const auto first = std::stable_partition(
+    between.begin(), between.end(), [&](Index node) { return !hanging.hangs(node); });
+  const auto known = static_cast<std::ptrdiff_t>(partition.free.size());
+  partition.free.insert(partition.free.end(), first, between.end());
+  between.erase(first, between.end());
+  std::inplace_merge(partition.free.begin(), partition.free.begin() + known, partition.free.end());
+  return partition;
 }
 }

@@ -6,6 +6,7 @@
 
 #include <Eigen/SVD>
 
+#include <algorithm>
 #include <vector>
 
 namespace morph
@@ -123,5 +124,20 @@ void HigherOrderNodes::applyTranspose(Points& gradient) const
   const Points own = gradient(this->ids_, allColumns);
   gradient(this->ids_, allColumns).setZero();
   gradient += this->weights_.transpose() * own;
+}
+
+std::map<Index, double> HigherOrderNodes::weightsOf(Index node) const
+{
+  std::map<Index, double> weights;
+  const auto found = std::lower_bound(this->ids_.begin(), this->ids_.end(), node);
+  if (found != this->ids_.end() && *found == node)
+  {
+    using Corners = Eigen::SparseMatrix<double, Eigen::RowMajor, int>::InnerIterator;
+    for (Corners corner(this->weights_, found - this->ids_.begin()); corner; ++corner)
+    {
+      weights[corner.col()] = corner.value();
+    }
+  }
+  return weights;
 }
 }

@@ -6,6 +6,8 @@
 
 #include <Eigen/SparseCore>
 
+#include <map>
+
 namespace morph
 {
 /// Moves the mid-side, face and body nodes of quadratic cells that are not prescribed by weights of
@@ -24,6 +26,8 @@ public:
   /// The adjoint of apply(): adds the higher-order nodes' rows to the corners' rows by the same
   /// weights, and sets them to zero.
   void applyTranspose(Points& gradient) const;
+  /// The corners that a node follows, with their weights; none for a node that is no follower.
+  std::map<Index, double> weightsOf(Index node) const;
 
 private:
   std::vector<Index> ids_;

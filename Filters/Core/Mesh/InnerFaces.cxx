@@ -3,6 +3,7 @@
 
 #include "Mesh/CellShape.h"
 #include "Mesh/FaceTable.h"
+#include "Mesh/Polyhedra.h"
 #include "Support/Buckets.h"
 
 #include <algorithm>
@@ -14,6 +15,22 @@ Corners sortedCorners(const Index* begin, const Index* end)
 {
   Corners corners(begin, end);
   std::sort(corners.begin(), corners.end());
+  return corners;
+}
+
+Corners cornersOfCell(const Mesh& mesh, const BoundaryFaces& faces, Index face)
+{
+  const Index *begin = faces.connectivity.data() + faces.offsets[face],
+              *end = faces.connectivity.data() + faces.offsets[face + 1];
+  Corners corners = sortedCorners(begin, end);
+  const Index cell = faces.cells[face];
+  if (!isPolyhedron(mesh, cell))
+  {
+    const Index* last = mesh.cell(cell) + cellShape(mesh, cell)->numberOfCorners;
+    corners.erase(std::remove_if(corners.begin(), corners.end(),
+                    [&](Index node) { return std::find(mesh.cell(cell), last, node) == last; }),
+      corners.end());
+  }
   return corners;
 }
 
@@ -36,10 +53,9 @@ InnerFaces innerFaces(const Mesh& mesh, const BoundaryFaces& outer,
   const std::vector<std::uint8_t>& isMarked, Monitor& monitor)
 {
   std::map<Corners, int> cells = flatCells(mesh, isMarked);
-  const Index* all = outer.connectivity.data();
   for (std::size_t f = 0; f + 1 < outer.offsets.size() && !cells.empty(); ++f)
   {
-    cells.erase(sortedCorners(all + outer.offsets[f], all + outer.offsets[f + 1]));
+    cells.erase(cornersOfCell(mesh, outer, static_cast<Index>(f)));
   }
   InnerFaces result;
   if (cells.empty())

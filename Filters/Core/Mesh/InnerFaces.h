@@ -29,6 +29,10 @@ using Corners = std::vector<Index>; ///< ascending
 
 Corners sortedCorners(const Index* begin, const Index* end);
 
+/// The corners of a boundary face that its cell has, without those on edges that are divided.
+/// `mesh`: with the cells of the faces.
+Corners cornersOfCell(const Mesh& mesh, const BoundaryFaces& faces, Index face);
+
 /// How many of the two-dimensional cells that are marked have these corners. `isMarked`: #cells.
 std::map<Corners, int> flatCells(const Mesh& mesh, const std::vector<std::uint8_t>& isMarked);
 

@@ -9,6 +9,7 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 namespace morph
@@ -374,7 +375,14 @@ NodePartition PolyhedronPieces::extend(const NodePartition& partition) const
   {
     isPrescribed[node] = 1;
   }
-  std::vector<Index> prescribed = partition.prescribed;
+  std::vector<char> isUsed(this->pieces_.numberOfNodes(), 0);
+  for (const Index node : this->pieces_.connectivity)
+  {
+    isUsed[node] = 1;
+  }
+  std::vector<Index> prescribed;
+  std::copy_if(partition.prescribed.begin(), partition.prescribed.end(),
+    std::back_inserter(prescribed), [&](Index node) { return isUsed[node] != 0; });
   for (Index f = 0; f < this->faceCenters_; ++f)
   {
     bool all = true;

@@ -38,7 +38,8 @@ public:
   /// extend(). `all`: with the centers; returns #nodes x 3.
   Points extendTranspose(const ConstPoints& all) const;
   /// The groups of all nodes. Centers of faces whose nodes are all prescribed are prescribed, too,
-  /// and come last; the other centers are free. `partition`: of the mesh without centers.
+  /// and come last; the other centers are free. Nodes that no cell here has are left out.
+  /// `partition`: of the mesh without centers.
   NodePartition extend(const NodePartition& partition) const;
 
   /// Returns `values`, one a cell, for each piece: that of the cell it is cut from.

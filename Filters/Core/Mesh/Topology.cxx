@@ -16,6 +16,7 @@
 #include <array>
 #include <iterator>
 #include <limits>
+#include <map>
 #include <numeric>
 #include <utility>
 
@@ -315,7 +316,7 @@ BoundaryFaces boundaryFaces(const Mesh& mesh, Monitor& monitor)
   return boundaryFaces(mesh, hanging, monitor);
 }
 
-BoundaryFaces boundaryFaces(const Mesh& mesh, HangingNodes& hanging, Monitor& monitor)
+BoundaryFaces facesOfOneCell(const Mesh& mesh, Monitor& monitor)
 {
   std::vector<Place> places =
     hasPolyhedra(mesh) ? outerFacesAmongAll(mesh, monitor) : outerFaces(mesh, monitor);
@@ -325,23 +326,30 @@ BoundaryFaces boundaryFaces(const Mesh& mesh, HangingNodes& hanging, Monitor& mo
                    [&](const Place& place) { return isFrontOrBack(mesh, place); }),
       places.end());
   }
-  BoundaryFaces faces = describeFaces(mesh, places);
-  const std::vector<std::uint8_t> isInside = hanging.find(mesh, faces, monitor);
-  if (isInside.empty())
-  {
-    return faces;
-  }
+  return describeFaces(mesh, places);
+}
+
+BoundaryFaces boundaryFaces(const Mesh& mesh, HangingNodes& hanging, Monitor& monitor)
+{
+  BoundaryFaces faces = facesOfOneCell(mesh, monitor);
+  hanging.find(mesh, faces, monitor);
+  return hanging.empty() ? faces : boundaryFaces(mesh, faces, hanging);
+}
+
+BoundaryFaces boundaryFaces(
+  const Mesh& mesh, const BoundaryFaces& faces, const HangingNodes& hanging)
+{
   std::vector<Place> outside;
-  for (std::size_t f = 0; f < places.size(); ++f)
+  for (std::size_t f = 0; f < faces.cells.size(); ++f)
   {
-    if (!isInside[f])
+    if (!hanging.isInside(faces.cells[f], faces.sides[f]))
     {
-      outside.push_back(places[f]);
+      outside.push_back({ faces.cells[f], faces.sides[f] });
     }
   }
-  faces = describeFaces(mesh, outside);
-  hanging.divideEdges(faces);
-  return faces;
+  BoundaryFaces result = describeFaces(mesh, outside);
+  hanging.divideEdges(result);
+  return result;
 }
 
 BoundaryFaces facesOfCells(
@@ -356,6 +364,53 @@ BoundaryFaces facesOfCells(
     }
   }
   return describeFaces(mesh, places);
+}
+
+void setCorners(std::vector<Index> offsets, std::vector<Index> connectivity, BoundaryFaces& faces)
+{
+  std::map<Index, std::vector<Index>> between;
+  for (std::size_t i = 0; i < faces.nodes.size(); ++i)
+  {
+    const Index k = static_cast<Index>(i);
+    between[faces.nodes[i]].assign(faces.between.begin(k), faces.between.end(k));
+  }
+  for (const Index node : connectivity)
+  {
+    between[node].clear();
+  }
+  faces.nodes.clear();
+  faces.between = {};
+  faces.between.offsets = { 0 };
+  for (const auto& [node, corners] : between)
+  {
+    faces.nodes.push_back(node);
+    faces.between.values.insert(faces.between.values.end(), corners.begin(), corners.end());
+    faces.between.offsets.push_back(static_cast<Index>(faces.between.values.size()));
+  }
+  faces.offsets = std::move(offsets);
+  faces.connectivity = std::move(connectivity);
+}
+
+BoundaryFaces facesBetween(const Mesh& mesh, const BoundaryFaces& faces, Index first, Index last)
+{
+  std::vector<Place> places;
+  for (Index f = first; f < last; ++f)
+  {
+    places.push_back({ faces.cells[f], faces.sides[f] });
+  }
+  BoundaryFaces result = describeFaces(mesh, places);
+  std::vector<Index> offsets;
+  for (Index f = first; f <= last; ++f)
+  {
+    offsets.push_back(faces.offsets[f] - faces.offsets[first]);
+  }
+  const std::vector<Index> connectivity(faces.connectivity.begin() + faces.offsets[first],
+    faces.connectivity.begin() + faces.offsets[last]);
+  if (connectivity != result.connectivity)
+  {
+    setCorners(std::move(offsets), connectivity, result);
+  }
+  return result;
 }
 
 BoundaryFaces facesAt(const Mesh& mesh, const std::vector<std::pair<Index, int>>& places)

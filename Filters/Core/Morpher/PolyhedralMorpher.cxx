@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Morpher/PolyhedralMorpher.h"
 
+#include "Mesh/HigherOrderNodes.h"
 #include "Mesh/Polyhedra.h"
 #include "Mesh/PolyhedronPieces.h"
 #include "Morpher/CellStiffness.h"
@@ -47,7 +48,13 @@ public:
       stiffness.values = this->pieces_->extend(stiffness.values);
       stiff->setStiffness(std::move(stiffness));
     }
-    const NodePartition ofMesh = this->hanging_.extend(partition);
+    if (!this->hanging_.empty())
+    {
+      HigherOrderNodes followers;
+      followers.prepare(rest, partition);
+      this->ties_ = this->hanging_.following(followers);
+    }
+    const NodePartition ofMesh = this->ties_.extend(partition);
     this->method_->prepare(this->pieces_->mesh(), this->pieces_->extend(ofMesh), monitor);
   }
 
@@ -56,7 +63,7 @@ public:
   {
     Points displacement = Points::Zero(this->nodes_, 3);
     displacement(partition.prescribed, allColumns) = prescribed;
-    this->hanging_.apply(displacement);
+    this->ties_.apply(displacement);
     const Points all = this->pieces_->extend(displacement);
     const std::vector<Index>& ids = this->method_->partition().prescribed;
     const Points& rest = this->method_->restPoints();
@@ -70,7 +77,7 @@ public:
     {
       displacement.row(node) = moved.row(node) - rest.row(node);
     }
-    this->hanging_.apply(displacement);
+    this->ties_.apply(displacement);
     free = displacement(partition.free, allColumns);
     return report;
   }
@@ -81,8 +88,8 @@ public:
     Points three = Points::Zero(this->nodes_, 3), fourth = three;
     three(partition.prescribed, allColumns) = prescribed.leftCols<3>();
     fourth(partition.prescribed, 0) = prescribed.col(3);
-    this->hanging_.apply(three);
-    this->hanging_.apply(fourth);
+    this->ties_.apply(three);
+    this->ties_.apply(fourth);
     three = this->pieces_->extend(three);
     fourth = this->pieces_->extend(fourth);
     const std::vector<Index>& ids = this->method_->partition().prescribed;
@@ -93,8 +100,8 @@ public:
     three = all.topLeftCorner(this->nodes_, 3);
     fourth.setZero();
     fourth.col(0) = all.col(3).head(this->nodes_);
-    this->hanging_.apply(three);
-    this->hanging_.apply(fourth);
+    this->ties_.apply(three);
+    this->ties_.apply(fourth);
     free << three(partition.free, allColumns), fourth(partition.free, 0);
     return report;
   }
@@ -104,7 +111,7 @@ public:
   {
     Points own = Points::Zero(this->nodes_, 3);
     own(partition.free, allColumns) = free;
-    this->hanging_.applyTranspose(own);
+    this->ties_.applyTranspose(own);
     prescribed += own(partition.prescribed, allColumns);
     Points gradient = Points::Zero(this->method_->restPoints().rows(), 3), given;
     gradient(partition.free, allColumns) = own(partition.free, allColumns);
@@ -112,7 +119,7 @@ public:
     Points all = Points::Zero(gradient.rows(), 3);
     all(this->method_->partition().prescribed, allColumns) = given;
     own = this->pieces_->extendTranspose(all);
-    this->hanging_.applyTranspose(own);
+    this->ties_.applyTranspose(own);
     prescribed += own(partition.prescribed, allColumns);
     return report;
   }
@@ -121,6 +128,7 @@ private:
   std::unique_ptr<Method> method_;
   bool cutsAll_;
   HangingNodes hanging_;
+  HangingNodes ties_; ///< of hanging_, to nodes that are given or solved for
   std::unique_ptr<PolyhedronPieces> pieces_;
   Points reference_;
   Index nodes_ = 0;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Session/AfterMotion.h"
 
+#include "Mesh/HigherOrderNodes.h"
 #include "Mesh/PolyhedronPieces.h"
 #include "Mesh/Topology.h"
 #include "Morpher/PolyhedralMorpher.h"
@@ -47,6 +48,25 @@ std::vector<Index> cellsThatStay(const PolyhedronPieces& pieces, const NodeParti
   std::sort(cells.begin(), cells.end());
   return cells;
 }
+
+/// Places what the pieces of cells do not have where their nodes have gone, from `before` to
+/// `after`: nodes between corners, and then those that hang.
+void placeOthers(const Mesh& mesh, const HangingNodes& hanging, const NodePartition& partition,
+  const Points& before, Points& after)
+{
+  if (!hanging.empty() && !partition.higherOrderNodes.empty())
+  {
+    HigherOrderNodes followers;
+    followers.prepare(mesh, partition);
+    Points change = after - before;
+    followers.apply(change);
+    for (const Index node : partition.higherOrderNodes)
+    {
+      after.row(node) = before.row(node) + change.row(node);
+    }
+  }
+  hanging.place(mesh.points, after);
+}
 }
 
 void adaptToPieces(Morpher& method)
@@ -87,7 +107,7 @@ bool repairPolyhedra(const Mesh& mesh, const HangingNodes& hanging, const Points
     Points all = pieces.extend(moved);
     repair.repair(all, part);
     Points repaired = all.topRows(moved.rows());
-    hanging.place(mesh.points, repaired);
+    placeOthers(mesh, hanging, partition, moved, repaired);
     std::vector<Index> now = bad(repaired);
     if (now.size() >= left.size())
     {
@@ -122,7 +142,7 @@ Index smoothAfterwards(const Mesh& rest, const HangingNodes& hanging,
     report = smoothMesh(mesh, cellSigns(mesh, connectedComponents(mesh)),
       pieces.extend(hanging.extend(partition)), options, all, monitor);
     Points smoothed = all.topRows(moved.rows());
-    hanging.place(rest.points, smoothed);
+    placeOthers(rest, hanging, partition, moved, smoothed);
     const auto measure = [&](const Points& points)
     { return measureQuality(rest, points, orientation, {}, monitor); };
     // What is better for the pieces may be worse for the polyhedra.

@@ -196,8 +196,15 @@ StepResult Session::morphStep(const Mesh& from, const BoundaryTargets& boundary,
   requireTargets(boundary);
   if (std::vector<Index> ids = this->mesh_->prescribedFor(boundary.ids); ids != boundary.ids)
   {
-    return this->morphStep(
+    StepResult result = this->morphStep(
       from, forMethod(boundary, std::move(ids), from, monitor), nullptr, options, monitor);
+    const std::string note =
+      noteOfDropped(droppedTargets(boundary, hanging, result.moved, this->mesh_->size()));
+    if (!note.empty() && result.valid.error.empty()) // else there is another reason
+    {
+      monitor.warn(note);
+    }
+    return result;
   }
   const std::vector<std::int8_t>& orientation = this->mesh_->orientation();
   const auto part = [&](double first, double last) { return ProgressRange(monitor, first, last); };
@@ -229,6 +236,7 @@ StepResult Session::morphStep(const Mesh& from, const BoundaryTargets& boundary,
   {
     auto untangling = part(0.74, 0.75);
     untangleHigherOrder(from, partition, orientation, result.moved, untangling);
+    hanging.place(from.points, result.moved);
   }
   if (const auto wrong = immoderateRows(result.moved, &evaluating); !wrong.empty())
   {
@@ -306,8 +314,8 @@ const NodePartition& Session::partitionOf(const std::vector<Index>& prescribed)
   if (this->partition_->prescribed.empty() || this->partition_->prescribed != prescribed)
   {
     this->samples_.reset();
-    this->partition_ =
-      std::make_shared<NodePartition>(partitionNodes(this->mesh_->mesh(), prescribed));
+    this->partition_ = std::make_shared<NodePartition>(
+      partitionNodes(this->mesh_->mesh(), this->mesh_->hanging(), prescribed));
     this->attached_ = AttachedNodes(this->mesh_->mesh(), *this->partition_);
   }
   return *this->partition_;

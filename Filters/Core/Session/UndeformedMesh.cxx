@@ -124,6 +124,35 @@ void warnOfUnmapped(const std::vector<Index>& cells, Monitor& monitor)
   }
 }
 
+std::vector<Index> droppedTargets(
+  const BoundaryTargets& boundary, const HangingNodes& hanging, const Points& moved, double size)
+{
+  std::vector<Index> nodes;
+  for (std::size_t k = 0; k < boundary.ids.size() && !hanging.nodes().empty(); ++k)
+  {
+    const Index node = boundary.ids[k];
+    const auto target = boundary.targets.row(static_cast<Index>(k));
+    if (hanging.hangs(node) && (moved.row(node) - target).norm() > 1e-6 * size)
+    {
+      nodes.push_back(node);
+    }
+  }
+  return nodes;
+}
+
+std::string noteOfDropped(const std::vector<Index>& ids)
+{
+  if (ids.empty())
+  {
+    return {};
+  }
+  return std::to_string(ids.size()) +
+         " nodes of the boundary are not where it puts them: they hang on faces that are divided "
+         "on "
+         "one side alone, and follow these, so that no gap opens. Point ids " +
+         listIds(ids) + ". Refine both sides alike where the boundary moves so.";
+}
+
 void warnOfLoose(const std::vector<Index>& nodes, Monitor& monitor)
 {
   if (!nodes.empty())

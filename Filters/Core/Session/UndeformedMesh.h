@@ -6,11 +6,13 @@
 #include "Mesh/Topology.h"
 #include "Morpher/Morpher.h"
 #include "Quality/InvertedBefore.h"
+#include "Session/BoundaryTargets.h"
 #include "Support/Monitor.h"
 
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace morph
@@ -69,6 +71,12 @@ void warnOfShared(const std::vector<Index>& repeatedCells, const std::vector<Ind
   Monitor& monitor);
 /// Warns of cells of which quality sees the corners alone; see unmappedCells(). Ids as above.
 void warnOfUnmapped(const std::vector<Index>& cells, Monitor& monitor);
+/// Returns the prescribed nodes that hang and are not at their targets in the moved mesh, but
+/// farther away than 1e-6 of `size`, that of the mesh. `moved`: #nodes x 3.
+std::vector<Index> droppedTargets(
+  const BoundaryTargets& boundary, const HangingNodes& hanging, const Points& moved, double size);
+/// A warning of these, or nothing. `ids`: of the whole mesh, ascending.
+std::string noteOfDropped(const std::vector<Index>& ids);
 /// Warns of nodes of shells, beams or links that hang on nothing; see AttachedNodes.h. Ids as
 /// above.
 void warnOfLoose(const std::vector<Index>& nodes, Monitor& monitor);

@@ -314,6 +314,10 @@ std::vector<Index> OpenFoamMesh::addPatches(
     {
       this->flat_[{ part.region, patch.type }].insert(name);
     }
+    else if ((patch.type == "symmetryPlane" || patch.type == "symmetry") && patch.count > 0)
+    {
+      this->mesh_.symmetry.insert(name);
+    }
     for (Index f = patch.first; f < patch.first + patch.count; ++f)
     {
       const auto at = static_cast<std::size_t>(f);

@@ -39,6 +39,7 @@ struct SolverMesh
   /// Pairs of sets whose faces are images of each other; one name twice: front and back are one
   /// set.
   std::set<std::pair<std::string, std::string>> periodic;
+  std::set<std::string> symmetry; ///< sets that are planes of symmetry
   /// The name of the displacements that other readers add to the coordinates, as ParaView does with
   /// those of Exodus II; empty: there are none. 3 x #nodes, of the last time step or of that of
   /// SolverFile::takeStep().

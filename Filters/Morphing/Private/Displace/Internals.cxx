@@ -66,6 +66,27 @@ morph::PeriodicSides::Names periodicOf(std::string text, vtkPointSet* input)
   return morph::PeriodicSides::parse(text == "none" ? "" : text);
 }
 
+/// The patches of symmetry of the file that no property gives another role.
+std::set<std::string> symmetricOf(const morph::DisplacementOptions& options, vtkPointSet* input)
+{
+  std::set<std::string> names;
+  auto* ofFile =
+    vtkStringArray::SafeDownCast(input->GetFieldData()->GetAbstractArray("SymmetrySurfaces"));
+  for (vtkIdType i = 0; ofFile && i < ofFile->GetNumberOfValues(); ++i)
+  {
+    names.insert(ofFile->GetValue(i));
+  }
+  for (const auto* given :
+    { &options.Surfaces, &options.FixedSurfaces, &options.SlidingSurfaces, &options.FreeSurfaces })
+  {
+    for (const std::string& name : *given)
+    {
+      names.erase(name);
+    }
+  }
+  return names;
+}
+
 void writeGaps(
   const morph::Contact::Gaps& before, const morph::Contact::Gaps& after, vtkFieldData* data)
 {
@@ -287,6 +308,18 @@ bool vtkDisplacementAlgorithm::vtkInternals::FindMoving(const Options& options, 
   }
   Surroundings::Options& rest = moves.Rest;
   rest.sliding = morph::surfacesNamed(this->Model, options.SlidingSurfaces, "SlidingSurfaces");
+  const morph::SymmetryPlanes planes =
+    morph::symmetryPlanes(this->Model, symmetricOf(options, input));
+  rest.sliding.insert(rest.sliding.end(), planes.surfaces.begin(), planes.surfaces.end());
+  std::sort(rest.sliding.begin(), rest.sliding.end());
+  rest.sliding.erase(std::unique(rest.sliding.begin(), rest.sliding.end()), rest.sliding.end());
+  for (const std::string& name : planes.others)
+  {
+    monitor.warn("The patch '" + name +
+                 "' is one of symmetry, but it is not flat, or a part of a surface, so that its "
+                 "nodes follow what moves and may leave it. Name it under `SlidingSurfaces`, "
+                 "`FixedSurfaces` or `FreeSurfaces`.");
+  }
   if (target)
   {
     morph::ProgressRange fitting(monitor, 0.5, 0.7);

@@ -143,7 +143,9 @@ void RankMesh::SetFeatureLines(bool on, morph::Monitor& monitor)
       if (on != this->Polygons.HasFeatureLines())
       {
         const morph::BoundaryFaces faces =
-          on ? morph::boundaryFaces(whole.mesh(), monitor) : morph::BoundaryFaces();
+          on ? morph::boundaryFaces(
+                 whole.mesh(), morph::facesOfOneCell(whole.mesh(), monitor), whole.hanging())
+             : morph::BoundaryFaces();
         this->Polygons.SetFeatureLines(on, whole.mesh(), faces, isDrawn);
       }
     });

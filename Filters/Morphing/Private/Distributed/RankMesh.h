@@ -50,7 +50,8 @@ public:
   /// Of the whole mesh.
   ///@{
   int HighestDimension() const { return this->Dimension; }
-  bool HasPolyhedra() const { return this->Polyhedral; }
+  /// See morph::needsPieces().
+  bool NeedsPieces() const { return this->Polyhedral || this->Distributed->hasHanging(); }
   ///@}
   /// Of the cells in Whole(), ghosts included. Collective. Cost of the first call: a measure.
   const morph::InvertedBefore& Before(morph::Monitor& monitor) const;

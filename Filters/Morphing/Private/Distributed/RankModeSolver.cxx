@@ -73,15 +73,21 @@ public:
     this->Method.reset();
     const morph::distributed::DistributedMesh& whole = this->Pieces.Whole();
     morph::NodePartition partition;
-    whole.ranks().together([&] { partition = morph::partitionNodes(whole.mesh(), prescribed); });
+    whole.ranks().together(
+      [&]
+      {
+        partition =
+          morph::partitionNodes(whole.mesh(), whole.hanging(), whole.hanging().without(prescribed));
+      });
     auto prepared = morph::distributed::makeMethod(std::move(method));
-    if (this->Pieces.HasPolyhedra())
+    if (this->Pieces.NeedsPieces())
     {
       prepared = std::make_unique<morph::distributed::PolyhedralMethod>(std::move(prepared));
     }
     prepared->prepare(whole, partition, monitor);
     this->Hanging = morph::distributed::attachedNodes(whole, partition);
     this->Method = std::move(prepared);
+    this->Prescribed = prescribed;
   }
   std::vector<morph::Points> Basis(const std::vector<morph::Points>& displacements,
     std::vector<morph::EvaluateReport>& reports, morph::Monitor& monitor) const override
@@ -93,7 +99,10 @@ public:
     {
       const auto done = static_cast<double>(i);
       morph::ProgressRange part(monitor, done / number, (done + 1) / number);
-      reports.push_back(this->Method->mode(displacements[i], fields[i], part));
+      morph::Points all = morph::Points::Zero(this->Mesh().numberOfNodes(), 3);
+      all(this->Prescribed, morph::allColumns) = displacements[i];
+      reports.push_back(this->Method->mode(
+        all(this->Method->partition().prescribed, morph::allColumns), fields[i], part));
     }
     return fields;
   }
@@ -132,6 +141,7 @@ public:
 private:
   RankMesh Pieces;
   std::unique_ptr<morph::distributed::Method> Method; ///< prepared, or null
+  std::vector<morph::Index> Prescribed;               ///< by the caller
   morph::AttachedNodes Hanging;                       ///< of Method
 };
 }

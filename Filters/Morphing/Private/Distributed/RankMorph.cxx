@@ -19,6 +19,7 @@
 #include "Private/Pipeline/Input.h"
 #include "Quality/MovableQuality.h"
 #include "Session/Series.h"
+#include "Session/UndeformedMesh.h"
 #include "Support/Error.h"
 #include "Support/ProgressRange.h"
 #include "Support/Stopwatch.h"
@@ -69,6 +70,38 @@ bool isInversionFree(const Method& method)
   const auto* onPieces = dynamic_cast<const morph::distributed::PolyhedralMethod*>(&method);
   return dynamic_cast<const morph::distributed::InversionFree*>(
     onPieces ? &onPieces->method() : &method);
+}
+
+/// The motion of the nodes that do not hang, which move the others by their ties.
+morph::BoundaryTargets withoutHanging(
+  const morph::BoundaryTargets& match, const DistributedMesh& mesh)
+{
+  morph::BoundaryTargets result = match;
+  result.ids = mesh.hanging().without(match.ids);
+  morph::Points all = mesh.mesh().points;
+  all(match.ids, morph::allColumns) = match.targets;
+  result.targets = all(result.ids, morph::allColumns);
+  return result;
+}
+
+/// Warns on the first process of nodes that hang and are not where the boundary puts them.
+void warnOfDropped(const DistributedMesh& mesh, const morph::BoundaryTargets& match,
+  const morph::Points& moved, morph::Monitor& monitor)
+{
+  if (!mesh.hasHanging())
+  {
+    return;
+  }
+  std::vector<morph::Index> ids = morph::droppedTargets(match, mesh.hanging(), moved, mesh.size());
+  ids.erase(
+    std::remove_if(ids.begin(), ids.end(), [&](morph::Index node) { return !mesh.owns(node); }),
+    ids.end());
+  ids = mesh.ranks().gather(mesh.idsOfNodes(ids));
+  std::sort(ids.begin(), ids.end());
+  if (!ids.empty() && mesh.ranks().rank() == 0)
+  {
+    monitor.warn(morph::noteOfDropped(ids));
+  }
 }
 
 class RankMorphing : public Morphing
@@ -176,8 +209,8 @@ morph::BoundaryTargets RankMorphing::Match(vtkDataObject* boundary, double fract
 std::unique_ptr<Method> RankMorphing::Make(const MotionOptions& options) const
 {
   std::unique_ptr<Method> method =
-    morph::distributed::makeMethod(options.settings(this->Mesh.HasPolyhedra()));
-  if (this->Mesh.HasPolyhedra())
+    morph::distributed::makeMethod(options.settings(this->Mesh.NeedsPieces()));
+  if (this->Mesh.NeedsPieces())
   {
     method = std::make_unique<morph::distributed::PolyhedralMethod>(std::move(method));
   }
@@ -192,7 +225,8 @@ morph::NodePartition RankMorphing::PartitionOf(
     [&]
     {
       monitor.check();
-      partition = morph::partitionNodes(this->Mesh.Whole().mesh(), prescribed);
+      partition =
+        morph::partitionNodes(this->Mesh.Whole().mesh(), this->Mesh.Whole().hanging(), prescribed);
     });
   return partition;
 }
@@ -202,7 +236,7 @@ Method& RankMorphing::Prepare(
 {
   const auto& ranks = this->Mesh.Ranks();
   this->Results.SetNumber("PrepareSeconds", 0);
-  std::unique_ptr<morph::Morpher> settings = options.settings(this->Mesh.HasPolyhedra());
+  std::unique_ptr<morph::Morpher> settings = options.settings(this->Mesh.NeedsPieces());
   const bool same = this->Prepared && this->PreparedFor == partition.prescribed &&
                     this->PreparedLike->preparesLike(*settings);
   if (ranks.sum(morph::Index(!same)) > 0)
@@ -222,17 +256,18 @@ Method& RankMorphing::Prepare(
 }
 
 morph::StepResult RankMorphing::Step(const DistributedMesh* from,
-  const morph::BoundaryTargets& match, const MotionOptions& options, morph::Monitor& monitor)
+  const morph::BoundaryTargets& given, const MotionOptions& options, morph::Monitor& monitor)
 {
   const DistributedMesh& whole = from ? *from : this->Mesh.Whole();
   const auto& ranks = whole.ranks();
+  const morph::BoundaryTargets match = withoutHanging(given, whole);
   const morph::NodePartition partition = this->PartitionOf(match.ids, monitor);
   static const morph::InvertedBefore none{};
   const morph::InvertedBefore& before =
     options.measureAll ? morph::Validity::beforeFor(options.validity, this->Mesh.Before(monitor))
                        : none;
   const RankValidity validity{ options, whole, this->Mesh.Whole().mesh().points, before, partition,
-    match.targets, this->Mesh.HasPolyhedra(), [&] { return this->Make(options); } };
+    match.targets, this->Mesh.NeedsPieces(), [&] { return this->Make(options); } };
   morph::StepResult result;
   result.boundaryInverted = validity.RequireFeasible();
 
@@ -253,11 +288,11 @@ morph::StepResult RankMorphing::Step(const DistributedMesh* from,
   const morph::EvaluateReport report = method.evaluate(match.targets, result.moved, evaluating);
   const morph::Index followers =
     ranks.sum(static_cast<morph::Index>(partition.higherOrderNodes.size()));
-  if (isInversionFree(method) && (followers > 0 || this->Mesh.HasPolyhedra()))
+  if (isInversionFree(method) && (followers > 0 || this->Mesh.NeedsPieces()))
   {
     // The method has moved corners of cells or pieces; nodes between them have followed.
     RankPolyhedra::Repair(whole, this->Mesh.Whole().mesh().points, partition,
-      this->Mesh.HasPolyhedra(), {}, result.moved, evaluating);
+      this->Mesh.NeedsPieces(), {}, result.moved, evaluating);
   }
   result.statistics = report.statistics;
   const std::vector<morph::Index> wrong = morph::immoderateRows(result.moved);
@@ -276,7 +311,7 @@ morph::StepResult RankMorphing::Step(const DistributedMesh* from,
   {
     result.statistics.push_back({ "PostSmoothSteps",
       RankPolyhedra::Smooth(whole, this->Mesh.Whole().mesh().points, partition,
-        this->Mesh.HasPolyhedra(), options.postSmoothIterations, result.moved, evaluating) });
+        this->Mesh.NeedsPieces(), options.postSmoothIterations, result.moved, evaluating) });
   }
   double seconds = watch.seconds();
   if (options.measureAll)
@@ -305,6 +340,10 @@ morph::StepResult RankMorphing::Step(const DistributedMesh* from,
   if (options.measureAll && result.valid.status != "Inverted")
   {
     result.boundaryInverted = 0;
+  }
+  if (result.valid.error.empty())
+  {
+    warnOfDropped(whole, given, result.moved, monitor);
   }
   const morph::AttachedNodes attached =
     morph::distributed::attachedNodes(this->Mesh.Whole(), partition);
@@ -447,8 +486,8 @@ void RankMorphing::Transpose(vtkUnstructuredGrid* rest, vtkDataObject* boundary,
     });
   std::vector<RankMatch::Follower> followers;
   const morph::BoundaryTargets match = this->Match(boundary, 1, options, &followers, monitor);
-  morph::NodePartition partition;
-  ranks.together([&] { partition = morph::partitionNodes(whole.mesh(), match.ids); });
+  const morph::NodePartition partition =
+    this->PartitionOf(whole.hanging().without(match.ids), monitor);
   morph::ProgressRange preparing(monitor, 0.05, 0.5), applying(monitor, 0.5, 1);
   const Method& method = this->Prepare(partition, options, preparing);
   const std::string& status = this->Results.Text("MorphStatus");
@@ -463,8 +502,9 @@ void RankMorphing::Transpose(vtkUnstructuredGrid* rest, vtkDataObject* boundary,
   morph::distributed::attachedNodes(whole, partition).applyTranspose(nodes);
   whole.halo().add(ranks, nodes);
   method.applyTranspose(nodes, prescribed, applying);
-  prescribed *= options.Matching.scaleFactor;
-  RankMatch::SendBack(ranks, match.ids, prescribed, followers,
+  morph::Points all = morph::Points::Zero(nodes.rows(), 3); // what hangs moves by its ties
+  all(partition.prescribed, morph::allColumns) = options.Matching.scaleFactor * prescribed;
+  RankMatch::SendBack(ranks, match.ids, all(match.ids, morph::allColumns), followers,
     Input::RequireBoundary(boundary)->GetNumberOfPoints(), boundaryGradient);
 }
 }

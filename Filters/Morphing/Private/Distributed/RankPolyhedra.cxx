@@ -3,6 +3,7 @@
 
 #include "Distributed/CutMesh.h"
 #include "Distributed/SmoothMesh.h"
+#include "Mesh/HigherOrderNodes.h"
 #include "Private/Distributed/RankQuality.h"
 #include "Session/AfterMotion.h"
 
@@ -14,11 +15,37 @@ using morph::distributed::CutMesh;
 using morph::distributed::DistributedMesh;
 using morph::distributed::RepairReport;
 
+namespace
+{
+/// Places what the pieces do not have where their nodes have gone, from `before` to `after`: nodes
+/// between corners, and then those that hang.
+void placeOthers(const DistributedMesh& mesh, const morph::NodePartition& partition,
+  const morph::Points& before, morph::Points& after)
+{
+  if (!mesh.hasHanging())
+  {
+    return;
+  }
+  morph::HigherOrderNodes followers;
+  mesh.ranks().together([&] { followers.prepare(mesh.mesh(), partition); });
+  morph::Points change = after - before;
+  followers.apply(change);
+  for (const morph::Index node : partition.higherOrderNodes)
+  {
+    after.row(node) = before.row(node) + change.row(node);
+  }
+  mesh.halo().update(mesh.ranks(), after);
+  mesh.hanging().place(mesh.mesh().points, after);
+  mesh.halo().update(mesh.ranks(), after);
+  mesh.copyToDoubles(after);
+}
+}
+
 RepairReport Repair(const DistributedMesh& mesh, const morph::Points& reference,
-  const morph::NodePartition& partition, bool hasPolyhedra, const morph::InvertedBefore& before,
+  const morph::NodePartition& partition, bool needsPieces, const morph::InvertedBefore& before,
   morph::Points& moved, morph::Monitor& monitor)
 {
-  if (!hasPolyhedra)
+  if (!needsPieces)
   {
     return morph::distributed::repairInverted(mesh, reference, partition, before, moved, monitor);
   }
@@ -43,6 +70,7 @@ RepairReport Repair(const DistributedMesh& mesh, const morph::Points& reference,
     result.tooLarge = ofRound.tooLarge;
     result.cells = ofRound.cells;
     morph::Points repaired = cut.reduce(all, points);
+    placeOthers(mesh, partition, points, repaired);
     if (mesh.ranks().sum(morph::Index(repaired != points)) == 0)
     {
       break;
@@ -59,12 +87,12 @@ RepairReport Repair(const DistributedMesh& mesh, const morph::Points& reference,
 }
 
 morph::Index Smooth(const DistributedMesh& mesh, const morph::Points& rest,
-  const morph::NodePartition& partition, bool hasPolyhedra, int iterationLimit,
-  morph::Points& moved, morph::Monitor& monitor)
+  const morph::NodePartition& partition, bool needsPieces, int iterationLimit, morph::Points& moved,
+  morph::Monitor& monitor)
 {
   const morph::SmoothingOptions options = morph::postSmoothing(iterationLimit);
   morph::SmoothingReport report;
-  if (!hasPolyhedra)
+  if (!needsPieces)
   {
     report = morph::distributed::smoothMesh(mesh, rest, partition, options, moved, monitor);
     return report.wasKept ? 0 : report.untangleSteps + report.newtonSteps;
@@ -74,6 +102,7 @@ morph::Index Smooth(const DistributedMesh& mesh, const morph::Points& rest,
   report = morph::distributed::smoothMesh(
     cut.mesh(), cut.extend(rest), cut.extend(partition), options, all, monitor);
   morph::Points smoothed = cut.reduce(all, moved);
+  placeOthers(mesh, partition, moved, smoothed);
   // What is better for the pieces may be worse for the polyhedra.
   const RankQuality::Measured before = RankQuality::Measure(mesh, moved, {}, monitor);
   const RankQuality::Measured after = RankQuality::Measure(mesh, smoothed, {}, monitor);

@@ -119,8 +119,8 @@ morph::Validity::Outcome RankValidity::SubStep(morph::Points& moved, morph::Moni
     made.report = method->evaluate(path(time), made.moved, second);
     if (repairs)
     {
-      RankPolyhedra::Repair(valid, this->Reference, this->Partition, this->HasPolyhedra,
-        this->Before, made.moved, part);
+      RankPolyhedra::Repair(
+        valid, this->Reference, this->Partition, this->NeedsPieces, this->Before, made.moved, part);
     }
     made.inverted = inverted(made.moved);
     return made;
@@ -152,7 +152,7 @@ morph::Validity::Outcome RankValidity::Ensure(morph::Points& moved, morph::Monit
   {
     morph::ProgressRange first(monitor, 0, 0.5), second(monitor, 0.5, 1);
     const morph::distributed::RepairReport report = RankPolyhedra::Repair(
-      this->Mesh, this->Reference, this->Partition, this->HasPolyhedra, this->Before, moved, first);
+      this->Mesh, this->Reference, this->Partition, this->NeedsPieces, this->Before, moved, first);
     if (report.bad == 0)
     {
       return { "Repaired" };

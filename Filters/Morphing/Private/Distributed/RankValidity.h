@@ -21,7 +21,7 @@ public:
   const morph::InvertedBefore& Before;             ///< as of Validity, of the local mesh
   const morph::NodePartition& Partition;           ///< of the local mesh
   const morph::Points& Targets;                    ///< #prescribed x 3
-  bool HasPolyhedra;                               ///< on any process
+  bool NeedsPieces;                                ///< on any process
   /// Makes a method with its options, not prepared yet.
   std::function<std::unique_ptr<morph::distributed::Method>()> Make;
 

@@ -49,7 +49,7 @@ void KeptModeSolver::Prepare(std::unique_ptr<morph::LinearMorpher> method,
   method.reset(dynamic_cast<morph::LinearMorpher*>(rest.fitted(std::move(method)).release()));
   this->Prescribed = prescribed;
   const morph::NodePartition partition =
-    morph::partitionNodes(this->Mesh(), rest.prescribedFor(prescribed));
+    morph::partitionNodes(this->Mesh(), rest.hanging(), rest.prescribedFor(prescribed));
   method->prepare(this->Mesh(), partition, monitor);
   this->Hanging = morph::AttachedNodes(this->Mesh(), partition);
   this->Method = std::move(method);

@@ -3,6 +3,7 @@
 
 #include "Private/Distributed/OnRanks.h"
 #include "Private/Shapes/KeptModeSolver.h"
+#include "Session/UndeformedMesh.h"
 #include "Support/Error.h"
 #include "Support/ProgressRange.h"
 #include "Support/ReproducibleSum.h"
@@ -214,6 +215,31 @@ void ShapeModes::Prepare(const std::vector<Index>& prescribed, const Options& op
   ++effort.Preparations;
 }
 
+void ShapeModes::TellDropped(
+  const std::vector<Mode>& modes, const std::vector<Index>& prescribed, morph::Monitor& monitor)
+{
+  std::vector<double> ids; // below 2^52
+  for (std::size_t i = 0; i < prescribed.size(); ++i)
+  {
+    const auto isElsewhere = [&](const Mode& mode)
+    {
+      return (mode.Field->row(prescribed[i]) - mode.Boundary.row(static_cast<Index>(i))).norm() >
+             1e-6 * this->Solver->Size();
+    };
+    if (this->Solver->Owns(prescribed[i]) && std::any_of(modes.begin(), modes.end(), isElsewhere))
+    {
+      ids.push_back(static_cast<double>(this->Solver->NodeId(prescribed[i])));
+    }
+  }
+  ids = this->Processes.Gather(ids);
+  std::sort(ids.begin(), ids.end());
+  if (!ids.empty() && this->Processes.IsFirst())
+  {
+    this->Warnings.push_back(morph::noteOfDropped(std::vector<Index>(ids.begin(), ids.end())));
+    monitor.warn(this->Warnings.back());
+  }
+}
+
 std::vector<int> ShapeModes::FindKept(const std::vector<Mode>& modes) const
 {
   const std::size_t kept = this->Modes.size();
@@ -281,6 +307,7 @@ ShapeModes::Effort ShapeModes::Solve(
       effort.Iterations += reports[k].iterations;
     }
   }
+  this->TellDropped(modes, prescribed, monitor);
   effort.Solved = static_cast<int>(open.size());
   if (effort.Preparations + effort.Solved > 0)
   {

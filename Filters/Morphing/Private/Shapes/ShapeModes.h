@@ -112,6 +112,9 @@ private:
     const std::vector<morph::Index>& prescribed, double tolerance, std::vector<Mode>& modes) const;
   void Prepare(const std::vector<morph::Index>& prescribed, const Options& options, Effort& effort,
     morph::Monitor& monitor);
+  /// Warns of prescribed nodes that the fields of `modes` put elsewhere, as they hang.
+  void TellDropped(const std::vector<Mode>& modes, const std::vector<morph::Index>& prescribed,
+    morph::Monitor& monitor);
   /// For each of `modes` the number of the kept mode that is the same on all processes, or -1.
   std::vector<int> FindKept(const std::vector<Mode>& modes) const;
   /// The rotation of the nodes that move, and their rows of `displacement`.
