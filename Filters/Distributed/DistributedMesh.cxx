@@ -716,7 +716,21 @@ void DistributedMesh::findOuter(Monitor& monitor)
   std::transform(this->isGhost_.begin(), this->isGhost_.end(), isOwn.begin(),
     [](std::uint8_t ghost) { return ghost == 0; });
   this->outerFaces_ = facesOfCells(this->mesh_, all, isOwn);
-  this->hanging_.divideEdges(this->outerFaces_);
+  if (!this->hanging_.empty())
+  {
+    // A surface of the piece has the nodes of the piece alone.
+    BoundaryFaces divided = this->outerFaces_;
+    this->hanging_.divideEdges(divided);
+    std::vector<Index> offsets = { 0 }, connectivity;
+    for (std::size_t f = 0; f < divided.cells.size(); ++f)
+    {
+      std::copy_if(divided.connectivity.begin() + divided.offsets[f],
+        divided.connectivity.begin() + divided.offsets[f + 1], std::back_inserter(connectivity),
+        [&](Index node) { return node < this->pieceNodes_; });
+      offsets.push_back(static_cast<Index>(connectivity.size()));
+    }
+    setCorners(std::move(offsets), std::move(connectivity), this->outerFaces_);
+  }
   // All cells around a node of the piece's own cells are here, so that its faces are known.
   this->outerNodes_.between.offsets = { 0 };
   for (std::size_t i = 0; i < all.nodes.size(); ++i)

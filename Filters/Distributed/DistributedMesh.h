@@ -72,7 +72,8 @@ public:
   const std::vector<std::int8_t>& orientation() const { return this->orientation_; }
   /// The number of bodies with cells of orientation -1.
   Index mirroredBodies() const { return this->mirrored_; }
-  /// The outer faces of the whole mesh that belong to this rank's cells.
+  /// The outer faces of the whole mesh that belong to this rank's cells. Their edges are divided by
+  /// nodes of the piece alone; see hanging().
   const BoundaryFaces& outerFaces() const { return this->outerFaces_; }
   /// What hangs in the whole mesh, of the local nodes and cells. What a local node is tied to, and
   /// the nodes on faces and edges of local cells, are local nodes. Cells that a node lies on count

@@ -9,6 +9,7 @@
 
 #include <vtkFEMWarpMorph.h>
 #include <vtkInversionFreeMorph.h>
+#include <vtkMorphMesh.h>
 #include <vtkMorphShapes.h>
 #include <vtkNew.h>
 #include <vtkSmoothingMorph.h>
@@ -182,6 +183,20 @@ TEST_P(RankHangingFilters, RepairAndSmoothingLeaveNoGap)
     EXPECT_EQ(mine->GetInvertedCells(), 0);
     EXPECT_GT(
       mine->GetMinScaledJacobian(), what == "repair" ? 0 : 0.95 * serial->GetMinScaledJacobian());
+  }
+}
+
+TEST_P(RankHangingFilters, AreRefusedByFiltersOfTheBoundary)
+{
+  vtkNew<vtkMorphMesh> mesh;
+  mesh->SetInputData(this->Part);
+  mesh->SetTranslation(0, 0, 0.1);
+  const grids::Listener listener(mesh);
+  mesh->Update();
+  EXPECT_EQ(this->Processes.sum(static_cast<Index>(listener.Errors.size())), 1);
+  if (!listener.Errors.empty())
+  {
+    EXPECT_NE(listener.Errors[0].find("divided on one side alone"), std::string::npos);
   }
 }
 
