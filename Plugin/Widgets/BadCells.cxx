@@ -61,8 +61,7 @@ bool BadCells::areShown() const
   auto* const source = vtkSMSourceProxy::SafeDownCast(this->Filter);
   const auto isShown = [&](int port)
   {
-    vtkSMRepresentationProxy* const shown =
-      view ? view->FindRepresentation(source, port) : nullptr;
+    vtkSMRepresentationProxy* const shown = view ? view->FindRepresentation(source, port) : nullptr;
     return shown && vtkSMPropertyHelper(shown, "Visibility").GetAsInt() != 0;
   };
   return isShown(Bad) && !isShown(Mesh) && !isShown(Surface);
@@ -70,15 +69,15 @@ bool BadCells::areShown() const
 
 void BadCells::showText()
 {
-  this->setText(this->areShown() ? tr("Show the mesh")
-                                 : tr(this->Count == 1 ? "%1 bad cell" : "%1 bad cells")
-                                     .arg(this->Count));
+  this->setText(this->areShown()
+                  ? tr("Show the mesh")
+                  : tr(this->Count == 1 ? "%1 bad cell" : "%1 bad cells").arg(this->Count));
 }
 
 void BadCells::toggle()
 {
-  auto* const view = vtkSMRenderViewProxy::SafeDownCast(
-    this->View ? this->View->getViewProxy() : nullptr);
+  auto* const view =
+    vtkSMRenderViewProxy::SafeDownCast(this->View ? this->View->getViewProxy() : nullptr);
   auto* const source = vtkSMSourceProxy::SafeDownCast(this->Filter);
   if (!view || !source)
   {

@@ -58,8 +58,8 @@ void MotionPreview::takeValues()
   vtkSmartPointer<vtkSMProxy> transform;
   if (typed)
   {
-    transform = vtk::TakeSmartPointer(this->Filter->GetSessionProxyManager()->NewProxy(
-      typed->GetXMLGroup(), typed->GetXMLName()));
+    transform = vtk::TakeSmartPointer(
+      this->Filter->GetSessionProxyManager()->NewProxy(typed->GetXMLGroup(), typed->GetXMLName()));
     const auto properties = vtk::TakeSmartPointer(typed->NewPropertyIterator());
     for (properties->Begin(); !properties->IsAtEnd(); properties->Next())
     {

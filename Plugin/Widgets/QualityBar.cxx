@@ -36,8 +36,8 @@ QSize QualityBar::sizeHint() const
 void QualityBar::paintEvent(QPaintEvent*)
 {
   // A place, and its color; the user may have changed them. No view shows the array: no map.
-  vtkSMProxy* const table =
-    this->Filter->GetSessionProxyManager()->GetProxy("lookup_tables", "ScaledJacobian.PVLookupTable");
+  vtkSMProxy* const table = this->Filter->GetSessionProxyManager()->GetProxy(
+    "lookup_tables", "ScaledJacobian.PVLookupTable");
   const std::vector<double> map =
     table ? vtkSMPropertyHelper(table, "RGBPoints").GetDoubleArray() : std::vector<double>();
   if (map.size() < 8 || !(map[map.size() - 4] > map[0]))

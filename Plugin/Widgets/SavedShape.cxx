@@ -99,8 +99,7 @@ pqPipelineSource* copyOf(pqPipelineSource* filter, pqOutputPort* mesh)
   copy->getProxy()->UpdateVTKObjects();
   copy->setModifiedState(pqProxy::UNMODIFIED); // else Apply would show it
   int number = 1;
-  while (core->getServerManagerModel()->findItem<pqPipelineSource*>(
-    QString("Shape%1").arg(number)))
+  while (core->getServerManagerModel()->findItem<pqPipelineSource*>(QString("Shape%1").arg(number)))
   {
     ++number;
   }
@@ -112,8 +111,7 @@ pqPipelineSource* copyOf(pqPipelineSource* filter, pqOutputPort* mesh)
 void SavedShape::Save(pqPropertyWidget* widget)
 {
   pqApplicationCore* const core = pqApplicationCore::instance();
-  auto* const filter =
-    core->getServerManagerModel()->findItem<pqPipelineFilter*>(widget->proxy());
+  auto* const filter = core->getServerManagerModel()->findItem<pqPipelineFilter*>(widget->proxy());
   pqPropertiesPanel* const panel = panelOf(widget);
   pqOutputPort* const mesh = filter ? filter->getInput("Input", 0) : nullptr;
   if (!mesh || !panel)
@@ -139,8 +137,8 @@ void SavedShape::Save(pqPropertyWidget* widget)
     QMap<QString, QList<pqOutputPort*>> inputs;
     inputs["Input"] = { mesh };
     inputs["Shapes"] = { copy->getOutputPort(Surface) };
-    shapes = core->getObjectBuilder()->createFilter(
-      "filters", "MorphShapes", inputs, filter->getServer());
+    shapes =
+      core->getObjectBuilder()->createFilter("filters", "MorphShapes", inputs, filter->getServer());
   }
   END_UNDO_SET();
   pqActiveObjects::instance().setActiveSource(shapes);

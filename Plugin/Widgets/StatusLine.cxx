@@ -24,7 +24,8 @@
 namespace
 {
 constexpr const char* Results[] = { "MorphStatus", "MinScaledJacobian", "InvertedCells",
-  "DegenerateCells", "InvertedBefore", "CrossingFaces", "LargestValidStep", "PrepareSeconds", "EvaluateSeconds" };
+  "DegenerateCells", "InvertedBefore", "CrossingFaces", "LargestValidStep", "PrepareSeconds",
+  "EvaluateSeconds" };
 
 const QString Green = "#2e7d32", Orange = "#b35900", Red = "#b71c1c", Gray = "#616161";
 }
@@ -65,8 +66,9 @@ StatusLine::StatusLine(vtkSMProxy* filter, vtkSMProperty* advice, QWidget* paren
   {
     auto* const save = new QPushButton(tr("Save as Shape"), this);
     save->setObjectName("SaveAsShape");
-    save->setToolTip(tr("Makes a Morph Shapes filter with this result as a shape; a press later adds "
-                        "the next one"));
+    save->setToolTip(
+      tr("Makes a Morph Shapes filter with this result as a shape; a press later adds "
+         "the next one"));
     QObject::connect(save, &QPushButton::clicked, this, [this] { SavedShape::Save(this); });
     buttons->addWidget(save);
   }

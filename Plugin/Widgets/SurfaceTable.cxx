@@ -142,8 +142,7 @@ SurfaceTable::SurfaceTable(vtkSMProxy* filter, vtkSMPropertyGroup* group, QWidge
   QObject::connect(this->Search, &QLineEdit::textChanged, this, [this] { this->hideRows(); });
 
   this->Rows->setObjectName("Rows");
-  this->Rows->setHeaderLabels(
-    { tr("Moves"), tr("Faces"), tr("Area"), tr("Shape"), tr("Role") });
+  this->Rows->setHeaderLabels({ tr("Moves"), tr("Faces"), tr("Area"), tr("Shape"), tr("Role") });
   this->Rows->setToolTip(Superclass::getTooltip(this->listOf(Moves)));
   this->Rows->setRootIsDecorated(false);
   this->Rows->setUniformRowHeights(true);
@@ -525,8 +524,7 @@ void SurfaceTable::OfferRoles(QMenu* menu, pqView* view, const QPoint& place)
     {
       continue;
     }
-    const vtkSMPropertyHelper source(
-      vtkSMProxy::SafeDownCast(shown->GetItemAsObject(0)), "Input");
+    const vtkSMPropertyHelper source(vtkSMProxy::SafeDownCast(shown->GetItemAsObject(0)), "Input");
     const int port = table->portOf(source.GetAsProxy(), static_cast<int>(source.GetOutputPort()));
     auto* const selection = vtkSMProxy::SafeDownCast(selections->GetItemAsObject(0));
     const QStringList names = port < -1 ? QStringList() : table->pickedNames(selection, port);

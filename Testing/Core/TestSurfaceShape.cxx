@@ -3,9 +3,11 @@
 #include "BoundaryMover/SurfaceShape.h"
 #include "ClassifiedShape.h"
 
+#include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace
@@ -45,8 +47,7 @@ const morph::GeometrySurface& surfaceWhere(
   return *found;
 }
 
-std::string textOf(
-  const shapes::ClassifiedShape& shape, const std::function<bool(const Row&)>& is)
+std::string textOf(const shapes::ClassifiedShape& shape, const std::function<bool(const Row&)>& is)
 {
   return SurfaceShape::text(shape.mesh.points, shape.faces, surfaceWhere(shape, is));
 }

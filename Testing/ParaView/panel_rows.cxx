@@ -114,8 +114,8 @@ extern "C" Q_DECL_EXPORT char* panel_rows(int width)
     }
   }
   const QJsonObject all{ { "width", area->viewport()->width() }, { "dock", dock->width() },
-    { "height", panel->height() }, { "rows", rows }, { "table", table },
-    { "columns", columns }, { "texts", texts },
-    { "styles", styles }, { "cut", cut }, { "titles", titles }, { "bars", bars } };
+    { "height", panel->height() }, { "rows", rows }, { "table", table }, { "columns", columns },
+    { "texts", texts }, { "styles", styles }, { "cut", cut }, { "titles", titles },
+    { "bars", bars } };
   return strdup(QJsonDocument(all).toJson(QJsonDocument::Compact).data());
 }

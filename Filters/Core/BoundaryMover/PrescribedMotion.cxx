@@ -84,8 +84,8 @@ Points movedByRadius(const BoundaryModel& model, const Choice& choice, double ch
   }
   if (std::all_of(isDone.begin(), isDone.end(), [](std::uint8_t done) { return !done; }))
   {
-    throw Error(
-      "`RadiusChange` needs cylinders or spheres, and no face moves. Choose surfaces that are some.");
+    throw Error("`RadiusChange` needs cylinders or spheres, and no face moves. Choose surfaces "
+                "that are some.");
   }
   return to;
 }

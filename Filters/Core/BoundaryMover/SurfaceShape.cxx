@@ -230,10 +230,9 @@ bool SurfaceShape::fitSphere(const Points& nodes, double tolerance)
   matrix.leftCols<3>() = 2 * (nodes.rowwise() - middle);
   matrix.col(3).setOnes();
   const Eigen::VectorXd squares = (nodes.rowwise() - middle).rowwise().squaredNorm();
-  const Eigen::VectorXd first =
-    Eigen::MatrixXd(matrix.transpose() * matrix)
-      .completeOrthogonalDecomposition()
-      .solve(Eigen::VectorXd(matrix.transpose() * squares));
+  const Eigen::VectorXd first = Eigen::MatrixXd(matrix.transpose() * matrix)
+                                  .completeOrthogonalDecomposition()
+                                  .solve(Eigen::VectorXd(matrix.transpose() * squares));
   this->center_ = middle + first.head<3>().transpose();
   this->radius_ = std::sqrt(std::max(0., first[3] + first.head<3>().squaredNorm()));
   for (int iteration = 0; iteration < 3; ++iteration)
@@ -300,9 +299,8 @@ Row SurfaceShape::slid(const Row& from, const Row& to) const
     return to - (to - from).dot(this->direction_) * this->direction_;
   }
   const Row height = from - this->closest(from);
-  return this->closest(to) + (this->isRound()
-                                 ? Row(height.dot(this->outwards(from)) * this->outwards(to))
-                                 : height);
+  return this->closest(to) +
+         (this->isRound() ? Row(height.dot(this->outwards(from)) * this->outwards(to)) : height);
 }
 
 Row SurfaceShape::normal(const Row& x) const
@@ -321,9 +319,8 @@ Row SurfaceShape::normal(const Row& x) const
 Row SurfaceShape::outwards(const Row& x) const
 {
   const Row from = x - this->center_;
-  const Row out = this->kind_ == Kind::Sphere
-                    ? from
-                    : Row(from - from.dot(this->direction_) * this->direction_);
+  const Row out =
+    this->kind_ == Kind::Sphere ? from : Row(from - from.dot(this->direction_) * this->direction_);
   return out.norm() > 0 ? Row(out.normalized()) : Row(Row::Zero());
 }
 }

@@ -42,7 +42,7 @@ public:
 
   Kind kind() const { return this->kind_; }
   bool isRound() const { return this->kind_ == Kind::Cylinder || this->kind_ == Kind::Sphere; }
-  double radius() const { return this->radius_; } ///< of what is round
+  double radius() const { return this->radius_; } ///< of a cylinder or a sphere
   /// The unit vector away from a cylinder's axis or a sphere's center, zero there.
   Row outwards(const Row& x) const;
   /// The nearest point of the shape. Planes and cylinders have no end.

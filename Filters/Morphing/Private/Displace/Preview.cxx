@@ -40,8 +40,7 @@ std::vector<Index> arrowsOf(const Points& from)
     looked.push_back(i);
   }
   morph::Monitor monitor;
-  const morph::FarthestPoints far =
-    morph::farthestPoints(from(looked, morph::allColumns), monitor);
+  const morph::FarthestPoints far = morph::farthestPoints(from(looked, morph::allColumns), monitor);
   std::vector<Index> shown;
   for (std::size_t i = 0; i < far.order.size() && static_cast<Index>(shown.size()) < Shown; ++i)
   {
