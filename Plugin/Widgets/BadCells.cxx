@@ -2,7 +2,6 @@
 #include "BadCells.h"
 
 #include <pqUndoStack.h>
-#include <pqView.h>
 #include <vtkNew.h>
 #include <vtkSMParaViewPipelineControllerWithRendering.h>
 #include <vtkSMPropertyHelper.h>

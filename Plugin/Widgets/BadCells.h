@@ -2,9 +2,11 @@
 #ifndef BadCells_h
 #define BadCells_h
 
+#include <pqView.h>
+
+#include <QPointer>
 #include <QToolButton>
 
-class pqView;
 class vtkSMProxy;
 
 /// A link with the number of bad cells, the second output of a filter. A press shows them in place
@@ -27,7 +29,7 @@ private:
   void showText();
 
   vtkSMProxy* Filter;
-  pqView* View = nullptr;
+  QPointer<pqView> View;
   int Count = 0;
 };
 

@@ -3,6 +3,7 @@
 
 #include <pqActiveObjects.h>
 #include <pqApplicationCore.h>
+#include <pqDataRepresentation.h>
 #include <pqObjectBuilder.h>
 #include <pqOutputPort.h>
 #include <pqPipelineFilter.h>
@@ -10,6 +11,7 @@
 #include <pqPropertyWidget.h>
 #include <pqServerManagerModel.h>
 #include <pqUndoStack.h>
+#include <pqView.h>
 #include <vtkSMInputProperty.h>
 #include <vtkSMPropertyHelper.h>
 #include <vtkSMPropertyIterator.h>
@@ -88,6 +90,18 @@ pqPipelineSource* shapesOn(pqOutputPort* mesh)
   return found;
 }
 
+void hide(pqPipelineSource* filter, pqView* view)
+{
+  for (int port = 0; view && port < filter->getNumberOfOutputPorts(); ++port)
+  {
+    pqDataRepresentation* const shown = filter->getRepresentation(port, view);
+    if (shown)
+    {
+      shown->setVisible(false);
+    }
+  }
+}
+
 pqPipelineSource* copyOf(pqPipelineSource* filter, pqOutputPort* mesh)
 {
   pqApplicationCore* const core = pqApplicationCore::instance();
@@ -140,6 +154,7 @@ void SavedShape::Save(pqPropertyWidget* widget)
     shapes =
       core->getObjectBuilder()->createFilter("filters", "MorphShapes", inputs, filter->getServer());
   }
+  hide(filter, widget->view()); // it would cover the blended mesh
   END_UNDO_SET();
   pqActiveObjects::instance().setActiveSource(shapes);
   QTimer::singleShot(0, panel, [panel] { panel->apply(); });

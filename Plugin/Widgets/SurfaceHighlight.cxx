@@ -51,12 +51,13 @@ void SurfaceHighlight::create()
   controller->PreInitializeProxy(this->Representation);
   vtkSMPropertyHelper(this->Representation, "Input").Set(this->Source);
   controller->PostInitializeProxy(this->Representation);
-  const double orange[] = { 1, 0.55, 0 };
+  const double orange[] = { 1, 0.55, 0 }, green[] = { 0.2, 0.85, 0.6 };
+  const double* const color = this->Motion ? green : orange;
   vtkSMPropertyHelper(this->Representation, "Representation")
     .Set(this->Motion ? "Surface" : "Wireframe");
   vtkSMPropertyHelper(this->Representation, "Opacity").Set(this->Motion ? 0.5 : 1.0);
-  vtkSMPropertyHelper(this->Representation, "AmbientColor").Set(orange, 3);
-  vtkSMPropertyHelper(this->Representation, "DiffuseColor").Set(orange, 3);
+  vtkSMPropertyHelper(this->Representation, "AmbientColor").Set(color, 3);
+  vtkSMPropertyHelper(this->Representation, "DiffuseColor").Set(color, 3);
   vtkSMPropertyHelper(this->Representation, "LineWidth").Set(2.0);
   vtkSMPropertyHelper(this->Representation, "Pickable").Set(0);
   this->Representation->UpdateVTKObjects();

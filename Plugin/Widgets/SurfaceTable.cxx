@@ -385,11 +385,11 @@ void SurfaceTable::fill()
   this->IsFilling = false;
   this->selectNames(selected);
   this->hideRows();
-  this->hideShapes();
+  this->hideColumns();
   this->highlight();
 }
 
-void SurfaceTable::hideShapes()
+void SurfaceTable::hideColumns()
 {
   const auto widest = [this](int column)
   {
@@ -402,11 +402,16 @@ void SurfaceTable::hideShapes()
     }
     return width + 2 * this->fontMetrics().averageCharWidth(); // the margins of a cell
   };
+  constexpr int Letters = 12; // of a name that are always seen
   const QHeaderView* const header = this->Rows->header();
   const int boxes = 2 * header->height(); // the tick and the color before a name
-  const int wanted = boxes + widest(NameColumn) + widest(FacesColumn) + widest(AreaColumn) +
-                     widest(ShapeColumn) + header->sectionSize(RoleColumn);
-  this->Rows->setColumnHidden(ShapeColumn, wanted > this->Rows->viewport()->width());
+  int wanted = boxes + header->sectionSize(RoleColumn) +
+               std::min(widest(NameColumn), Letters * this->fontMetrics().averageCharWidth());
+  for (const int column : { FacesColumn, AreaColumn, ShapeColumn })
+  {
+    wanted += widest(column);
+    this->Rows->setColumnHidden(column, wanted > this->Rows->viewport()->width());
+  }
 }
 
 void SurfaceTable::hideRows()
@@ -459,7 +464,7 @@ bool SurfaceTable::eventFilter(QObject* object, QEvent* event)
 {
   if (object == this->Rows->viewport() && event->type() == QEvent::Resize)
   {
-    this->hideShapes();
+    this->hideColumns();
   }
   if (object == this->Rows->viewport() && event->type() == QEvent::MouseButtonPress)
   {

@@ -24,9 +24,10 @@ class pqOutputPort;
 class vtkSMPropertyGroup;
 
 /// The surfaces of a filter, one row each, with their color in the view, faces, area and shape, and
-/// a role to choose. A narrow panel hides the shapes. A ticked surface moves; the others follow, stay, slide or are free. A choice holds
-/// for all selected rows. Surfaces that move come first, then those that the file names, then the
-/// others by number; curves are below a row that shows them.
+/// a role to choose; a narrow panel hides the shapes first, then areas and faces. A ticked surface
+/// moves; the others follow, stay, slide or are free. A choice holds for all selected rows. Surfaces
+/// that move come first, then those that the file names, then the others by number; curves are below
+/// a row that shows them.
 ///
 /// It is the widget of the group of the lists of names Surfaces, FixedSurfaces, SlidingSurfaces and
 /// FreeSurfaces, which scripts set, too, and of Moving, which a tick sets to its first value, the
@@ -96,8 +97,8 @@ private:
   void makeRows(const QVector<Surface>& surfaces);
   void fill();
   void hideRows();
-  /// In a panel that is too narrow for all columns.
-  void hideShapes();
+  /// The last ones before the role, in a panel that is too narrow for all.
+  void hideColumns();
   void openRoles(const QPoint& place);
   void setRole(const QStringList& names, Role role);
   QStringList selectedNames() const;

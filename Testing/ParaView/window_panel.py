@@ -17,7 +17,10 @@ def ghosts():
     shown = [hidden.GetProxy(i) for i in range(hidden.GetNumberOfProxies())]
     sources = [one.GetProperty("Input").GetProxy(0) for one in shown
                if one.GetProperty("Input") and one.GetProperty("Opacity").GetElement(0) < 1]
-    return [list(source.GetDataInformation(0).GetBounds()) for source in sources]
+    bounds = [[0] * 6 for _ in sources]
+    for source, six in zip(sources, bounds):
+        servermanager.Fetch(servermanager._getPyProxy(source)).GetCellsBounds(six)
+    return bounds
 
 
 def write(*_):
