@@ -12,6 +12,7 @@
 #include <vtkSMPropertyHelper.h>
 #include <vtkSMProxy.h>
 
+#include <QEvent>
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QPushButton>
@@ -88,6 +89,15 @@ void StatusLine::setView(pqView* view)
 {
   this->Superclass::setView(view);
   this->Bad->setView(view);
+}
+
+void StatusLine::changeEvent(QEvent* event)
+{
+  this->Superclass::changeEvent(event);
+  if (event->type() == QEvent::EnabledChange && !this->isEnabled())
+  {
+    this->setEnabled(true);
+  }
 }
 
 double StatusLine::number(const char* result) const

@@ -29,6 +29,10 @@ public:
 public Q_SLOTS:
   void setView(pqView* view) override;
 
+protected:
+  /// ParaView disables the widgets of results; this one has buttons.
+  void changeEvent(QEvent* event) override;
+
 private Q_SLOTS:
   void showLater();
 
