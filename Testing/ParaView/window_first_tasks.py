@@ -253,8 +253,9 @@ class FirstTasks(unittest.TestCase):
         self.events.select("/0:0/0:0/0:0")
         self.events.type(BOX + "translateZ", "0.4")
         self.events.press("Advice/SaveAsShape")
-        self.events.type("Weights/Weight0", "0.5")
-        self.events.type("Weights/Weight1", "0.25")
+        for shape, place in (("Slider0", "750"), ("Slider1", "625")):  # 0 is -1, 1000 is 1
+            self.events.set(f"Weights/{shape}", "set_int", place)
+            self.events.clicks += 1
         self.events.apply()
         self.events.done()
         self.events.shows(blend, ("MinScaledJacobian", "InvertedCells"))
