@@ -88,6 +88,13 @@ def rows(table, classes):
             if set(table[name]["filters"].split()) & set(classes)]
 
 
+def proxy_rows(table, proxy, cls, superclasses):
+    """Of a proxy of the plugin: those that name it or, if none does, all of its class."""
+    classes = [proxy, cls, *superclasses]
+    named = {row.name for row in rows(table, [proxy])} if proxy != cls else set()
+    return [row for row in rows(table, classes) if not named or row.name in named]
+
+
 def panel_order(own):
     """The groups that are always open, and the rows with these first, each group together."""
     groups = list(dict.fromkeys(row["group"] for row in own if row.has_widget))
@@ -438,7 +445,7 @@ def make_xml(folder):
         # The last one: those before it are internal.
         proxy, cls = re.findall(r'<\w*SourceProxy name="(\w+)"\s+class="vtk(\w+)"', text)[-1]
         classes = [cls, *chains.get(cls, [])]
-        own = rows(table, [proxy, *classes])
+        own = proxy_rows(table, proxy, cls, chains.get(cls, []))
         find = {row.name: row for row in own}.__getitem__
         opened, own = panel_order(own)
         made = "".join(own_xml(row, classes, find) if row.kind == "own" else property_xml(row, find)
@@ -518,6 +525,8 @@ def make_options(path):
             f"      {{ {words} }}, {{ {defaults} }}, {{ {pairs} }},\n      {text},\n"
             f"      [](vtkAlgorithm* filter, const PropertyValue& value)\n"
             f"      {{ return {sets}; }} }},\n")
+    repairs = [Row(name, table[name], ["RepairMesh"]) for name in table.sections()
+               if "default of RepairMesh" in table[name]]
     includes = "".join(f"#include <vtk{cls}.h>\n" for cls in sorted(PROGRAM_CLASSES))
     write(path, "// Made by cmake/properties.py from Properties.ini.\n"
           '#include "Properties.h"\n\n' + includes + "\n#include <limits>\n\n"
@@ -527,7 +536,9 @@ def make_options(path):
           "  auto* one = Filter::SafeDownCast(filter);\n  if (one)\n  {\n    set(one);\n  }\n"
           "  return one != nullptr;\n}\n}\n\nconst std::vector<Property>& properties()\n{\n"
           "  static const std::vector<Property> all = {\n" + "".join(lines) + "  };\n"
-          "  return all;\n}\n}\n")
+          "  return all;\n}\n\nvoid setRepair(vtkMorphMesh* filter)\n{\n" +
+          "".join(f"  filter->Set{row.name}({row.default_number});\n" for row in repairs) +
+          "}\n}\n")
 
 
 # ----------------------------------------------------------------------------------- tests
@@ -630,7 +641,7 @@ def make_pages(folder):
         page = [f"# {label}", "", f"The properties of *{label}* (`{proxy}` in Python, "
                 f"`vtk{cls}` in C++), in the order of its panel."]
         group = None
-        for row in panel_order(rows(table, [proxy, cls, *chains.get(cls, [])]))[1]:
+        for row in panel_order(proxy_rows(table, proxy, cls, chains.get(cls, [])))[1]:
             if row.kind == "own" or row["panel"] == "never":
                 continue
             if row["group"] != group:

@@ -2,6 +2,7 @@
 #include "vtkDisplacementAlgorithm.h"
 
 #include "Private/Displace/Internals.h"
+#include "Private/Displace/Preview.h"
 #include "Private/Pipeline/Property.h"
 #include "Private/Pipeline/Ranks.h"
 #include "Support/Error.h"
@@ -151,6 +152,21 @@ void vtkDisplacementAlgorithm::CopySurfaces(vtkDataArraySelection* names, vtkPol
   }
 }
 
+void vtkDisplacementAlgorithm::CopyMovedSurfaces(
+  vtkDataArraySelection* names, vtkDisplacementAlgorithm* motion, vtkPolyData* output)
+{
+  output->Initialize();
+  const vtkInternals& own = *this->Internals;
+  const int how = motion->Options->Displacement;
+  const bool isCheap = how <= DISPLACEMENT_ALONG_NORMALS ||
+                       how == DISPLACEMENT_TRANSLATE_ROTATE_SCALE || how == DISPLACEMENT_RADIUS;
+  if (isCheap && own.Model.Surface() && (!own.Whole || filters::Ranks::IsFirst()))
+  {
+    filters::Preview::Write(
+      own.Model, names, { *motion->Options, motion->Internals->Transform }, output);
+  }
+}
+
 void vtkDisplacementAlgorithm::SetPick(vtkAlgorithm* selection)
 {
   this->Internals->Picker.Selection = selection;
@@ -176,6 +192,12 @@ vtkDataArraySelection* vtkDisplacementAlgorithm::GetPickedSurfaces()
 vtkStringArray* vtkDisplacementAlgorithm::GetSurfaceSizes()
 {
   return this->Internals->SurfaceSizes;
+}
+
+vtkStringArray* vtkDisplacementAlgorithm::GetSurfaceShapes()
+{
+  this->Internals->ListShapes();
+  return this->Internals->SurfaceShapes;
 }
 
 vtkDoubleArray* vtkDisplacementAlgorithm::GetSurfaceBounds()

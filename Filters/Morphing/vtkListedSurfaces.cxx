@@ -28,6 +28,15 @@ void vtkListedSurfaces::SetFilter(vtkAlgorithm* filter)
   }
 }
 
+void vtkListedSurfaces::SetMotion(vtkAlgorithm* motion)
+{
+  if (this->Motion != motion)
+  {
+    this->Motion = motion;
+    this->Modified();
+  }
+}
+
 void vtkListedSurfaces::SetSurfaceStatus(const char* name, int status)
 {
   if (!name || (this->Names->ArrayExists(name) != 0) == (status != 0))
@@ -62,6 +71,10 @@ vtkMTimeType vtkListedSurfaces::GetMTime()
     vtkDataObject* output = this->Filter->GetOutputDataObject(0);
     time = std::max({ time, this->Filter->GetMTime(), output ? output->GetMTime() : 0 });
   }
+  if (this->Motion)
+  {
+    time = std::max(time, this->Motion->GetMTime());
+  }
   return time;
 }
 
@@ -69,7 +82,13 @@ int vtkListedSurfaces::RequestData(
   vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
 {
   vtkPolyData* output = vtkPolyData::GetData(outputVector);
-  if (auto* displacement = vtkDisplacementAlgorithm::SafeDownCast(this->Filter))
+  auto* displacement = vtkDisplacementAlgorithm::SafeDownCast(this->Filter);
+  auto* motion = vtkDisplacementAlgorithm::SafeDownCast(this->Motion);
+  if (displacement && motion)
+  {
+    displacement->CopyMovedSurfaces(this->Names, motion, output);
+  }
+  else if (displacement)
   {
     displacement->CopySurfaces(this->Names, output);
   }
@@ -80,6 +99,7 @@ void vtkListedSurfaces::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Filter: " << this->Filter.Get() << "\n";
+  os << indent << "Motion: " << this->Motion.Get() << "\n";
   os << indent << "Surfaces: ";
   for (int i = 0; i < this->Names->GetNumberOfArrays(); ++i)
   {

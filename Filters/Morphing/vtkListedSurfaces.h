@@ -38,6 +38,13 @@ public:
    */
   void SetFilter(vtkAlgorithm* filter);
 
+  /**
+   * A vtkDisplacementAlgorithm whose motion the surfaces are shown to make, with arrows, before the
+   * filter has it; see vtkDisplacementAlgorithm::CopyMovedSurfaces(). It has no inputs and is not
+   * executed. Default: null, the surfaces as they are.
+   */
+  void SetMotion(vtkAlgorithm* motion);
+
   ///@{
   /**
    * The names of the surfaces and curves to show. A status other than 0 adds one, and 0 removes it.
@@ -59,7 +66,7 @@ private:
   vtkListedSurfaces(const vtkListedSurfaces&) = delete;
   void operator=(const vtkListedSurfaces&) = delete;
 
-  vtkSmartPointer<vtkAlgorithm> Filter;
+  vtkSmartPointer<vtkAlgorithm> Filter, Motion;
   vtkNew<vtkDataArraySelection> Names;
 };
 

@@ -1,13 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "StatusLine.h"
 
+#include "BadCells.h"
+#include "QualityBar.h"
+#include "SavedShape.h"
+
 #include <pqCoreUtilities.h>
 #include <vtkCommand.h>
+#include <vtkPVXMLElement.h>
 #include <vtkSMProperty.h>
 #include <vtkSMPropertyHelper.h>
 #include <vtkSMProxy.h>
 
+#include <QEvent>
+#include <QHBoxLayout>
 #include <QLabel>
+#include <QPushButton>
 #include <QStringList>
 #include <QTimer>
 #include <QVBoxLayout>
@@ -17,7 +25,8 @@
 namespace
 {
 constexpr const char* Results[] = { "MorphStatus", "MinScaledJacobian", "InvertedCells",
-  "InvertedBefore", "CrossingFaces", "LargestValidStep", "PrepareSeconds", "EvaluateSeconds" };
+  "DegenerateCells", "InvertedBefore", "CrossingFaces", "LargestValidStep", "PrepareSeconds",
+  "EvaluateSeconds" };
 
 const QString Green = "#2e7d32", Orange = "#b35900", Red = "#b71c1c", Gray = "#616161";
 }
@@ -27,12 +36,15 @@ StatusLine::StatusLine(vtkSMProxy* filter, vtkSMProperty* advice, QWidget* paren
   , Status(new QLabel(this))
   , Details(new QLabel(this))
   , Text(new QLabel(this))
+  , Minimum(new QualityBar(filter, this))
+  , Bad(new BadCells(filter, this))
 {
   this->setShowLabel(false);
   this->setProperty(advice);
   this->Status->setObjectName("Status");
   this->Details->setObjectName("Details");
   this->Text->setObjectName("Text");
+  this->Minimum->setObjectName("Minimum");
   // ParaView gives it the colors of a field that cannot be edited: a frame makes it a note.
   this->Text->setFrameShape(QFrame::StyledPanel);
   auto* const layout = new QVBoxLayout(this);
@@ -46,6 +58,22 @@ StatusLine::StatusLine(vtkSMProxy* filter, vtkSMProperty* advice, QWidget* paren
     label->setStyleSheet("color: " + this->palette().color(QPalette::WindowText).name());
     layout->addWidget(label);
   }
+  layout->insertWidget(1, this->Minimum);
+  auto* const buttons = new QHBoxLayout();
+  buttons->addWidget(this->Bad);
+  buttons->addStretch();
+  vtkPVXMLElement* const hints = filter->GetHints();
+  if (hints && hints->FindNestedElementByName("SavesShapes"))
+  {
+    auto* const save = new QPushButton(tr("Save as Shape"), this);
+    save->setObjectName("SaveAsShape");
+    save->setToolTip(
+      tr("Makes a Morph Shapes filter with this result as a shape; a press later adds "
+         "the next one"));
+    QObject::connect(save, &QPushButton::clicked, this, [this] { SavedShape::Save(this); });
+    buttons->addWidget(save);
+  }
+  layout->addLayout(buttons);
   pqCoreUtilities::connect(advice, vtkCommand::ModifiedEvent, this, SLOT(showLater()));
   for (const char* const name : Results)
   {
@@ -56,6 +84,21 @@ StatusLine::StatusLine(vtkSMProxy* filter, vtkSMProperty* advice, QWidget* paren
 }
 
 StatusLine::~StatusLine() = default;
+
+void StatusLine::setView(pqView* view)
+{
+  this->Superclass::setView(view);
+  this->Bad->setView(view);
+}
+
+void StatusLine::changeEvent(QEvent* event)
+{
+  this->Superclass::changeEvent(event);
+  if (event->type() == QEvent::EnabledChange && !this->isEnabled())
+  {
+    this->setEnabled(true);
+  }
+}
 
 double StatusLine::number(const char* result) const
 {
@@ -133,6 +176,13 @@ void StatusLine::showStatus()
   this->Details->setText(details.join(", "));
   this->Details->setVisible(this->Status->isVisibleTo(this) && color != Gray &&
                             status != "Failed" && status != "Cancelled");
+
+  const bool isMeasured = this->number("InvertedCells") >= 0;
+  this->Minimum->setMinimum(this->number("MinScaledJacobian"));
+  this->Minimum->setVisible(this->Details->isVisibleTo(this) && isMeasured);
+  this->Bad->setCount(
+    isMeasured ? static_cast<int>(this->number("InvertedCells") + this->number("DegenerateCells"))
+               : 0);
 
   this->Text->setText(advice == "None" ? QString() : advice);
   this->Text->setVisible(advice != "None" && !advice.isEmpty());

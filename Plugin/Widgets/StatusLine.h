@@ -4,12 +4,16 @@
 
 #include <pqPropertyWidget.h>
 
+class BadCells;
 class QLabel;
+class QualityBar;
+class QWidget;
 
 /// How the last execution ended, on a ground of its color: green where the mesh is valid, orange
 /// where it has made a part of the motion, red where it is not valid or there is none. Below it the
-/// inverted cells before and after, and the seconds. Before anything moves it has the advice what
-/// to do instead.
+/// color map with the minimum, the inverted cells before and after, a link to the bad cells, and the
+/// seconds. Before anything moves it has the advice what to do instead. A filter with the hint
+/// <SavesShapes/> has a button that saves its result as a shape (SavedShape.h).
 ///
 /// It is the widget of the property with the advice (panel_widget="StatusLine"). The filter's
 /// results of vtkMorphAlgorithm have their usual names.
@@ -22,6 +26,13 @@ public:
   StatusLine(vtkSMProxy* filter, vtkSMProperty* advice, QWidget* parent = nullptr);
   ~StatusLine() override;
 
+public Q_SLOTS:
+  void setView(pqView* view) override;
+
+protected:
+  /// ParaView disables the widgets of results; this one has buttons.
+  void changeEvent(QEvent* event) override;
+
 private Q_SLOTS:
   void showLater();
 
@@ -33,6 +44,8 @@ private:
   QLabel* Status;
   QLabel* Details;
   QLabel* Text;
+  QualityBar* Minimum;
+  BadCells* Bad;
   bool IsDue = false; ///< showStatus()
 };
 

@@ -17,8 +17,9 @@ namespace
 constexpr const char* Hidden = "HiddenRepresentations";
 }
 
-SurfaceHighlight::SurfaceHighlight(vtkSMProxy* filter)
+SurfaceHighlight::SurfaceHighlight(vtkSMProxy* filter, vtkSMProxy* motion)
   : Filter(filter)
+  , Motion(motion)
 {
 }
 
@@ -40,15 +41,23 @@ void SurfaceHighlight::create()
   vtkClientServerStream stream;
   stream << vtkClientServerStream::Invoke << VTKOBJECT(this->Source.Get()) << "SetFilter"
          << VTKOBJECT(this->Filter) << vtkClientServerStream::End;
+  if (this->Motion)
+  {
+    stream << vtkClientServerStream::Invoke << VTKOBJECT(this->Source.Get()) << "SetMotion"
+           << VTKOBJECT(this->Motion.Get()) << vtkClientServerStream::End;
+  }
   this->Filter->GetSession()->ExecuteStream(this->Source->GetLocation(), stream);
   vtkNew<vtkSMParaViewPipelineController> controller;
   controller->PreInitializeProxy(this->Representation);
   vtkSMPropertyHelper(this->Representation, "Input").Set(this->Source);
   controller->PostInitializeProxy(this->Representation);
-  const double orange[] = { 1, 0.55, 0 };
-  vtkSMPropertyHelper(this->Representation, "Representation").Set("Wireframe");
-  vtkSMPropertyHelper(this->Representation, "AmbientColor").Set(orange, 3);
-  vtkSMPropertyHelper(this->Representation, "DiffuseColor").Set(orange, 3);
+  const double orange[] = { 1, 0.55, 0 }, green[] = { 0.2, 0.85, 0.6 };
+  const double* const color = this->Motion ? green : orange;
+  vtkSMPropertyHelper(this->Representation, "Representation")
+    .Set(this->Motion ? "Surface" : "Wireframe");
+  vtkSMPropertyHelper(this->Representation, "Opacity").Set(this->Motion ? 0.5 : 1.0);
+  vtkSMPropertyHelper(this->Representation, "AmbientColor").Set(color, 3);
+  vtkSMPropertyHelper(this->Representation, "DiffuseColor").Set(color, 3);
   vtkSMPropertyHelper(this->Representation, "LineWidth").Set(2.0);
   vtkSMPropertyHelper(this->Representation, "Pickable").Set(0);
   this->Representation->UpdateVTKObjects();

@@ -11,13 +11,15 @@ class pqView;
 class vtkSMProxy;
 class vtkSMSourceProxy;
 
-/// Surfaces of a filter's list as colored lines in a view, apart from its pipeline. The server
-/// cuts them out (vtkListedSurfaces). Neither the source nor its representation is registered, so
+/// Surfaces of a filter's list in a view, apart from its pipeline: as orange lines or, with a motion,
+/// as a green ghost at the place to which that takes them, with arrows. The server cuts them out
+/// (vtkListedSurfaces). Neither the source nor its representation is registered, so
 /// that no browser, state or trace has them.
 class SurfaceHighlight
 {
 public:
-  explicit SurfaceHighlight(vtkSMProxy* filter);
+  /// `motion`: a filter that has the motion as its properties, and no inputs; null: none.
+  explicit SurfaceHighlight(vtkSMProxy* filter, vtkSMProxy* motion = nullptr);
   ~SurfaceHighlight();
 
   /// Shows the surfaces and curves of these names, and no others. Does nothing in a view that has
@@ -32,6 +34,7 @@ private:
   void create();
 
   vtkSMProxy* Filter;
+  vtkSmartPointer<vtkSMProxy> Motion;
   vtkSmartPointer<vtkSMSourceProxy> Source;
   vtkSmartPointer<vtkSMProxy> Representation;
   QPointer<pqView> View; ///< that shows it, or null

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SurfaceTable.h"
 
+#include "MotionPreview.h"
 #include "SurfaceColors.h"
 #include "SurfaceHighlight.h"
 
@@ -11,16 +12,20 @@
 #include <pqOutputPort.h>
 #include <pqPVApplicationCore.h>
 #include <pqPipelineSource.h>
+#include <pqProxyWidget.h>
 #include <pqSMAdaptor.h>
 #include <pqSelectionManager.h>
 #include <pqServerManagerModel.h>
 #include <pqSignalAdaptors.h>
 #include <pqView.h>
+#include <vtkCollection.h>
 #include <vtkCommand.h>
+#include <vtkNew.h>
 #include <vtkSMArraySelectionDomain.h>
 #include <vtkSMProperty.h>
 #include <vtkSMPropertyHelper.h>
 #include <vtkSMProxy.h>
+#include <vtkSMRenderViewProxy.h>
 #include <vtkSMSourceProxy.h>
 #include <vtkSMUncheckedPropertyHelper.h>
 
@@ -52,6 +57,7 @@ enum Column
   NameColumn,
   FacesColumn,
   AreaColumn,
+  ShapeColumn,
   RoleColumn
 };
 constexpr int FewestRows = 4;
@@ -118,6 +124,7 @@ SurfaceTable::SurfaceTable(vtkSMProxy* filter, vtkSMPropertyGroup* group, QWidge
   , Roles(new QMenu(this))
   , Message(new QLabel(this))
   , Highlight(new SurfaceHighlight(filter))
+  , Preview(new MotionPreview(filter))
 {
   this->setShowLabel(false);
 
@@ -135,7 +142,7 @@ SurfaceTable::SurfaceTable(vtkSMProxy* filter, vtkSMPropertyGroup* group, QWidge
   QObject::connect(this->Search, &QLineEdit::textChanged, this, [this] { this->hideRows(); });
 
   this->Rows->setObjectName("Rows");
-  this->Rows->setHeaderLabels({ tr("Moves"), tr("Faces"), tr("Area"), tr("Role") });
+  this->Rows->setHeaderLabels({ tr("Moves"), tr("Faces"), tr("Area"), tr("Shape"), tr("Role") });
   this->Rows->setToolTip(Superclass::getTooltip(this->listOf(Moves)));
   this->Rows->setRootIsDecorated(false);
   this->Rows->setUniformRowHeights(true);
@@ -166,13 +173,6 @@ SurfaceTable::SurfaceTable(vtkSMProxy* filter, vtkSMPropertyGroup* group, QWidge
     this->Rows, &QTreeWidget::itemSelectionChanged, this, [this] { this->highlight(); });
 
   this->Roles->setObjectName("Roles");
-  for (const Role role : { Moves, Follows, Stays, Slides, Free })
-  {
-    QAction* const action = this->Roles->addAction(tr(RoleNames[role]));
-    action->setCheckable(true);
-    QObject::connect(action, &QAction::triggered, this,
-      [this, role] { this->setRole(this->selectedNames(), role); });
-  }
 
   auto* const button = new QPushButton(tr("Add selected surfaces"), this);
   button->setObjectName("AddSelected");
@@ -207,6 +207,15 @@ SurfaceTable::SurfaceTable(vtkSMProxy* filter, vtkSMPropertyGroup* group, QWidge
   }
   QObject::connect(pqPVApplicationCore::instance()->selectionManager(),
     SIGNAL(selectionChanged(pqOutputPort*)), this, SLOT(pickRows(pqOutputPort*)));
+  // The panel is being made; its properties are beside this widget.
+  for (QWidget* above = parent; above; above = above->parentWidget())
+  {
+    if (auto* const panel = qobject_cast<pqProxyWidget*>(above))
+    {
+      QObject::connect(panel, &pqProxyWidget::changeAvailable, this, &SurfaceTable::previewLater);
+      break;
+    }
+  }
   this->fill();
 }
 
@@ -259,11 +268,19 @@ QVector<SurfaceTable::Surface> SurfaceTable::surfaces() const
   vtkSMProperty* const property = this->named("SurfaceSizes");
   this->proxy()->UpdatePropertyInformation(property);
   const vtkSMPropertyHelper sizes(property);
+  vtkSMProperty* const shapeProperty = this->named("SurfaceShapes");
+  this->proxy()->UpdatePropertyInformation(shapeProperty);
+  const vtkSMPropertyHelper pairs(shapeProperty);
+  QHash<QString, QString> shapes;
+  for (unsigned int i = 0; i + 1 < pairs.GetNumberOfElements(); i += 2)
+  {
+    shapes[pairs.GetAsString(i)] = pairs.GetAsString(i + 1);
+  }
   std::size_t place = 0; // among the surfaces of the view
   for (unsigned int i = 0; i + 2 < sizes.GetNumberOfElements(); i += 3)
   {
     Surface one{ sizes.GetAsString(i), sizes.GetAsString(i + 1),
-      fourDigits(sizes.GetAsString(i + 2)), {}, false, 1, 0 };
+      fourDigits(sizes.GetAsString(i + 2)), shapes.value(sizes.GetAsString(i)), {}, false, 1, 0 };
     const QRegularExpressionMatch match = numbered.match(one.Name);
     if (match.hasMatch())
     {
@@ -360,13 +377,41 @@ void SurfaceTable::fill()
     row->setIcon(NameColumn, chipOf(one.Chip));
     row->setText(FacesColumn, one.IsCurve ? tr("%1 edges").arg(one.Faces) : one.Faces);
     row->setText(AreaColumn, one.IsCurve ? tr("%1 long").arg(one.Area) : one.Area);
+    row->setText(ShapeColumn, one.Shape);
+    row->setToolTip(ShapeColumn, one.Shape);
     row->setCheckState(NameColumn, role == Moves ? Qt::Checked : Qt::Unchecked);
     row->setText(RoleColumn, tr(RoleNames[role]));
   }
   this->IsFilling = false;
   this->selectNames(selected);
   this->hideRows();
+  this->hideColumns();
   this->highlight();
+}
+
+void SurfaceTable::hideColumns()
+{
+  const auto widest = [this](int column)
+  {
+    int width = this->fontMetrics().horizontalAdvance(this->Rows->headerItem()->text(column));
+    for (int i = 0; i < this->Rows->topLevelItemCount(); ++i)
+    {
+      const QTreeWidgetItem* const row = this->Rows->topLevelItem(i);
+      const QString text = row->isHidden() ? QString() : row->text(column);
+      width = std::max(width, this->fontMetrics().horizontalAdvance(text));
+    }
+    return width + 2 * this->fontMetrics().averageCharWidth(); // the margins of a cell
+  };
+  constexpr int Letters = 12; // of a name that are always seen
+  const QHeaderView* const header = this->Rows->header();
+  const int boxes = 2 * header->height(); // the tick and the color before a name
+  int wanted = boxes + header->sectionSize(RoleColumn) +
+               std::min(widest(NameColumn), Letters * this->fontMetrics().averageCharWidth());
+  for (const int column : { FacesColumn, AreaColumn, ShapeColumn })
+  {
+    wanted += widest(column);
+    this->Rows->setColumnHidden(column, wanted > this->Rows->viewport()->width());
+  }
 }
 
 void SurfaceTable::hideRows()
@@ -417,6 +462,10 @@ void SurfaceTable::selectNames(const QStringList& names)
 
 bool SurfaceTable::eventFilter(QObject* object, QEvent* event)
 {
+  if (object == this->Rows->viewport() && event->type() == QEvent::Resize)
+  {
+    this->hideColumns();
+  }
   if (object == this->Rows->viewport() && event->type() == QEvent::MouseButtonPress)
   {
     const auto* const press = static_cast<QMouseEvent*>(event);
@@ -442,14 +491,65 @@ bool SurfaceTable::eventFilter(QObject* object, QEvent* event)
   return this->Superclass::eventFilter(object, event);
 }
 
-void SurfaceTable::openRoles(const QPoint& place)
+void SurfaceTable::addRoles(QMenu* menu, const QStringList& names)
 {
-  const Role present = this->roles().value(this->selectedNames().value(0), Follows);
+  const Role present = this->roles().value(names.value(0), Follows);
   for (const Role role : { Moves, Follows, Stays, Slides, Free })
   {
-    this->Roles->actions()[role]->setChecked(role == present);
+    QAction* const action = menu->addAction(tr(RoleNames[role]));
+    action->setCheckable(true);
+    action->setChecked(role == present);
+    QObject::connect(
+      action, &QAction::triggered, this, [this, names, role] { this->setRole(names, role); });
   }
+}
+
+void SurfaceTable::openRoles(const QPoint& place)
+{
+  this->Roles->clear();
+  this->addRoles(this->Roles, this->selectedNames());
   this->Roles->popup(place);
+}
+
+void SurfaceTable::OfferRoles(QMenu* menu, pqView* view, const QPoint& place)
+{
+  auto* const renderer = vtkSMRenderViewProxy::SafeDownCast(view ? view->getProxy() : nullptr);
+  for (SurfaceTable* const table : pqCoreUtilities::mainWidget()->findChildren<SurfaceTable*>())
+  {
+    if (!renderer || !table->isSelected() || table->view() != view)
+    {
+      continue;
+    }
+    const double ratio = view->widget()->devicePixelRatioF();
+    const int x = static_cast<int>(ratio * place.x());
+    const int y = static_cast<int>(ratio * (view->widget()->height() - 1 - place.y()));
+    const int pixel[] = { x, y, x, y };
+    vtkNew<vtkCollection> shown, selections;
+    if (!renderer->SelectSurfaceCells(pixel, shown, selections) || shown->GetNumberOfItems() == 0)
+    {
+      continue;
+    }
+    const vtkSMPropertyHelper source(vtkSMProxy::SafeDownCast(shown->GetItemAsObject(0)), "Input");
+    const int port = table->portOf(source.GetAsProxy(), static_cast<int>(source.GetOutputPort()));
+    auto* const selection = vtkSMProxy::SafeDownCast(selections->GetItemAsObject(0));
+    const QStringList names = port < -1 ? QStringList() : table->pickedNames(selection, port);
+    if (!names.isEmpty())
+    {
+      menu->addSection(names.join(", "));
+      table->addRoles(menu, names);
+      menu->addSeparator();
+    }
+  }
+}
+
+int SurfaceTable::portOf(vtkSMProxy* source, int port) const
+{
+  const vtkSMPropertyHelper input(this->proxy(), "Input");
+  if (source == this->proxy())
+  {
+    return port;
+  }
+  return input.GetNumberOfElements() > 0 && source == input.GetAsProxy() ? -1 : -2;
 }
 
 void SurfaceTable::setRole(const QStringList& names, Role role)
@@ -493,6 +593,7 @@ void SurfaceTable::apply()
   this->Rows->clearSelection();
   this->Rows->clear(); // what moves comes first
   this->fillLater();
+  this->Preview->hide();
 }
 
 void SurfaceTable::reset()
@@ -503,6 +604,7 @@ void SurfaceTable::reset()
     this->listOf(role)->ClearUncheckedElements();
   }
   this->fillLater();
+  this->Preview->hide();
 }
 
 void SurfaceTable::select()
@@ -515,6 +617,7 @@ void SurfaceTable::deselect()
 {
   this->Superclass::deselect();
   this->Highlight->hide();
+  this->Preview->hide();
 }
 
 void SurfaceTable::setView(pqView* view)
@@ -540,6 +643,34 @@ void SurfaceTable::highlight()
   else
   {
     this->Highlight->hide();
+  }
+}
+
+void SurfaceTable::previewLater()
+{
+  if (!this->IsPreviewDue)
+  {
+    this->IsPreviewDue = true;
+    QTimer::singleShot(0, this, [this] { this->preview(); });
+  }
+}
+
+void SurfaceTable::preview()
+{
+  this->IsPreviewDue = false;
+  const auto* const filter =
+    pqApplicationCore::instance()->getServerManagerModel()->findItem<pqPipelineSource*>(
+      this->proxy());
+  const QStringList names = this->namesOf(Moves);
+  const bool isList = vtkSMUncheckedPropertyHelper(this->named("Moving")).GetAsInt() == 0;
+  const bool isPending = filter && filter->modifiedState() != pqProxy::UNMODIFIED;
+  if (this->isSelected() && this->view() && isPending && isList && !names.isEmpty())
+  {
+    this->Preview->show(this->view(), names);
+  }
+  else
+  {
+    this->Preview->hide();
   }
 }
 
@@ -579,14 +710,13 @@ void SurfaceTable::pickRows(pqOutputPort* port)
   {
     return;
   }
-  const vtkSMPropertyHelper input(this->proxy(), "Input");
-  const bool isOwn = port->getSource()->getProxy() == this->proxy();
-  if (!isOwn &&
-      (input.GetNumberOfElements() == 0 || input.GetAsProxy() != port->getSource()->getProxy()))
+  const int picked = this->portOf(port->getSource()->getProxy(), port->getPortNumber());
+  if (picked < -1)
   {
     return;
   }
-  this->selectNames(this->pickedNames(selection, isOwn ? port->getPortNumber() : -1));
+  const bool isOwn = picked >= 0;
+  this->selectNames(this->pickedNames(selection, picked));
   // ParaView makes the input active, on which was selected; a new filter is still being filled in.
   const auto* const model = pqApplicationCore::instance()->getServerManagerModel();
   auto* const filter = model->findItem<pqPipelineSource*>(this->proxy());

@@ -12,6 +12,7 @@
 
 #include <memory>
 
+class MotionPreview;
 class QComboBox;
 class QLabel;
 class QLineEdit;
@@ -22,18 +23,19 @@ class SurfaceHighlight;
 class pqOutputPort;
 class vtkSMPropertyGroup;
 
-/// The surfaces of a filter, one row each, with their color in the view, faces and area, and a role
-/// to choose: a ticked surface moves; the others follow, stay, slide or are free. A choice holds
-/// for all selected rows. Surfaces that move come first, then those that the file names, then the
-/// others by number; curves are below a row that shows them.
+/// The surfaces of a filter, one row each, with their color in the view, faces, area and shape, and
+/// a role to choose; a narrow panel hides the shapes first, then areas and faces. A ticked surface
+/// moves; the others follow, stay, slide or are free. A choice holds for all selected rows. Surfaces
+/// that move come first, then those that the file names, then the others by number; curves are below
+/// a row that shows them.
 ///
 /// It is the widget of the group of the lists of names Surfaces, FixedSurfaces, SlidingSurfaces and
 /// FreeSurfaces, which scripts set, too, and of Moving, which a tick sets to its first value, the
 /// list (panel_widget="SurfaceTable"). The filter's SurfaceSizes has name, number of faces and area
-/// of each. What is selected in the view, on the filter's input or on an output, selects the rows
+/// of each, and SurfaceShapes name and shape. What is selected in the view, on the filter's input or on an output, selects the rows
 /// of the surfaces that it lies on: Pick takes the selection, PickPort the number of the output or
 /// -1, and PickedSurfaces has the names. Selected rows, and changes that are not applied, are
-/// highlighted in the view.
+/// highlighted in the view, and a motion that is not applied is shown (MotionPreview.h).
 class SurfaceTable : public pqPropertyGroupWidget
 {
   Q_OBJECT
@@ -48,6 +50,10 @@ public:
   void select() override;
   void deselect() override;
 
+  /// Adds the roles of the surface at a place of the view, in pixels from the left and the top, to
+  /// `menu`, if the panel shows a table of the filter that is there, or of a filter of that.
+  static void OfferRoles(QMenu* menu, pqView* view, const QPoint& place);
+
 public Q_SLOTS:
   void setView(pqView* view) override;
 
@@ -60,6 +66,7 @@ private Q_SLOTS:
   void pickRows(pqOutputPort* port);
   void addSelected();
   void highlight();
+  void previewLater();
 
 private:
   /// In the order of the choice.
@@ -73,7 +80,7 @@ private:
   };
   struct Surface
   {
-    QString Name, Faces, Area;
+    QString Name, Faces, Area, Shape;
     QColor Chip; ///< not valid: the view has none
     bool IsCurve;
     int Rank;   ///< 0 moves, 1 named by the file, 2 a surface, 3 a curve
@@ -90,11 +97,17 @@ private:
   void makeRows(const QVector<Surface>& surfaces);
   void fill();
   void hideRows();
+  /// The last ones before the role, in a panel that is too narrow for all.
+  void hideColumns();
   void openRoles(const QPoint& place);
   void setRole(const QStringList& names, Role role);
   QStringList selectedNames() const;
   void selectNames(const QStringList& names);
   QStringList pickedNames(vtkSMProxy* selection, int port);
+  /// The port of the filter's output that this is, -1 for its input, -2 for neither.
+  int portOf(vtkSMProxy* source, int port) const;
+  void addRoles(QMenu* menu, const QStringList& names);
+  void preview();
   void say(const QString& message);
 
   QComboBox* What;
@@ -103,9 +116,11 @@ private:
   QMenu* Roles;
   QLabel* Message;
   std::unique_ptr<SurfaceHighlight> Highlight;
+  std::unique_ptr<MotionPreview> Preview;
   bool AreCurvesShown = false;
   bool IsFilling = false;
-  bool IsDue = false; ///< fill()
+  bool IsDue = false;        ///< fill()
+  bool IsPreviewDue = false; ///< preview()
 };
 
 #endif

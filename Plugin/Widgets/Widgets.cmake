@@ -52,6 +52,7 @@ if (PARAVIEW_USE_QT)
   morph_auto_start(FirstHit)
   morph_auto_start(FirstReader)
   morph_auto_start(SeriesColors)
+  morph_auto_start(SurfaceMenu)
   morph_action_group(SaveCoordinates "MenuBar/File")
   morph_property_widget(ZoneList ZoneList WIDGET)
   morph_property_widget(SurfaceTable SurfaceTable GROUP_WIDGET)
@@ -69,11 +70,15 @@ if (PARAVIEW_USE_QT)
     morph_auto_start(MorphHelp)
   endif ()
   list(APPEND widget_sources
+    Widgets/BadCells.cxx Widgets/BadCells.h
     Widgets/BoxAboutCenter.cxx Widgets/BoxAboutCenter.h
     Widgets/FoldTitle.cxx Widgets/FoldTitle.h
     Widgets/Folds.cxx Widgets/Folds.h
     Widgets/HintedResults.cxx Widgets/HintedResults.h
     Widgets/LiveDrag.cxx Widgets/LiveDrag.h
+    Widgets/MotionPreview.cxx Widgets/MotionPreview.h
+    Widgets/QualityBar.cxx Widgets/QualityBar.h
+    Widgets/SavedShape.cxx Widgets/SavedShape.h
     Widgets/SurfaceColors.cxx Widgets/SurfaceColors.h
     Widgets/SurfaceHighlight.cxx Widgets/SurfaceHighlight.h)
   set(widget_resources Widgets/MeshMorphing.qrc)

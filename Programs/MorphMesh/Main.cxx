@@ -74,11 +74,9 @@ void configure(Morphing& morphing, const Arguments& arguments)
   morphing.filter = isMade ? static_cast<vtkAlgorithm*>(morphing.mesh) : morphing.method;
   if (isMade)
   {
-    if (arguments.task == Arguments::Task::Repair) // a motion of zero
+    if (arguments.task == Arguments::Task::Repair)
     {
-      morphing.mesh->SetValidity(vtkMorphAlgorithm::VALIDITY_REPAIR_ALL);
-      morphing.mesh->SetMovingToEverything();
-      morphing.mesh->SetDisplacementToVector();
+      setRepair(morphing.mesh);
     }
     morphing.mesh->SetNumberOfThreads(arguments.threads);
     given.apply({ morphing.mesh, morphing.method }, "with " + arguments.method());

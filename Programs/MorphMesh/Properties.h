@@ -7,6 +7,7 @@
 #include <vector>
 
 class vtkAlgorithm;
+class vtkMorphMesh;
 
 /// The properties of the filters as options of the command line.
 namespace morph_mesh
@@ -45,6 +46,10 @@ struct Property
 
 /// All of them, in the order of the table. Made by cmake/properties.py.
 const std::vector<Property>& properties();
+
+/// Gives Morph Mesh the defaults of ParaView's Repair Mesh: a motion of zero, and the repair of all
+/// inverted cells. Made by cmake/properties.py.
+void setRepair(vtkMorphMesh* filter);
 
 /// A message of a filter, in which `TargetReach` stands for that property, in the words of the
 /// command line: --target-reach. Other words in backquotes stay.

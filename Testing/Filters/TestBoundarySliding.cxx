@@ -315,7 +315,34 @@ TEST(BoundarySliding, TheRadiusOfAHoleIsOneNumber)
   filter->SetMovingToEverything();
   filter->Update();
   ASSERT_EQ(listener.Errors.size(), 2u);
-  EXPECT_NE(listener.Errors[1].find("is none"), std::string::npos) << listener.Errors[1];
+  EXPECT_NE(listener.Errors[1].find("is neither"), std::string::npos) << listener.Errors[1];
+}
+
+TEST(BoundarySliding, TheRadiusOfASphereIsOneNumber)
+{
+  auto grid = grids::make(shapes::hollowBall(8));
+  vtkNew<vtkMorphMesh> filter;
+  filter->SetInputData(grid);
+  const double hole = 0.5;
+  const auto isHole = [&](const Row& x) { return isAt(x.norm(), hole); };
+  filter->AddSurface(surface(grid, isHole).c_str());
+  filter->SetDisplacementToRadius();
+  filter->SetRadiusChange(0.1);
+  grids::Listener listener(filter);
+  filter->Update();
+  ASSERT_TRUE(listener.Errors.empty()) << listener.Errors[0];
+  const morph::Points x = grids::points(grid), y = grids::points(filter->GetOutput());
+  int moved = 0;
+  for (morph::Index i = 0; i < x.rows(); ++i)
+  {
+    if (isHole(x.row(i)))
+    {
+      ++moved;
+      EXPECT_LT((y.row(i) - (hole + 0.1) / hole * x.row(i)).norm(), 1e-9);
+    }
+    EXPECT_TRUE(!isAt(x.row(i).norm(), 1) || y.row(i) == x.row(i));
+  }
+  EXPECT_GT(moved, 50);
 }
 
 TEST(BoundarySliding, ScalesAndTurnsAboutTheCenterOfWhatMoves)

@@ -242,3 +242,39 @@ TEST(ListedSurfaces, SurfacesAndCurvesWhereTheResultHasThem)
   shown->Update();
   EXPECT_EQ(shown->GetOutput()->GetNumberOfCells(), 0);
 }
+
+TEST(ListedSurfaces, AMotionIsShownBeforeItIsMade)
+{
+  auto grid = grids::make(meshes::hexes(3, 3, 3));
+  vtkNew<vtkMorphMesh> filter;
+  filter->SetInputData(grid);
+  filter->UpdateInformation();
+  vtkNew<vtkBoundaryDisplacement> motion; // which has no input
+  motion->SetDisplacementToVector();
+  motion->SetVector(0, 0, 0.5);
+  vtkNew<vtkListedSurfaces> shown;
+  shown->SetFilter(filter);
+  shown->SetMotion(motion);
+  const std::string top =
+    displaced::surfaceName(displaced::make(grid), [](const Row& x) { return x[2] == 3; });
+  shown->AddSurface(top.c_str());
+  shown->Update();
+  // Nine faces, and twelve arrows with four sides each, from z = 3 to 3.5.
+  EXPECT_EQ(shown->GetOutput()->GetNumberOfPolys(), 9 + 12 * 4);
+  EXPECT_EQ(shown->GetOutput()->GetNumberOfLines(), 12);
+  double bounds[6];
+  shown->GetOutput()->GetCellsBounds(bounds);
+  EXPECT_EQ(bounds[4], 3);
+  EXPECT_EQ(bounds[5], 3.5);
+  EXPECT_EQ(filter->GetPrepareCount(), 0);
+
+  motion->SetVector(0, 0, 0);
+  shown->Update();
+  EXPECT_EQ(shown->GetOutput()->GetNumberOfCells(), 0);
+  motion->SetDisplacementToRadius(); // of a plane: the execution says that it has none
+  motion->SetRadiusChange(0.1);
+  grids::Listener listener(shown);
+  shown->Update();
+  EXPECT_EQ(shown->GetOutput()->GetNumberOfCells(), 0);
+  EXPECT_TRUE(listener.Errors.empty());
+}

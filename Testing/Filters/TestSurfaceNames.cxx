@@ -120,6 +120,15 @@ TEST(SurfaceNames, NamesOfTheFileAreListedWithTheirSizes)
   EXPECT_DOUBLE_EQ(area, 2 * 9 + 4 * 18);
   EXPECT_DOUBLE_EQ(length, 8 * 3 + 4 * 6);
 
+  vtkStringArray* shapes = filter->GetSurfaceShapes();
+  ASSERT_EQ(shapes->GetNumberOfValues(), 2 * 20);
+  for (int i = 0; i < 20; ++i)
+  {
+    EXPECT_EQ(shapes->GetValue(2 * i), filter->GetSurfaceList()->GetArrayName(i));
+    // The wall is the box's surface without its inlet.
+    EXPECT_EQ(shapes->GetValue(2 * i + 1), i == 1 ? "free form" : i < 8 ? "plane" : "") << i;
+  }
+
   vtkDoubleArray* bounds = filter->GetSurfaceBounds();
   ASSERT_EQ(bounds->GetNumberOfTuples(), 20);
   double whole[6], wall[6];

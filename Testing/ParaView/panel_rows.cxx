@@ -42,7 +42,8 @@ QString textOf(const QWidget* widget)
 /// titles that fold included; "titles", with what each of them says; "texts", all that labels and
 /// fields say; "styles", of labels with a style of their own, by their texts; "cut", what the edge
 /// of the dock cuts off; "table", the rows of the table of surfaces that are not hidden, each with
-/// its texts, whether it is ticked and whether it is selected.
+/// its texts, whether it is ticked and whether it is selected; "columns", those that it shows;
+/// "bars", the minimum that each bar of quality marks, by its name.
 extern "C" Q_DECL_EXPORT char* panel_rows(int width)
 {
   auto* const dock = named<QDockWidget>("propertiesDock");
@@ -61,11 +62,25 @@ extern "C" Q_DECL_EXPORT char* panel_rows(int width)
     const QTreeWidgetItem* const row = surfaces->topLevelItem(i);
     if (!row->isHidden())
     {
-      table.append(QJsonArray{ row->text(0), row->text(1), row->text(2), row->text(3),
-        row->checkState(0) == Qt::Checked, row->isSelected() });
+      QJsonArray cells;
+      for (int column = 0; column < surfaces->columnCount(); ++column)
+      {
+        cells.append(row->text(column));
+      }
+      cells.append(row->checkState(0) == Qt::Checked);
+      cells.append(row->isSelected());
+      table.append(cells);
     }
   }
-  QJsonObject titles, styles;
+  QJsonArray columns;
+  for (int column = 0; surfaces && column < surfaces->columnCount(); ++column)
+  {
+    if (!surfaces->isColumnHidden(column))
+    {
+      columns.append(surfaces->headerItem()->text(column));
+    }
+  }
+  QJsonObject titles, styles, bars;
   for (QWidget* const one : panel->findChildren<QWidget*>())
   {
     if (!one->isVisible())
@@ -81,6 +96,10 @@ extern "C" Q_DECL_EXPORT char* panel_rows(int width)
     {
       titles[one->objectName()] = one->property("held").toString();
     }
+    if (one->inherits("QualityBar"))
+    {
+      bars[one->objectName()] = one->property("minimum").toDouble();
+    }
     if (!textOf(one).isEmpty())
     {
       texts.append(textOf(one));
@@ -95,7 +114,8 @@ extern "C" Q_DECL_EXPORT char* panel_rows(int width)
     }
   }
   const QJsonObject all{ { "width", area->viewport()->width() }, { "dock", dock->width() },
-    { "height", panel->height() }, { "rows", rows }, { "table", table }, { "texts", texts },
-    { "styles", styles }, { "cut", cut }, { "titles", titles } };
+    { "height", panel->height() }, { "rows", rows }, { "table", table }, { "columns", columns },
+    { "texts", texts }, { "styles", styles }, { "cut", cut }, { "titles", titles },
+    { "bars", bars } };
   return strdup(QJsonDocument(all).toJson(QJsonDocument::Compact).data());
 }

@@ -119,7 +119,8 @@ class Validity(unittest.TestCase):
         self.assertIn("MorphFEMWARP", found)
         for name in found:
             with self.subTest(method=name):
-                expected = {"MorphInversionFree": "Sub step", "MorphMesh": "Repair"}
+                expected = {"MorphInversionFree": "Sub step", "MorphMesh": "Repair",
+                            "RepairMesh": "Repair all"}
                 morph = globals()[name](Input=self.grid)
                 self.assertEqual(morph.Validity, expected.get(name, "Report"))
                 self.assertEqual(morph.GetProperty("Validity").GetAvailable(),
@@ -187,6 +188,24 @@ class Validity(unittest.TestCase):
         updated(linear)
         self.assertGreater(linear.MinScaledJacobian, 0.5)
         self.assertGreater(free.MinScaledJacobian, 1.05 * linear.MinScaledJacobian)
+
+    def test_repair_mesh_untangles_and_the_boundary_stays(self):
+        tangled = simple.Calculator(Input=hexes(), CoordinateResults=1, Function=(
+            "coords + 2*sin(1.5*coordsX)*sin(0.5235987755982988*coordsX)"
+            "*sin(0.5235987755982988*coordsY)*sin(0.5235987755982988*coordsZ)*(iHat + kHat)"))
+        repaired = RepairMesh(Input=tangled)
+        repaired.UpdatePipeline()
+        self.assertEqual(status(repaired), "Repaired")
+        self.assertGreater(repaired.InvertedBefore, 5)
+        self.assertEqual(repaired.InvertedCells, 0)
+        self.assertGreater(repaired.MinScaledJacobian, 0)
+        before, after = points(tangled), points(repaired)
+        rest = points(hexes())
+        outside = ((rest < 1e-9) | (rest > CELLS - 1e-9)).any(axis=1)
+        np.testing.assert_array_equal(after[outside], before[outside])
+        again = RepairMesh(Input=repaired)  # nothing is left to do
+        again.UpdatePipeline()
+        np.testing.assert_array_equal(points(again), after)
 
     def test_partial_is_an_error_with_a_valid_output(self):
         for method in ("MorphFEMWARP", "MorphInversionFree"):

@@ -21,7 +21,8 @@ BROWSER = MAIN + "pipelineBrowserDock/pipelineBrowser"
 
 
 #: The filters of the menu Mesh Morphing; those for one step of a morph have a menu of their own.
-FIRST = ("MorphMesh", "FitToSurface", "ScaledJacobian", "CompareMorphMethods", "MorphShapes")
+FIRST = ("MorphMesh", "FitToSurface", "RepairMesh", "ScaledJacobian", "CompareMorphMethods",
+         "MorphShapes")
 
 
 def field(name, value):
@@ -116,6 +117,10 @@ class Events:
         for command, buttons in (("mousePress", "1,1"), ("mouseRelease", "1,0")):
             self.do(browser, command, f"{buttons},0,60,10,{place}")
 
+    def toolbar(self, name):
+        """A filter of FIRST, by its button."""
+        self.do(f"{MAIN}Mesh Morphing/1QToolButton{FIRST.index(name)}", "activate")
+
     def filter(self, name, menu=None):
         self.menu("menuFilters/" + (menu or category(name)), name)
 
@@ -140,6 +145,11 @@ class Events:
         for command, (x, y), buttons in (("mousePress", first, "1,1"), ("mouseMove", last, "0,1"),
                                          ("mouseRelease", last, "1,0")):
             self.do(VIEW, command, f"({x},{y},{buttons},0)")
+
+    def press_in_view(self, place, button=1):
+        """Without a move; place: (x, y) in parts of the view's size. Buttons: 1 left, 2 right."""
+        for command, down in (("mousePress", button), ("mouseRelease", 0)):
+            self.do(VIEW, command, f"({place[0]},{place[1]},{button},{down},0)")
 
     def set(self, name, command, value):
         """In the panel; name: of the property and its widget."""

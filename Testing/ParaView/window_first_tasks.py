@@ -235,6 +235,39 @@ class FirstTasks(unittest.TestCase):
         again = updated(simple.FindSource("MorphMesh1"))
         self.assertEqual(again.MinScaledJacobian, least)
 
+    def test_two_shapes_with_sliders(self):
+        mesh, names = self.names(BORE)
+        shapes = []
+        for up in ("0.2", "0.4"):
+            morph = MorphMesh(Input=mesh, Surfaces=[TOP])
+            morph.Transform.Translate = [0, 0, float(up)]
+            shapes.append(simple.OutputPort(morph, 2))
+        blend = updated(MorphShapes(Input=mesh, Shapes=shapes, Weights=[0.5, 0.25]))
+        self.assertEqual(blend.MorphStatus, "Valid")
+        self.open(BORE)
+        self.events.task("two shapes with sliders")
+        self.events.toolbar("MorphMesh")
+        self.events.tick("SurfaceTable/Rows", names.index(TOP))
+        self.events.type(BOX + "translateZ", "0.2")
+        self.events.press("Advice/SaveAsShape")
+        self.events.select("/0:0/0:0/0:0")
+        self.events.type(BOX + "translateZ", "0.4")
+        self.events.press("Advice/SaveAsShape")
+        for shape, place in (("Slider0", "750"), ("Slider1", "625")):  # 0 is -1, 1000 is 1
+            self.events.set(f"Weights/{shape}", "set_int", place)
+            self.events.clicks += 1
+        self.events.apply()
+        self.events.done()
+        self.events.shows(blend, ("MinScaledJacobian", "InvertedCells"))
+        state = self.folder / "state.pvsm"
+        self.events.save_state(state)
+        self.play({"two shapes with sliders": 10})
+        simple.ResetSession()
+        simple.LoadState(str(state))
+        lifts = [simple.FindSource(name).Transform.Translate[2] for name in ("Shape1", "Shape2")]
+        self.assertEqual(lifts, [0.2, 0.4])
+        self.assertEqual(len(simple.FindSource("MorphShapes1").Shapes), 2)
+
     def test_exodus(self):
         mesh = simple.OpenDataFile(str(BORE))
         file = self.folder / "part.ex2"

@@ -20,8 +20,8 @@ MOST, DOCK = 12, 340
 simple.LoadPlugin(os.environ["MESHMORPHING_PLUGIN"], remote=False, ns=globals())
 
 #: With one input, and with a dialog for more.
-ONE_INPUT = ("MorphMesh", "FitToSurface", "BoundaryDisplacement", "ScaledJacobian",
-             "ClassifyBoundary", "ExtractMorphBoundary")
+ONE_INPUT = ("MorphMesh", "FitToSurface", "RepairMesh", "BoundaryDisplacement",
+             "ScaledJacobian", "ClassifyBoundary", "ExtractMorphBoundary")
 MORE_INPUTS = ("CompareMorphMethods", "MorphShapes", "MorphBoundary", "MorphAdjoint",
                "MorphFEMWARP", "MorphLBWARP", "MorphInversionFree", "MorphRadialBasis",
                "MorphSimplexLinear", "MorphSimplexNaturalNeighbor", "MorphSmoothing",
@@ -43,12 +43,12 @@ class Panels(unittest.TestCase):
     def look(self, name):
         self.events.save_state(self.folder / f"{name}.pvsm")
 
-    def play(self):
-        """What the panel had at each look."""
+    def play(self, dock=DOCK):
+        """What the panel had at each look, in a dock of so many pixels."""
         (self.folder / "home").mkdir()
         code, messages = self.events.play(
             self.folder / "home", script=HERE / "window_panel.py", environment={
-                "MORPH_ROWS": str(self.folder / "rows.jsonl"), "MORPH_DOCK": str(DOCK)})
+                "MORPH_ROWS": str(self.folder / "rows.jsonl"), "MORPH_DOCK": str(dock)})
         self.assertEqual(code, 0, messages)
         self.assertTrue((self.folder / "rows.jsonl").exists(), messages)
         lines = (self.folder / "rows.jsonl").read_text(encoding="utf-8").splitlines()
@@ -118,7 +118,12 @@ class Status(Panels):
         self.look("Radius")
         said.append("Failed: the mesh is undeformed")
         colors = self.GREEN, self.ORANGE, self.RED, self.RED
-        for panel, text, color in zip(self.play(), said, colors, strict=True):
+        played = self.play()
+        minima = [float(text.rsplit(" ", 1)[1]) for text in said[:3]]
+        for panel, minimum in zip(played, minima):
+            self.assertAlmostEqual(panel["bars"]["Minimum"], minimum, delta=0.005)
+        self.assertNotIn("Minimum", played[3]["bars"])  # of what failed
+        for panel, text, color in zip(played, said, colors, strict=True):
             self.assertIn(color, panel["styles"].get(text, ""), panel["texts"])
 
 

@@ -11,13 +11,14 @@ import unittest
 from paraview import simple
 
 from window_events import MAIN, PANEL
+from window_morph_mesh import BOX
 from window_rows import Panels
 
 simple.LoadPlugin(os.environ["MESHMORPHING_PLUGIN"], remote=False, ns=globals())
 
 ROWS, ROLES = "SurfaceTable/Rows", PANEL + "SurfaceTable/Roles"
 CONTROL = 0x04000000  # Qt::ControlModifier
-ROLE = 3  # its column
+SHAPE, ROLE = 3, 4  # columns
 
 
 class Table(Panels):
@@ -72,6 +73,22 @@ class Table(Panels):
         self.assertIn(".FixedSurfaces = ['Surface 0', 'Surface 2']", text)
         self.assertIn(".SlidingSurfaces = ['Surface 1']", text)
 
+    def test_a_wide_panel_shows_the_shapes(self):
+        self.events.filter("MorphMesh")
+        self.look("narrow")
+        narrow, = self.play()
+        self.assertEqual({row[0]: row[SHAPE] for row in narrow["table"] if row[ROLE]},
+                         {"Surface 0": "R 0.25", "Surface 1": "R 1", "Surface 2": "plane",
+                          "Surface 3": "plane"})
+        self.assertNotIn("Shape", narrow["columns"])
+        self.folder = self.folder / "wide"
+        self.folder.mkdir()
+        self.events.lines = [line.replace("narrow.pvsm", "wide/wide.pvsm")
+                             for line in self.events.lines]
+        wide, = self.play(dock=480)
+        self.assertIn("Shape", wide["columns"])
+        self.assertEqual(wide["cut"], [])
+
     def test_rows_are_found(self):
         self.events.filter("MorphMesh")
         self.events.set("SurfaceTable/Search", "set_string", "e 3")
@@ -82,6 +99,43 @@ class Table(Panels):
         found, curves = self.play()
         self.assertEqual([row[0] for row in found["table"]], ["Surface 3", "Curve 3"])
         self.assertEqual([row[0] for row in curves["table"]][5:], [f"Curve {i}" for i in range(4)])
+
+    def test_a_motion_is_shown_before_it_is_applied(self):
+        """The lid is a ring of radius 1 at z = 2.2; its ghost has arrows to there."""
+        self.events.filter("MorphMesh")
+        self.press(3, x=12)  # its box
+        self.look("ticked")
+        self.events.set(BOX + "translateZ", "set_string", "0.5")
+        self.look("box")
+        self.events.set("Displacement/ComboBox", "set_string", "Vector")
+        self.events.set("Vector/DoubleLineEdit0", "set_string", "0.25")
+        self.look("vector")
+        self.events.set("Displacement/ComboBox", "set_string", "Along normals")
+        self.events.set("Distance/DoubleLineEdit0", "set_string", "-0.2")
+        self.look("normals")
+        self.events.apply()
+        self.look("applied")
+        ticked, box, vector, normals, applied = self.play()
+        for panel in (ticked, applied):
+            self.assertEqual([one for one in panel["ghosts"] if one[0] <= one[1]], [])
+        for panel, bounds in ((box, (-1, 1, -1, 1, 2.2, 2.7)), (vector, (-1, 1.25, -1, 1, 2.2, 2.2)),
+                              (normals, (-1, 1, -1, 1, 2, 2.2))):
+            ghost, = panel["ghosts"]
+            for got, wanted in zip(ghost, bounds):
+                self.assertAlmostEqual(got, wanted, delta=0.05)  # heads of arrows have a width
+
+    def test_the_view_gives_a_surface_its_role(self):
+        self.events.filter("MorphMesh")
+        self.events.apply()
+        for place, role in (((0.6, 0.5), "Slides"), ((0.05, 0.05), None)):
+            self.events.press_in_view(place, button=2)
+            if role:
+                self.events.do("PipelineContextMenu", "activate", role)
+        self.look("chosen")
+        chosen, = self.play()
+        self.assertEqual(self.roles(chosen), {
+            "Surface 0": "Follows", "Surface 1": "Follows", "Surface 2": "Follows",
+            "Surface 3": "Slides"})
 
     def test_a_selection_in_the_view_selects_rows(self):
         self.events.filter("MorphMesh")

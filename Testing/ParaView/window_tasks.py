@@ -17,7 +17,7 @@ from pathlib import Path
 from paraview import simple
 
 from window_events import MAIN, PANEL, PROPERTIES, VIEW, field, rows
-from window_morph_mesh import Clicks, text
+from window_morph_mesh import BOX, Clicks, text
 
 PLUGIN = os.environ["MESHMORPHING_PLUGIN"]
 simple.LoadPlugin(PLUGIN, remote=False, ns=globals())
@@ -30,12 +30,16 @@ HELP_PAGE = MAIN + "1pqHelpWindow0/1QTextBrowser0"
 COLORS = MAIN + "variableToolbar/displayColor/Variables"
 #: Lists of texts, which have no label of their own.
 ZONES = {"FixedZones": "Fixed Zones", "RigidZones": "Rigid Zones", "SoftZones": "Soft Zones"}
-ONE_INPUT = ("MorphMesh", "FitToSurface", "BoundaryDisplacement")
+ONE_INPUT = ("MorphMesh", "FitToSurface", "RepairMesh", "BoundaryDisplacement")
 #: Of each task; numbers are typed besides.
-CLICKS = {"see which surface has which number": 4, "open the filter's page": 1,
-          "widen a hole by a number": 8, "count and see inverted cells": 12,
-          "undo and redo": 4, "move a surface along a vector, in 20 steps": 11,
-          "an error keeps the picture": 8}
+CLICKS = {"move a surface that is pointed at": 5, "see which surface has which number": 2,
+          "widen a hole by a number": 6, "undo and redo": 4,
+          "move a surface along a vector, in 20 steps": 9, "count and see inverted cells": 8,
+          "an error keeps the picture": 6, "turn a surface by its box": 4, "drag a surface": 5,
+          "repair a tangled mesh": 2, "fit to a surface": 4, "open the filter's page": 1}
+MOST_OF_ONE, MOST_OF_ALL = 9, 60
+TANGLED = ("coords + 0.3*sin(coordsZ*3.14159/2.2)*sin((sqrt(coordsX^2 + coordsY^2) - 0.25)*3.14159/"
+           "0.75)*sin(19*coordsX)*sin(23*coordsY)*(iHat + jHat + kHat)")
 
 
 class Tasks(Clicks):
@@ -73,6 +77,19 @@ class Tasks(Clicks):
         super().filter(name, menu)
         if name in ONE_INPUT:  # others open a dialog
             self.step(name)
+
+    def toolbar(self, name):
+        super().toolbar(name)
+        self.clicks += 1
+        self.step(name)
+
+    def point(self, place, role):
+        """At a surface in the view, with the right button, for its role."""
+        self.press_in_view(place, button=2)
+        self.step("menu")
+        self.do("PipelineContextMenu", "activate", role)
+        self.clicks += 2
+        self.step(role)
 
     def apply(self):
         super().apply()
@@ -169,6 +186,27 @@ def legend(state, array):
     return dict(zip(texts[::2], texts[1::2]))
 
 
+def bad_cells(morph):
+    return morph.InvertedCells + morph.DegenerateCells
+
+
+def visible(state):
+    """The output ports of each filter that a state shows, by the filter's name, and the camera's
+    focal point."""
+    root = ElementTree.parse(state).getroot()
+    names = {item.get("id"): item.get("name")
+             for item in root.findall(".//ProxyCollection[@name='sources']/Item")}
+    shown = {}
+    for proxy in root.findall(".//Proxy[@group='representations']"):
+        on = proxy.find("Property[@name='Visibility']/Element")
+        source = proxy.find("Property[@name='Input']/Proxy")
+        if on is not None and on.get("value") == "1" and source is not None:
+            name = names.get(source.get("value"))
+            shown.setdefault(name, set()).add(int(source.get("output_port")))
+    focus = root.findall(".//Proxy[@group='views']/Property[@name='CameraFocalPoint']/Element")
+    return shown, [float(one.get("value")) for one in focus]
+
+
 class WindowTasks(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
@@ -186,25 +224,56 @@ class WindowTasks(unittest.TestCase):
     def row(self, surface):
         return self.names.index(surface)
 
+    def tangled_and_scan(self, folder):
+        """Files of a tangled mesh and of a surface, and the filters that repair and fit."""
+        tangled, scan = folder / "tangled.vtu", folder / "scan.stl"
+        simple.SaveData(str(tangled), proxy=simple.Calculator(
+            Input=self.mesh, CoordinateResults=1, Function=TANGLED))
+        moved = simple.Calculator(Input=simple.ExtractSurface(Input=self.mesh),
+                                  CoordinateResults=1, Function="coords*1.05")
+        simple.SaveData(str(scan), proxy=simple.Triangulate(Input=moved))
+        repaired = RepairMesh(Input=simple.OpenDataFile(str(tangled)))
+        fit = FittoSurface(Input=self.mesh, Target=simple.OpenDataFile(str(scan)))
+        for one in (repaired, fit):
+            one.UpdatePipeline()
+            self.assertEqual(one.InvertedCells, 0)
+        self.assertGreater(repaired.InvertedBefore, 1000)
+        return tangled, scan, repaired, fit
+
     def test_tasks(self):
         wider = self.expected(Surfaces=[HOLE], Displacement="Radius", RadiusChange=0.1)
         bounds = wider.GetDataInformation().GetBounds()
         for bound, wanted in zip(bounds, (-1, 1, -1, 1, 0, 2.2)):  # the wall stays
             self.assertAlmostEqual(bound, wanted, delta=1e-6)
         moved = self.expected(Surfaces=[LID], Displacement="Vector", Vector=[0, 0, 0.3])
-        inverted = MorphMesh(Input=self.mesh, Surfaces=[HOLE], Displacement="Vector",
-                             Vector=[ASIDE, 0, 0], Validity="Report")
+        inverted = MorphMesh(Input=self.mesh, Surfaces=[HOLE], Validity="Report")
+        inverted.Transform.Translate = [ASIDE, 0, 0]
         inverted.UpdatePipeline()
         self.assertGreater(inverted.InvertedCells, 0)
+        turned = self.expected(Surfaces=[LID], Rotation=[5, 0, 0],
+                               Displacement="Translate, rotate, scale")
+        lifted = MorphMesh(Input=self.mesh, Surfaces=[LID])
+        lifted.Transform.Translate = [0, 0, 0.1]
+        lifted.UpdatePipeline()
         with tempfile.TemporaryDirectory() as name:
             folder = Path(name)
+            tangled, scan, repaired, fit = self.tangled_and_scan(folder)
             events = Tasks()
             events.load_plugin(PLUGIN)
             events.open(str(MESH))
             events.clicks = 0
 
+            events.task("move a surface that is pointed at")
+            events.toolbar("MorphMesh")
+            events.point((0.6, 0.5), "Moves")  # on the lid, which is in front
+            events.type(BOX + "translateZ", "0.1")
+            events.apply()
+            events.done()
+            events.shows(lifted)
+
+            events.select("/0:0/0:0")
             events.task("see which surface has which number")
-            events.filter("MorphMesh")
+            events.toolbar("MorphMesh")
             events.apply()
             events.done()
             events.expect(COLORS, "SurfaceId", "currentText")
@@ -214,7 +283,7 @@ class WindowTasks(unittest.TestCase):
 
             events.select("/0:0/0:0")
             events.task("widen a hole by a number")
-            events.filter("MorphMesh")
+            events.toolbar("MorphMesh")
             events.tick("SurfaceTable/Rows", self.row(HOLE))
             events.choose("Displacement", "Radius")
             events.type("RadiusChange/DoubleLineEdit0", "0.1")
@@ -231,7 +300,7 @@ class WindowTasks(unittest.TestCase):
 
             events.select("/0:0/0:0")
             events.task("move a surface along a vector, in 20 steps")
-            events.filter("MorphMesh")
+            events.toolbar("MorphMesh")
             events.tick("SurfaceTable/Rows", self.row(LID))
             events.choose("Displacement", "Vector")
             events.type("Vector/DoubleLineEdit2", "0.3")
@@ -245,27 +314,67 @@ class WindowTasks(unittest.TestCase):
 
             events.select("/0:0/0:0")
             events.task("count and see inverted cells")
-            events.filter("MorphMesh")
+            events.toolbar("MorphMesh")
             events.tick("SurfaceTable/Rows", self.row(HOLE))
-            events.choose("Displacement", "Vector")
-            events.type("Vector/DoubleLineEdit0", str(ASIDE))
+            events.type(BOX + "translateX", str(ASIDE))
             events.unfold("Methodsoptions")
             events.choose("Validity", "Report")
             events.apply()
-            events.select("/0:0/0:0/3:0/1:0")  # the second output, Bad cells
+            events.expect(f"{PANEL}Advice/BadCells", f"{bad_cells(inverted)} bad cells")
+            events.press("Advice/BadCells")
             events.done()
+            events.expect(f"{PANEL}Advice/BadCells", "Show the mesh")
             events.shows(inverted)
             events.expect(COLORS, "ScaledJacobian", "currentText")
+            events.save_state(folder / "bad.pvsm")
+            events.press("Advice/BadCells")
 
             events.select("/0:0/0:0")
             events.task("an error keeps the picture")
-            events.filter("MorphMesh")
+            events.toolbar("MorphMesh")
             events.tick("SurfaceTable/Rows", self.row(LID))
             events.choose("Displacement", "Radius")
             events.type("RadiusChange/DoubleLineEdit0", "0.1")
             events.apply()
             events.done()
             events.expect(f"{PANEL}InvertedCells/Number", "-1")
+
+            events.select("/0:0/0:0")
+            events.task("turn a surface by its box")
+            events.toolbar("MorphMesh")
+            events.tick("SurfaceTable/Rows", self.row(LID))
+            events.type(BOX + "rotateX", "5")
+            events.apply()
+            events.done()
+            events.shows(turned, ("InvertedCells",))
+
+            events.select("/0:0/0:0")
+            events.task("drag a surface")
+            events.toolbar("MorphMesh")
+            events.tick("SurfaceTable/Rows", self.row(LID))
+            events.toggle("Displacement/LiveDrag")
+            events.apply()
+            events.drag((0.5, 0.5), (0.53, 0.52))
+            events.done()
+            events.expect(f"{PANEL}MorphStatus/MorphStatus", "Valid")
+
+            for path in (tangled, scan):
+                events.open(str(path))
+            events.select("/0:0/1:0")
+            events.task("repair a tangled mesh")
+            events.toolbar("RepairMesh")
+            events.apply()
+            events.done()
+            events.shows(repaired)
+            events.expect(f"{PANEL}MorphStatus/MorphStatus", "Repaired")
+
+            events.select("/0:0/0:0")
+            events.task("fit to a surface")
+            events.toolbar("FitToSurface")
+            events.choose("Target", scan.name, "1QComboBox0")
+            events.apply()
+            events.done()
+            events.shows(fit)
 
             # Last: its window covers the other.
             events.task("open the filter's page")
@@ -279,16 +388,24 @@ class WindowTasks(unittest.TestCase):
             events.save_state(folder / "state.pvsm")
             code, messages = events.play(folder)
             self.assertEqual(code, 0, messages)
-            self.assertIn("`RadiusChange` needs cylinders, and Surface 3, which moves, is none",
+            self.assertIn("`RadiusChange` needs cylinders or spheres, and Surface 3, which moves, is neither",
                           messages)
             self.assertEqual(messages.count("ERR|"), 1, messages)
             self.assertNotIn("FORWARD_DIRECTION", messages)
             self.assertEqual(events.counted, CLICKS)
+            self.assertEqual(len(CLICKS), 12)
+            self.assertLessEqual(max(CLICKS.values()), MOST_OF_ONE)
+            self.assertLessEqual(sum(CLICKS.values()), MOST_OF_ALL)
+            shown, focus = visible(folder / "bad.pvsm")
+            self.assertEqual(shown["MorphMesh5"], {1})
+            bounds = inverted.SMProxy.GetDataInformation(1).GetBounds()
+            for place, low, high in zip(focus, bounds[::2], bounds[1::2]):
+                self.assertAlmostEqual(place, (low + high) / 2, delta=1e-6)
             surfaces = [name for name in self.names if name.startswith("Surface")]
             self.assertEqual(legend(folder / "state.pvsm", "SurfaceId"),
                              {name.split()[1]: name for name in surfaces})
             simple.LoadState(str(folder / "state.pvsm"))
-            again = simple.FindSource("MorphMesh2")
+            again = simple.FindSource("MorphMesh3")
             again.UpdatePipeline()
             for number in NUMBERS:
                 self.assertEqual(getattr(again, number), getattr(wider, number))

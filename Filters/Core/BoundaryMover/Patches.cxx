@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 
 namespace morph
 {
@@ -190,6 +191,52 @@ std::vector<PatchSize> patchSizes(const BoundaryModel& model)
   {
     sizes[name].name = name;
     result.push_back(sizes[name]);
+  }
+  return result;
+}
+
+std::vector<std::string> patchShapes(const BoundaryModel& model)
+{
+  const Points& points = model.rest();
+  std::map<std::string, GeometrySurface> parts; // of one name, several patches or a set
+  const auto add = [](const auto& more, std::vector<Index>& all)
+  {
+    all.insert(all.end(), more.begin(), more.end());
+    std::sort(all.begin(), all.end());
+    all.erase(std::unique(all.begin(), all.end()), all.end());
+  };
+  for (const NamedSet& set : model.namedSets)
+  {
+    add(set.faces, parts[set.name].faces);
+    add(set.nodes, parts[set.name].nodes);
+  }
+  for (const GeometrySurface& surface : model.geometry.surfaces)
+  {
+    GeometrySurface& part = parts[surfaceName(surface.id)];
+    add(surface.faces, part.faces);
+    add(surface.nodes, part.nodes);
+  }
+  std::map<std::string, std::string> shapes;
+  for (const auto& [name, part] : parts)
+  {
+    if (!part.faces.empty())
+    {
+      shapes[name] = SurfaceShape::text(points, model.faces, part);
+    }
+  }
+  for (const InnerSurface& inner : model.innerSurfaces)
+  {
+    const BoundaryFaces faces = facesAt(model.mesh, inner.places);
+    GeometrySurface part;
+    part.faces.resize(inner.places.size());
+    std::iota(part.faces.begin(), part.faces.end(), 0);
+    part.nodes = faces.nodes;
+    shapes[inner.name] = SurfaceShape::text(points, faces, part);
+  }
+  std::vector<std::string> result;
+  for (const std::string& name : patchNames(model))
+  {
+    result.push_back(shapes[name]);
   }
   return result;
 }

@@ -63,10 +63,10 @@ Points movedByRadius(const BoundaryModel& model, const Choice& choice, double ch
     }
     const SurfaceShape shape(model.points(), model.faces, surface);
     const std::string name = surfaceName(model.geometry, static_cast<Index>(s));
-    if (shape.kind() != SurfaceShape::Kind::Cylinder)
+    if (!shape.isRound())
     {
-      throw Error("`RadiusChange` needs cylinders, and " + name +
-                  ", which moves, is none. Choose cylinders, or another displacement.");
+      throw Error("`RadiusChange` needs cylinders or spheres, and " + name +
+                  ", which moves, is neither. Choose such surfaces, or another displacement.");
     }
     if (shape.radius() + change <= 0)
     {
@@ -84,8 +84,8 @@ Points movedByRadius(const BoundaryModel& model, const Choice& choice, double ch
   }
   if (std::all_of(isDone.begin(), isDone.end(), [](std::uint8_t done) { return !done; }))
   {
-    throw Error(
-      "`RadiusChange` needs cylinders, and no face moves. Choose surfaces that are some.");
+    throw Error("`RadiusChange` needs cylinders or spheres, and no face moves. Choose surfaces "
+                "that are some.");
   }
   return to;
 }

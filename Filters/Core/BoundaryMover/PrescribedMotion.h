@@ -26,8 +26,9 @@ AffineMotion affineMotion(const Placement& placement);
 /// that move or, at nodes without such a face, over all faces. Throws Error as nodeNormals() does.
 Points movedAlongNormals(const BoundaryModel& model, const Choice& choice, double distance);
 
-/// Away from the axes of the cylinders that move, by `change` of their radius. Throws Error for
-/// surfaces that move and are none, and where no radius would be left.
+/// Away from the axes of the cylinders and the centers of the spheres that move, by `change` of
+/// their radius. Throws Error for surfaces that move and are neither, and where no radius would be
+/// left.
 Points movedByRadius(const BoundaryModel& model, const Choice& choice, double change);
 
 /// The middle of the box around the nodes that move; the origin where none does.

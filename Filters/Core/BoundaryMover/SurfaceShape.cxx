@@ -7,7 +7,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
 #include <limits>
+#include <sstream>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -18,11 +21,63 @@ namespace
 using Row = SurfaceShape::Row;
 
 constexpr double Anywhere = std::numeric_limits<double>::infinity();
+constexpr double Better = 0.1;    ///< the distance of a shape's nodes, in parts of another shape's
+constexpr double OfRadius = 1e-6; ///< the largest distance of a node from what is round
 
 /// Of a symmetric matrix, that of the smallest eigenvalue.
 Row smallestEigenvector(const Eigen::Matrix3d& matrix)
 {
   return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(matrix).eigenvectors().col(0).transpose();
+}
+
+/// The vector areas of some of the faces, #some x 3.
+Points areasOf(const Points& points, const BoundaryFaces& faces, const std::vector<Index>& some)
+{
+  BoundaryFaces taken;
+  taken.offsets = { 0 };
+  for (const Index face : some)
+  {
+    taken.connectivity.insert(taken.connectivity.end(),
+      faces.connectivity.begin() + faces.offsets[face],
+      faces.connectivity.begin() + faces.offsets[face + 1]);
+    taken.offsets.push_back(static_cast<Index>(taken.connectivity.size()));
+  }
+  return faceAreas(points, taken);
+}
+
+/// The distance of nodes on the unit sphere from the quadric that is nearest to them, besides the
+/// sphere: the root mean square, to first order (G. Taubin, IEEE Trans. Pattern Anal. Mach. Intell.
+/// 13 (1991) 1115-1138). On the sphere a quadric is a harmonic q of degree two or less, and a node
+/// is |q| / |grad q| away from it, with the gradient along the sphere. Zero where another quadric
+/// has all nodes.
+double distanceFromOtherQuadrics(const Points& nodes)
+{
+  using Matrix = Eigen::Matrix<double, 9, 9>;
+  using Gradients = Eigen::Matrix<double, 9, 3>;
+  Matrix squares = Matrix::Zero(), slopes = Matrix::Zero();
+  for (Index i = 0; i < nodes.rows(); ++i)
+  {
+    const double x = nodes(i, 0), y = nodes(i, 1), z = nodes(i, 2);
+    Eigen::Matrix<double, 9, 1> value;
+    value << 1, x, y, z, x * y, y * z, z * x, x * x - y * y, 2 * z * z - x * x - y * y;
+    Gradients gradient;
+    gradient << 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, y, x, 0, 0, z, y, z, 0, x, 2 * x, -2 * y, 0,
+      -2 * x, -2 * y, 4 * z;
+    const Row radial = nodes.row(i);
+    gradient -= (gradient * radial.transpose()).eval() * radial;
+    squares += value * value.transpose();
+    slopes += gradient * gradient.transpose();
+  }
+  // The largest mean square of the slope over that of the value.
+  const Eigen::LLT<Eigen::MatrixXd> factors(squares);
+  if (factors.info() != Eigen::Success)
+  {
+    return 0;
+  }
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(
+    slopes, squares, Eigen::EigenvaluesOnly | Eigen::Ax_lBx);
+  const double most = solver.eigenvalues()[8];
+  return most > 0 ? 1 / std::sqrt(most) : 0;
 }
 
 /// Two unit vectors that are normal to `axis` and to each other.
@@ -54,23 +109,51 @@ void addTriangles(const Points& points, const BoundaryFaces& faces, Index face,
 SurfaceShape::SurfaceShape(
   const Points& points, const BoundaryFaces& faces, const GeometrySurface& surface)
 {
-  constexpr double Fits = 1e-6;  // of the nodes' extent
-  constexpr double Better = 0.1; // than a plane
+  this->fit(points, faces, surface);
+  if (this->kind_ == Kind::Facets)
+  {
+    this->takeFacets(points, faces, surface);
+  }
+}
+
+std::string SurfaceShape::text(
+  const Points& points, const BoundaryFaces& faces, const GeometrySurface& surface)
+{
+  SurfaceShape shape;
+  shape.fit(points, faces, surface);
+  if (shape.kind_ == Kind::Plane)
+  {
+    return "plane";
+  }
+  if (!shape.isRound())
+  {
+    return "free form";
+  }
+  std::ostringstream text;
+  text << (shape.kind_ == Kind::Sphere ? "sphere R " : "R ") << std::setprecision(4)
+       << shape.radius_;
+  return text.str();
+}
+
+void SurfaceShape::fit(
+  const Points& points, const BoundaryFaces& faces, const GeometrySurface& surface)
+{
+  constexpr double Fits = 1e-6; // of the nodes' extent
   const Points nodes = points(surface.nodes, allColumns);
   const double ofPlane = this->fitPlane(nodes);
   const double most = Fits * (nodes.rowwise() - this->center_).rowwise().norm().maxCoeff();
+  const double ofRound = std::min(most, Better * ofPlane);
   if (ofPlane <= most)
   {
     this->kind_ = Kind::Plane;
   }
-  else if (this->fitCylinder(nodes, Points(faceAreas(points, faces)(surface.faces, allColumns)),
-             std::min(most, Better * ofPlane)))
+  else if (this->fitCylinder(nodes, areasOf(points, faces, surface.faces), ofRound))
   {
     this->kind_ = Kind::Cylinder;
   }
-  else
+  else if (this->fitSphere(nodes, ofRound))
   {
-    this->takeFacets(points, faces, surface);
+    this->kind_ = Kind::Sphere;
   }
 }
 
@@ -91,7 +174,6 @@ bool SurfaceShape::fitCylinder(const Points& nodes, const Points& areas, double 
   this->direction_ = smallestEigenvector(areas.transpose() * areas);
   this->center_ = nodes.colwise().mean();
   this->radius_ = 0;
-  constexpr double OfRadius = 1e-6;
   double last = std::numeric_limits<double>::infinity(); ///< length of the last step
   for (int iteration = 0; iteration < 30; ++iteration)
   {
@@ -138,6 +220,44 @@ bool SurfaceShape::fitCylinder(const Points& nodes, const Points& areas, double 
   return false;
 }
 
+/// `tolerance`: as of a cylinder.
+bool SurfaceShape::fitSphere(const Points& nodes, double tolerance)
+{
+  // |x - m|^2 = 2 (x - m) c + d is linear in the center m + c and in d, and is exact where all nodes
+  // are on a sphere. Gauss-Newton's method takes what rounding has left. Unknowns: center, radius.
+  const Row middle = nodes.colwise().mean();
+  Eigen::MatrixXd matrix(nodes.rows(), 4);
+  matrix.leftCols<3>() = 2 * (nodes.rowwise() - middle);
+  matrix.col(3).setOnes();
+  const Eigen::VectorXd squares = (nodes.rowwise() - middle).rowwise().squaredNorm();
+  const Eigen::VectorXd first = Eigen::MatrixXd(matrix.transpose() * matrix)
+                                  .completeOrthogonalDecomposition()
+                                  .solve(Eigen::VectorXd(matrix.transpose() * squares));
+  this->center_ = middle + first.head<3>().transpose();
+  this->radius_ = std::sqrt(std::max(0., first[3] + first.head<3>().squaredNorm()));
+  for (int iteration = 0; iteration < 3; ++iteration)
+  {
+    const Points from = nodes.rowwise() - this->center_;
+    const Eigen::VectorXd distances = from.rowwise().norm();
+    if (!(distances.minCoeff() > 0))
+    {
+      return false;
+    }
+    matrix.leftCols<3>() = from.array().colwise() / distances.array();
+    const Eigen::VectorXd step =
+      Eigen::MatrixXd(matrix.transpose() * matrix)
+        .completeOrthogonalDecomposition()
+        .solve(Eigen::VectorXd(matrix.transpose() * (distances.array() - this->radius_).matrix()));
+    this->center_ += step.head<3>().transpose();
+    this->radius_ += step[3];
+  }
+  const Points from = nodes.rowwise() - this->center_;
+  const double worst = (from.rowwise().norm().array() - this->radius_).abs().maxCoeff();
+  const double most = std::min(tolerance, OfRadius * this->radius_);
+  return worst <= most && // not where it is NaN
+         most <= Better * this->radius_ * distanceFromOtherQuadrics(from / this->radius_);
+}
+
 void SurfaceShape::takeFacets(
   const Points& points, const BoundaryFaces& faces, const GeometrySurface& surface)
 {
@@ -164,6 +284,11 @@ Row SurfaceShape::closest(const Row& x) const
     return distance > 0 ? Row(this->center_ + axial + (from - axial) * (this->radius_ / distance))
                         : x;
   }
+  if (this->kind_ == Kind::Sphere)
+  {
+    const Row from = x - this->center_;
+    return from.norm() > 0 ? Row(this->center_ + from * (this->radius_ / from.norm())) : x;
+  }
   return this->facets_->nearest(x, Anywhere).place;
 }
 
@@ -174,9 +299,8 @@ Row SurfaceShape::slid(const Row& from, const Row& to) const
     return to - (to - from).dot(this->direction_) * this->direction_;
   }
   const Row height = from - this->closest(from);
-  return this->closest(to) + (this->kind_ == Kind::Cylinder
-                                 ? Row(height.dot(this->outwards(from)) * this->outwards(to))
-                                 : height);
+  return this->closest(to) +
+         (this->isRound() ? Row(height.dot(this->outwards(from)) * this->outwards(to)) : height);
 }
 
 Row SurfaceShape::normal(const Row& x) const
@@ -185,7 +309,7 @@ Row SurfaceShape::normal(const Row& x) const
   {
     return this->direction_;
   }
-  if (this->kind_ == Kind::Cylinder)
+  if (this->isRound())
   {
     return this->outwards(x);
   }
@@ -195,7 +319,8 @@ Row SurfaceShape::normal(const Row& x) const
 Row SurfaceShape::outwards(const Row& x) const
 {
   const Row from = x - this->center_;
-  const Row out = from - from.dot(this->direction_) * this->direction_;
+  const Row out =
+    this->kind_ == Kind::Sphere ? from : Row(from - from.dot(this->direction_) * this->direction_);
   return out.norm() > 0 ? Row(out.normalized()) : Row(Row::Zero());
 }
 }

@@ -109,6 +109,7 @@ void vtkDisplacementAlgorithm::vtkInternals::ClearList()
 {
   this->SurfaceList->RemoveAllArrays();
   this->SurfaceSizes->Initialize();
+  this->SurfaceShapes->Initialize();
   this->SurfaceBounds->Initialize();
   this->SurfaceBounds->SetNumberOfComponents(6);
   this->ZoneList->RemoveAllArrays();
@@ -138,6 +139,21 @@ void vtkDisplacementAlgorithm::vtkInternals::List(const Options& options, vtkDat
   {
     // The execution raises the error again, and reports it.
     this->ClearList();
+  }
+}
+
+void vtkDisplacementAlgorithm::vtkInternals::ListShapes()
+{
+  if (this->SurfaceShapes->GetNumberOfValues() > 0 || this->ListedVersion < 0)
+  {
+    return;
+  }
+  const std::vector<std::string> names = morph::patchNames(this->Model);
+  const std::vector<std::string> shapes = morph::patchShapes(this->Model);
+  for (std::size_t i = 0; i < names.size(); ++i)
+  {
+    this->SurfaceShapes->InsertNextValue(names[i]);
+    this->SurfaceShapes->InsertNextValue(shapes[i]);
   }
 }
 

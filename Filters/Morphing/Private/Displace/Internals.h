@@ -55,7 +55,7 @@ struct vtkDisplacementAlgorithm::vtkInternals
   /// The lists of surfaces and zones, of Model, of this version of it; -1: of none.
   ///@{
   vtkNew<vtkDataArraySelection> SurfaceList, ZoneList;
-  vtkNew<vtkStringArray> SurfaceSizes, ZoneSizes;
+  vtkNew<vtkStringArray> SurfaceSizes, SurfaceShapes, ZoneSizes;
   vtkNew<vtkDoubleArray> SurfaceBounds;
   vtkIdType ListedVersion = -1;
   ///@}
@@ -85,6 +85,8 @@ struct vtkDisplacementAlgorithm::vtkInternals
   /// Finds the boundary and its geometry, and the names of patches and zones. `input`: as
   /// Blocks.Gather() returns it; not a mesh without cells.
   void List(const Options& options, vtkDataObject* input);
+  /// Finds SurfaceShapes, unless it has those of the list.
+  void ListShapes();
 
   /// What the ports hold; each may be null.
   struct Inputs
