@@ -15,9 +15,10 @@
 namespace morph::distributed
 {
 /// A distributed mesh whose polyhedra, and cells at divided faces (HangingNodes.h), are cut as
-/// PolyhedronPieces does: each rank cuts the cells that it owns, and the pieces are a distributed mesh of their own. Nodes keep their ids. Centers
-/// have ids beyond these; the center of a face between two ranks has one id on both. The first
-/// piece of a cell has the id of the cell. Constructor and extend() are collective.
+/// PolyhedronPieces does: each rank cuts the cells that it owns, and the pieces are a distributed
+/// mesh of their own. Nodes keep their ids. Centers have ids beyond these; the center of a face
+/// between two ranks has one id on both. The first piece of a cell has the id of the cell.
+/// Constructor and extend() are collective.
 class CutMesh
 {
 public:
@@ -39,8 +40,8 @@ public:
   /// The adjoint of extend(): `all` is read at the nodes that this rank owns. Ghosts' rows of the
   /// result are to be added to their owners'. Not collective.
   Points extendTranspose(const Points& all) const;
-  /// Of the local nodes; with the owner's choice at ghosts. Nodes that hang on prescribed ones alone
-  /// are prescribed, too.
+  /// Of the local nodes; with the owner's choice at ghosts. Nodes that hang on prescribed ones
+  /// alone are prescribed, too.
   NodePartition extend(const NodePartition& partition) const;
   /// Returns the values of this rank's pieces; `values`: of the piece's cells. Not collective.
   std::vector<double> extend(const std::vector<double>& values) const;

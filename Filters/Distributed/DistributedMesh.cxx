@@ -497,8 +497,8 @@ private:
 };
 }
 
-/// A node may hang on a face of another rank's cell, of which it has no node. So every rank gets the
-/// faces that one cell alone has, and finds the same ties as one process.
+/// A node may hang on a face of another rank's cell, of which it has no node. So every rank gets
+/// the faces that one cell alone has, and finds the same ties as one process.
 void DistributedMesh::findHanging(Builder& builder, Monitor& monitor)
 {
   const Ranks& ranks = *this->ranks_;

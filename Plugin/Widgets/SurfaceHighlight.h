@@ -11,10 +11,10 @@ class pqView;
 class vtkSMProxy;
 class vtkSMSourceProxy;
 
-/// Surfaces of a filter's list in a view, apart from its pipeline: as orange lines or, with a motion,
-/// as a green ghost at the place to which that takes them, with arrows. The server cuts them out
-/// (vtkListedSurfaces). Neither the source nor its representation is registered, so
-/// that no browser, state or trace has them.
+/// Surfaces of a filter's list in a view, apart from its pipeline: as orange lines or, with a
+/// motion, as a green ghost at the place to which that takes them, with arrows. The server cuts
+/// them out (vtkListedSurfaces). Neither the source nor its representation is registered, so that
+/// no browser, state or trace has them.
 class SurfaceHighlight
 {
 public:

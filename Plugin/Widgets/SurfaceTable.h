@@ -25,17 +25,18 @@ class vtkSMPropertyGroup;
 
 /// The surfaces of a filter, one row each, with their color in the view, faces, area and shape, and
 /// a role to choose; a narrow panel hides the shapes first, then areas and faces. A ticked surface
-/// moves; the others follow, stay, slide or are free. A choice holds for all selected rows. Surfaces
-/// that move come first, then those that the file names, then the others by number; curves are below
-/// a row that shows them.
+/// moves; the others follow, stay, slide or are free. A choice holds for all selected rows.
+/// Surfaces that move come first, then those that the file names, then the others by number; curves
+/// are below a row that shows them.
 ///
 /// It is the widget of the group of the lists of names Surfaces, FixedSurfaces, SlidingSurfaces and
 /// FreeSurfaces, which scripts set, too, and of Moving, which a tick sets to its first value, the
 /// list (panel_widget="SurfaceTable"). The filter's SurfaceSizes has name, number of faces and area
-/// of each, and SurfaceShapes name and shape. What is selected in the view, on the filter's input or on an output, selects the rows
-/// of the surfaces that it lies on: Pick takes the selection, PickPort the number of the output or
-/// -1, and PickedSurfaces has the names. Selected rows, and changes that are not applied, are
-/// highlighted in the view, and a motion that is not applied is shown (MotionPreview.h).
+/// of each, and SurfaceShapes name and shape. What is selected in the view, on the filter's input
+/// or on an output, selects the rows of the surfaces that it lies on: Pick takes the selection,
+/// PickPort the number of the output or -1, and PickedSurfaces has the names. Selected rows, and
+/// changes that are not applied, are highlighted in the view, and a motion that is not applied is
+/// shown (MotionPreview.h).
 class SurfaceTable : public pqPropertyGroupWidget
 {
   Q_OBJECT

@@ -213,7 +213,8 @@ vtkSmartPointer<vtkMorphMesh> onto(vtkUnstructuredGrid* grid, vtkPolyData* targe
   return filter;
 }
 
-/// A brick of `n` hexahedra along x whose top rises by half of `profile` of the distance from x = 3.
+/// A brick of `n` hexahedra along x whose top rises by half of `profile` of the distance from x =
+/// 3.
 vtkSmartPointer<vtkUnstructuredGrid> ridge(int n, const std::function<double(double)>& profile)
 {
   morph::Mesh mesh = meshes::hexes(n, 4, 3);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Filters on meshes with hanging nodes: shapes, derivatives, steps and Compare leave no gap, either.
+// Filters on meshes with hanging nodes: shapes, derivatives, steps and Compare leave no gap,
+// either.
 #include "MorphFilters.h"
 #include "Octree.h"
 #include "TestGrids.h"

@@ -31,8 +31,8 @@ struct PatchSize
 /// and one for all others.
 std::vector<PatchSize> patchSizes(const BoundaryModel& model);
 
-/// The shape of what has a name, undeformed, as SurfaceShape::text() gives it; empty for a curve. In
-/// the order of patchNames(). Cost: a few passes over the nodes of each.
+/// The shape of what has a name, undeformed, as SurfaceShape::text() gives it; empty for a curve.
+/// In the order of patchNames(). Cost: a few passes over the nodes of each.
 std::vector<std::string> patchShapes(const BoundaryModel& model);
 
 /// The nodes and faces on some of the boundary.

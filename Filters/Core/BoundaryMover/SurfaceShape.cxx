@@ -223,8 +223,9 @@ bool SurfaceShape::fitCylinder(const Points& nodes, const Points& areas, double 
 /// `tolerance`: as of a cylinder.
 bool SurfaceShape::fitSphere(const Points& nodes, double tolerance)
 {
-  // |x - m|^2 = 2 (x - m) c + d is linear in the center m + c and in d, and is exact where all nodes
-  // are on a sphere. Gauss-Newton's method takes what rounding has left. Unknowns: center, radius.
+  // |x - m|^2 = 2 (x - m) c + d is linear in the center m + c and in d, and is exact where all
+  // nodes are on a sphere. Gauss-Newton's method takes what rounding has left. Unknowns: center,
+  // radius.
   const Row middle = nodes.colwise().mean();
   Eigen::MatrixXd matrix(nodes.rows(), 4);
   matrix.leftCols<3>() = 2 * (nodes.rowwise() - middle);

@@ -19,8 +19,8 @@ void addTriangles(const Points& points, const BoundaryFaces& faces, Index face,
 /// The shape of an undeformed surface, along which its nodes can slide: a plane, a cylinder, a
 /// sphere or, for any other surface, its facets. A plane fits its nodes to 1e-6 of their extent. A
 /// cylinder and a sphere fit them to 1e-6 of their extent and of the radius, and ten times as well
-/// as a plane: what is bumpy and nearly flat fits large cylinders, too. A sphere also fits ten times
-/// as well as any other quadric: two rings of nodes, as of a chamfer, are on a cone as well.
+/// as a plane: what is bumpy and nearly flat fits large cylinders, too. A sphere also fits ten
+/// times as well as any other quadric: two rings of nodes, as of a chamfer, are on a cone as well.
 class SurfaceShape
 {
 public:

@@ -286,8 +286,9 @@ std::vector<Index> Surroundings::ableToSlide(const BoundaryModel& model,
   }
   if (off.tellp() > 0)
   {
-    monitor.warn("What moves pulls surfaces off their own shape, which follow it: " + off.str() +
-                 ". Hold them, or let the rest of the boundary stay, if that is not meant.");
+    monitor.warn(
+      "What moves pulls surfaces off their own shape, which follow it: " + off.str() +
+      ". Let them stay (`FixedSurfaces`), or set `Surroundings` to Stay, if that is not meant.");
   }
   return able;
 }

@@ -14,8 +14,8 @@ namespace morph
 BoundaryFaces facesOfCells(
   const Mesh& mesh, const BoundaryFaces& faces, const std::vector<std::uint8_t>& isOf);
 
-/// Returns the faces from `first` to before `last`, with the nodes on them, in the same way: with the
-/// corners that their edges were given where they are divided (HangingNodes.h).
+/// Returns the faces from `first` to before `last`, with the nodes on them, in the same way: with
+/// the corners that their edges were given where they are divided (HangingNodes.h).
 BoundaryFaces facesBetween(const Mesh& mesh, const BoundaryFaces& faces, Index first, Index last);
 
 /// Gives faces other corners. Those that were no corners before are nodes of the boundary now, and

@@ -21,8 +21,9 @@ class HigherOrderNodes;
 /// Faces that are divided on one side alone, as where a cell meets cells of half its size (2:1
 /// refinement, octree meshes). Faces of other cells then lie in one, have its corners, and fill it.
 /// All of them are inside the mesh. The nodes of the small faces that are no nodes of the large one
-/// hang. They are tied to its nodes by the shape functions at their place, or to those of an edge if
-/// they lie on it. So no gap opens. A tie to a node that hangs, too, is one to what that is tied to.
+/// hang. They are tied to its nodes by the shape functions at their place, or to those of an edge
+/// if they lie on it. So no gap opens. A tie to a node that hangs, too, is one to what that is tied
+/// to.
 ///
 /// Cells are linear or quadratic: faces of 3, 4, 6, 8 and 9 nodes. A mesh with polyhedra has none,
 /// as these have the small faces themselves.
@@ -32,8 +33,8 @@ public:
   /// Finds them among the faces that one cell alone has; see facesOfOneCell(). Cost: a pass over
   /// the faces, some microseconds each.
   void find(const Mesh& mesh, const BoundaryFaces& faces, Monitor& monitor);
-  /// Whether find() can find some where the cells `isOf`, #cells, have the large faces. The mesh may
-  /// be a part of one, with all cells around the nodes of these cells. Cost: as find().
+  /// Whether find() can find some where the cells `isOf`, #cells, have the large faces. The mesh
+  /// may be a part of one, with all cells around the nodes of these cells. Cost: as find().
   static bool mayBeAmong(const Mesh& mesh, const BoundaryFaces& faces,
     const std::vector<std::uint8_t>& isOf, Monitor& monitor);
 

@@ -14,8 +14,8 @@ namespace morph
 namespace
 {
 /// Moves the four corners of a face, 4 x 3, and a place near it into the plane that fits them best.
-/// They may be uneven by rounding, or by so little that an affine fit to all three coordinates would
-/// tell what is beside them apart by that.
+/// They may be uneven by rounding, or by so little that an affine fit to all three coordinates
+/// would tell what is beside them apart by that.
 void flatten(Points& corners, Eigen::RowVector3d& place)
 {
   const Eigen::RowVector3d mean = corners.colwise().mean();

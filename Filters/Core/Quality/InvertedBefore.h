@@ -13,7 +13,8 @@ namespace morph
 /// what it does. A motion that keeps the orientation, an affine one for instance, keeps the signs
 /// of all determinants, but not their values. So a cell counts as no worse as long as no place that
 /// was positive is 0 or negative: a corner, a hexahedron's center, or a place of a polyhedron. A
-/// place with an edge that rounding of the coordinates alone makes was not positive. Between the corners of such a quadratic cell nothing is judged.
+/// place with an edge that rounding of the coordinates alone makes was not positive. Between the
+/// corners of such a quadratic cell nothing is judged.
 class InvertedBefore
 {
 public:

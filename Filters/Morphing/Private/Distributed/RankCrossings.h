@@ -13,7 +13,7 @@ namespace morph::filters::RankCrossings
 /// 90 bytes a corner. Collective.
 Crossings::Found Find(const RankMesh& mesh, vtkUnstructuredGrid* output, morph::Monitor& monitor);
 
-/// Whether there are any where the nodes of the process's part are at `moved`. Collective, and alike
-/// on each process.
+/// Whether there are any where the nodes of the process's part are at `moved`. Collective, and
+/// alike on each process.
 bool Any(const RankMesh& mesh, const morph::Points& moved, morph::Monitor& monitor);
 }

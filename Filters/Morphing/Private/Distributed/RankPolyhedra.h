@@ -8,7 +8,8 @@
 #include "Support/Monitor.h"
 
 /// What changes a distributed mesh after a method. It sees the pieces of polyhedra, and of cells at
-/// divided faces; nodes that hang follow. All functions are collective. `moved`: #local nodes x 3, the start and the result.
+/// divided faces; nodes that hang follow. All functions are collective. `moved`: #local nodes x 3,
+/// the start and the result.
 namespace morph::filters::RankPolyhedra
 {
 /// morph::distributed::repairInverted() or, on pieces, rounds of it. Cells of

@@ -80,8 +80,8 @@ public:
   /// those behind the outer faces alone. `precision`: see MorphOutput::WriteMesh().
   virtual Measured Write(vtkUnstructuredGrid* grid, const morph::Points& moved, int precision,
     bool all, const MorphOutput::Outputs& outputs, morph::Monitor& monitor) const = 0;
-  /// Whether the boundary of the whole mesh runs into itself, and did not undeformed, where the nodes
-  /// are at `moved`, #nodes of Mesh() x 3.
+  /// Whether the boundary of the whole mesh runs into itself, and did not undeformed, where the
+  /// nodes are at `moved`, #nodes of Mesh() x 3.
   virtual bool Crosses(const morph::Points& moved, morph::Monitor& monitor) const = 0;
   /// The surface of `grid` in its undeformed state, as far as it is known.
   virtual void WriteUndeformedSurface(vtkUnstructuredGrid* grid, vtkPolyData* surface) const = 0;

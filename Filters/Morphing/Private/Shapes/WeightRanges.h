@@ -18,8 +18,8 @@ struct WeightRanges
 {
   /// For each shape the interval of its weight around 0, the others at their present values.
   std::vector<morph::ValidRange> Shapes;
-  /// The largest factor of all present weights together: from 0 up to it, the mesh is valid so. With
-  /// rotations, infinite where none is up to one full turn. NaN where the undeformed mesh is
+  /// The largest factor of all present weights together: from 0 up to it, the mesh is valid so.
+  /// With rotations, infinite where none is up to one full turn. NaN where the undeformed mesh is
   /// inverted.
   double LargestFactor = 0;
 
