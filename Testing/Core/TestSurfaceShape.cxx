@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Surfaces are recognized as planes, cylinders and spheres, and only where nothing else fits as
-// well.
+// Surfaces are recognized as planes, cylinders and spheres, if nothing else fits as well.
 #include "BoundaryMover/SurfaceShape.h"
 #include "ClassifiedShape.h"
 

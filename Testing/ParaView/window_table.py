@@ -118,7 +118,8 @@ class Table(Panels):
         ticked, box, vector, normals, applied = self.play()
         for panel in (ticked, applied):
             self.assertEqual([one for one in panel["ghosts"] if one[0] <= one[1]], [])
-        for panel, bounds in ((box, (-1, 1, -1, 1, 2.2, 2.7)), (vector, (-1, 1.25, -1, 1, 2.2, 2.2)),
+        for panel, bounds in ((box, (-1, 1, -1, 1, 2.2, 2.7)),
+                              (vector, (-1, 1.25, -1, 1, 2.2, 2.2)),
                               (normals, (-1, 1, -1, 1, 2, 2.2))):
             ghost, = panel["ghosts"]
             for got, wanted in zip(ghost, bounds):

@@ -388,8 +388,8 @@ class WindowTasks(unittest.TestCase):
             events.save_state(folder / "state.pvsm")
             code, messages = events.play(folder)
             self.assertEqual(code, 0, messages)
-            self.assertIn("`RadiusChange` needs cylinders or spheres, and Surface 3, which moves, is neither",
-                          messages)
+            self.assertIn("`RadiusChange` needs cylinders or spheres, and Surface 3, which "
+                          "moves, is neither", messages)
             self.assertEqual(messages.count("ERR|"), 1, messages)
             self.assertNotIn("FORWARD_DIRECTION", messages)
             self.assertEqual(events.counted, CLICKS)
