@@ -44,8 +44,9 @@ frontAndBack { type empty; faces ((0 1 5 4) (2 3 7 6) (4 5 9 8) (6 7 11 10)); }
 sides { type patch; faces ((3 0 4 7) (7 4 8 11) (1 2 6 5) (5 6 10 9)); });
 """)
 # Left is a plane of symmetry, of which the file of the patches knows.
-SYMMETRIC = CYCLIC.replace("left { type cyclic; neighbourPatch right;", "left { type symmetryPlane;")
-SYMMETRIC = SYMMETRIC.replace("right { type cyclic; neighbourPatch left;", "right { type patch;")
+SYMMETRIC = (
+    CYCLIC.replace("left { type cyclic; neighbourPatch right;", "left { type symmetryPlane;")
+    .replace("right { type cyclic; neighbourPatch left;", "right { type patch;"))
 TOP = ("--move", "top", "--translate", "0,0,0.2", "--quiet")
 
 
