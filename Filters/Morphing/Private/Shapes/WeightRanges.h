@@ -13,7 +13,7 @@ class ShapeModes;
 /// The weights with which no cell gets inverted, and the boundary does not run into itself; see
 /// InvertedBefore.h for cells that were inverted before. Cells are followed all the way. Crossings
 /// are looked for at sixteen factors on each side of 0, and their first one is found to 2e-5 of the
-/// range, so that a crossing between two of these is not seen.
+/// range. A crossing between two of these factors is not seen.
 struct WeightRanges
 {
   /// For each shape the interval of its weight around 0, the others at their present values.
