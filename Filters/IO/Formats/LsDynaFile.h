@@ -10,10 +10,10 @@ namespace morph::io
 bool isLsDynaFile(const std::string& path);
 
 /// Reads *NODE, *ELEMENT_SOLID (collapsed hexahedra are tetrahedra, pyramids or wedges; those of
-/// ten nodes), *ELEMENT_SHELL and *ELEMENT_BEAM. *ELEMENT_DISCRETE and nodal rigid bodies are lines,
-/// the latter without a number. Sets of nodes, segments, elements and parts are read, of a deck and
-/// of those that it includes, in fixed (also LONG) and free fields. The elements of a part are a
-/// set, of its title or "PID 7". Parameters, and included files or nodes that are transformed, are
-/// refused by name.
+/// ten nodes), *ELEMENT_SHELL and *ELEMENT_BEAM. *ELEMENT_DISCRETE and nodal rigid bodies are
+/// lines, the latter without a number. Sets of nodes, segments, elements and parts are read, of a
+/// deck and of those that it includes, in fixed (also LONG) and free fields. The elements of a part
+/// are a set, of its title or "PID 7". Parameters, and included files or nodes that are
+/// transformed, are refused by name.
 std::unique_ptr<SolverFile> readLsDynaFile(const std::string& path);
 }
