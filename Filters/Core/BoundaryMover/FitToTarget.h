@@ -90,10 +90,12 @@ struct FitOptions
 /// Returns the positions of choice.moving on the target, #moving x 3. Closest: vertices go to
 /// vertices of the target, then curves to its feature edges, then surfaces follow and go to the
 /// target, as projectCurves() and projectSurfaces() move them. What has no such place within reach
-/// goes to the nearest place of the target. Along: each node goes to the nearest place of the
-/// target along the direction; what has none follows the others, but for vertices, which stay.
-/// Nodes on surfaces that slide, by their numbers in `sliding`, go to places that are on both. A
-/// warning names nodes that do not reach the target. Throws Error where none does.
+/// goes to the nearest place of the target. So does a vertex if another one is nearer to its place,
+/// and a curve if another one is less than half as far from the edge. Along: each node goes to the
+/// nearest place of the target along the direction; what has none follows the others, but for
+/// vertices, which stay. Nodes on surfaces that slide, by their numbers in `sliding`, go to places
+/// that are on both. The target is oriented by the nodes that move. A warning names nodes that do
+/// not reach the target. Throws Error where none does.
 Points fittedTo(Target& target, const BoundaryModel& model, const Choice& choice,
   const std::vector<Index>& sliding, const FitOptions& options, Surroundings& surroundings,
   Monitor& monitor);
