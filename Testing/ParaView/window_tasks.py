@@ -382,8 +382,8 @@ class WindowTasks(unittest.TestCase):
             events.clicks += 1
             events.done()
             events.expect(HELP_PAGE, "qthelp://meshmorphing.org/MeshMorphing/"
-                          "filters.MorphMesh.html", "source")
-            events.expect(HELP_PAGE, "Morph Mesh", "documentTitle")
+                          "filters.FitToSurface.html", "source")
+            events.expect(HELP_PAGE, "Fit to Surface", "documentTitle")
 
             events.save_state(folder / "state.pvsm")
             code, messages = events.play(folder)
