@@ -263,6 +263,11 @@ TEST(FieldDisplacement, RefusesCellsThatVtkCannotEvaluate)
   unknown->GetPointData()->AddArray(valuesOf(unknown, affineField));
   unknown->InsertNextCell(200, 3, corners);
   EXPECT_NE(errorOf(moves(unknown)).find("type 200"), std::string::npos);
+  const auto strips = around(meshes::hexes(2, 2, 2), 2, 0);
+  strips->GetCellData()->Initialize();
+  strips->GetPointData()->AddArray(valuesOf(strips, affineField));
+  strips->InsertNextCell(VTK_TRIANGLE_STRIP, 2, corners); // without a triangle
+  EXPECT_NE(errorOf(moves(strips)).find("Triangulate"), std::string::npos);
 }
 
 TEST(FieldDisplacement, MovesAMeshByMorphMesh)

@@ -103,6 +103,11 @@ bool isCloud(const std::array<vtkIdType, 256>& types, vtkDataSet* data)
 /// VTK's cells read as many points as their type has, whether they are there or not.
 void requireKnownCells(const std::array<vtkIdType, 256>& types, vtkDataSet* data)
 {
+  if (types[VTK_TRIANGLE_STRIP] > 0)
+  {
+    // VTK has no place on one whose triangles have no area, and reads beyond it.
+    throw Error("The field has triangle strips. Apply Triangulate to it.");
+  }
   std::array<vtkIdType, 256> sizes = {};
   for (int type = 0; type < 256; ++type)
   {
