@@ -11,6 +11,9 @@ set(headers_destination "${CMAKE_INSTALL_INCLUDEDIR}/MeshMorphing")
 set(core_headers
   Boundary/Classification.h
   BoundaryMorphing/BoundaryMotion.h
+  BoundaryMover/BoundaryModel.h
+  BoundaryMover/BoundaryMover.h
+  BoundaryMover/Patches.h
   LinearMethods/FemWarp.h
   LinearMethods/LogBarrierWarp.h
   LinearMethods/RadialBasis.h
@@ -25,6 +28,7 @@ set(core_headers
   Morpher/Morpher.h
   Quality/ScaledJacobian.h
   Quality/ValidRange.h
+  Session/Session.h
   Support/Error.h
   Support/Monitor.h
   Support/Types.h
