@@ -270,7 +270,8 @@ private:
   {
     Row value = Row::Zero(), place = Row::Zero();
     Points values(cell->GetNumberOfPoints(), 3), corners(cell->GetNumberOfPoints(), 3);
-    bool isInexact = cell->GetCellType() != VTK_POLYHEDRON; // whose weights are exact
+    // The weights of polyhedra and points are exact, and points have no parameters.
+    bool isInexact = cell->GetCellType() != VTK_POLYHEDRON && cell->GetCellDimension() > 0;
     for (Index k = 0; k < values.rows(); ++k)
     {
       const vtkIdType point = cell->GetPointId(k);
