@@ -148,6 +148,16 @@ Row placeOf(const Points& points, const std::array<Index, 3>& corners, const Row
   return weights[0] * points.row(corners[0]) + weights[1] * points.row(corners[1]) +
          weights[2] * points.row(corners[2]);
 }
+
+std::set<Index> movingBodies(const BoundaryModel& model, const Choice& choice)
+{
+  std::set<Index> bodies;
+  for (const Index node : choice.moving)
+  {
+    bodies.insert(model.bodyOfNode[node]);
+  }
+  return bodies;
+}
 }
 
 void Contact::find(const BoundaryModel& model, const Options& options)
@@ -208,11 +218,7 @@ bool Contact::follow(
   const BoundaryModel& model, const Surroundings::Result& result, Choice& choice, Points& targets)
 {
   const Points& points = model.points();
-  std::set<Index> moving;
-  for (const Index node : choice.moving)
-  {
-    moving.insert(model.bodyOfNode[node]);
-  }
+  const std::set<Index> moving = movingBodies(model, choice);
   std::vector<Index> added;
   TargetOfNode all = targetsOf(choice, targets);
   for (const Pair& pair : this->pairs_)
@@ -238,11 +244,7 @@ void Contact::warnOfLost(const BoundaryModel& model, const Choice& choice,
   const Surroundings::Result& result, Monitor& monitor) const
 {
   constexpr double Rounding = 1e-9; // of the size
-  std::set<Index> moving;
-  for (const Index node : choice.moving)
-  {
-    moving.insert(model.bodyOfNode[node]);
-  }
+  const std::set<Index> moving = movingBodies(model, choice);
   double most = 0;
   std::vector<Index> lost;
   for (const Pair& pair : this->pairs_)
