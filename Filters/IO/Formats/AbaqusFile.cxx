@@ -661,23 +661,30 @@ void AbaqusFile::takeSurface(std::size_t part)
 /// Adds lines between the nodes that are tied: from one to all, or from each to its partner.
 void AbaqusFile::addLinks(const std::unordered_map<Index, Index>& positions)
 {
-  std::map<std::string, std::vector<Index>> members;
-  for (const NamedSet& set : this->mesh_.sets)
-  {
-    std::vector<Index>& nodes = members[upperCase(set.name)];
-    nodes = set.nodes;
-    for (const Index cell : set.cells)
-    {
-      const auto begin = this->mesh_.connectivity.begin();
-      nodes.insert(nodes.end(), begin + this->mesh_.offsets[static_cast<std::size_t>(cell)],
-        begin + this->mesh_.offsets[static_cast<std::size_t>(cell) + 1]);
-    }
-  }
   const auto nodesOf = [&](const std::string& entry)
   {
     const auto number = parseInteger(entry);
-    const auto found = positions.find(number.value_or(-1));
-    return found != positions.end() ? std::vector<Index>{ found->second } : members[entry];
+    if (const auto found = positions.find(number.value_or(-1)); found != positions.end())
+    {
+      return std::vector<Index>{ found->second };
+    }
+    std::vector<Index> nodes;
+    for (const NamedSet& set : this->mesh_.sets)
+    {
+      if (upperCase(set.name) == entry)
+      {
+        nodes = set.nodes;
+        for (const Index cell : set.cells)
+        {
+          const auto begin = this->mesh_.connectivity.begin();
+          nodes.insert(nodes.end(), begin + this->mesh_.offsets[static_cast<std::size_t>(cell)],
+            begin + this->mesh_.offsets[static_cast<std::size_t>(cell) + 1]);
+        }
+      }
+    }
+    std::sort(nodes.begin(), nodes.end()); // faces of a surface share nodes
+    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+    return nodes;
   };
   for (const auto& [first, second] : this->all_.links)
   {
