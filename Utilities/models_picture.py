@@ -16,14 +16,12 @@ from pathlib import Path
 import numpy as np
 from paraview import simple
 from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkCommonCore import vtkIdList
 from vtkmodules.vtkCommonDataModel import vtkPolyData
-from vtkmodules.vtkFiltersCore import vtkExtractCells
 from vtkmodules.vtkFiltersGeometry import vtkGeometryFilter
 
 ROOT = Path(__file__).resolve().parent.parent
 sys.path[:0] = [str(ROOT / "Data"), str(ROOT / "Utilities")]
-from demo_picture import INK, OVERSAMPLING, average_pixels, move, producer, text  # noqa: E402
+from demo_picture import INK, OVERSAMPLING, average_pixels, kept, move, producer, text  # noqa: E402
 import Models  # noqa: E402  (needs the path above)
 from Models.model_mesh import add_array  # noqa: E402
 from picture_arguments import fewer_colors, parse, picture_parser  # noqa: E402
@@ -77,16 +75,10 @@ class Panel:
     high: np.ndarray
 
 
-def kept(data, cells):
+def kept_surface(data, cells):
     """The cells of these ids of a vtkPolyData, as vtkPolyData."""
-    ids = vtkIdList()
-    for cell in cells:
-        ids.InsertNextId(int(cell))
-    extract = vtkExtractCells()
-    extract.SetInputData(data)
-    extract.SetCellList(ids)
     surface = vtkGeometryFilter()
-    surface.SetInputConnection(extract.GetOutputPort())
+    surface.SetInputData(kept(data, cells))
     surface.Update()
     return surface.GetOutput()
 
@@ -105,9 +97,9 @@ def make_panel(mesh, cell_name, t, state, look):
     paint(faces)
     if look.cut:
         behind = mesh.points[mesh.faces].mean(axis=1)[:, 1] > 0
-        faces = kept(faces, np.flatnonzero(behind))
+        faces = kept_surface(faces, np.flatnonzero(behind))
         behind = mesh.points[mesh.curve_edges()[0]].mean(axis=1)[:, 1] > 0
-        curves = kept(curves, np.flatnonzero(behind))
+        curves = kept_surface(curves, np.flatnonzero(behind))
     extent = vtk_to_numpy(faces.GetPoints().GetData()) @ look.axes.T
     label = f"{cell_name}, {state}\n{len(mesh.points):,} nodes, {len(mesh.cells):,} cells"
     return Panel(label, faces, curves, extent.min(axis=0), extent.max(axis=0))
