@@ -196,10 +196,25 @@ TEST(NaturalNeighbors, AreContinuous)
   }
 }
 
-TEST(NaturalNeighbors, ThereAreNoneOnTheHullAndOutside)
+TEST(NaturalNeighbors, InASideOfTheHullTheyAreTheLimitFromInside)
+{
+  // Of four corners on a circle: no diagonal counts, and no site behind.
+  const Eigen::VectorXd center = Diagram(cube()).weights(Row(.5, .5, 0));
+  const Points corners = cube();
+  for (Index i = 0; i < corners.rows(); ++i)
+  {
+    EXPECT_NEAR(center[i], corners(i, 2) == 0 ? .25 : 0, 1e-14);
+  }
+  const Diagram diagram(meshes::hexes(4, 4, 4).points);
+  const Row x(2.3, 1.6, 0);
+  const Eigen::VectorXd on = diagram.weights(x);
+  EXPECT_LT((diagram.weights(x + Row(0, 0, 1e-6)) - on).cwiseAbs().maxCoeff(), 1e-5);
+}
+
+TEST(NaturalNeighbors, ThereAreNoneOnEdgesOfTheHullAndOutside)
 {
   const Diagram diagram(cube());
-  for (const Row& x : { Row(.5, .5, 0), Row(.5, 0, 0), Row(.5, .5, 2) })
+  for (const Row& x : { Row(.5, 0, 0), Row(.5, .5, 2) })
   {
     EXPECT_EQ(diagram.weights(x).size(), 0) << x;
   }

@@ -111,13 +111,19 @@ void NaturalNeighbors::findZone(const Vector& x, int inside, Workspace& work) co
 }
 
 /// Numbers the zone's sites, adds its inner faces' shares and lists its border. Returns false where
-/// x is not inside the hull.
+/// x is outside the hull.
+///
+/// At a height h over a face of the hull the face's Voronoi vertex is farther away than anything by
+/// 1 / h. On the hull the shares are the limits for h to 0 from inside, so only terms in 1 / h
+/// count: these are the natural neighbor coordinates in the plane of the face.
 bool NaturalNeighbors::visitFaces(const Vector& x, Workspace& work) const
 {
   work.local_.clear();
   work.place_.clear();
   work.share_.clear();
+  work.farShare_.clear();
   work.border_.clear();
+  work.hullNormal_.setZero();
   for (int t : work.zone_)
   {
     const Cell& cell = this->cells_[t];
@@ -132,6 +138,7 @@ bool NaturalNeighbors::visitFaces(const Vector& x, Workspace& work) const
         work.local_.push_back(site);
         work.place_.push_back(this->sites_.row(site) - x);
         work.share_.push_back(0);
+        work.farShare_.push_back(0);
       }
       number[k] = work.siteNumber_[site];
     }
@@ -147,16 +154,24 @@ bool NaturalNeighbors::visitFaces(const Vector& x, Workspace& work) const
       const int a = number[OuterFaces[k][0]], b = number[OuterFaces[k][1]],
                 c = number[OuterFaces[k][2]];
       const Vector &A = work.place_[a], &B = work.place_[b], &C = work.place_[c];
-      Vector end; // end of the dual edge's part in the new cell
+      Vector end = center, far = Vector::Zero(); // of the dual edge's part in the new cell: + far/h
       if (next == Delaunay::Outside)
       {
         const Vector normal = (B - A).cross(C - A);
-        const double height = normal.dot(A);
-        if (!(height > HullTolerance * normal.norm() * A.norm()))
+        const double height = normal.dot(A), rounding = HullTolerance * normal.norm() * A.norm();
+        if (!(height >= -rounding))
         {
           return false;
         }
-        end = center - (work.power_[t] / (2 * height)) * normal;
+        if (height > rounding)
+        {
+          end = center - (work.power_[t] / (2 * height)) * normal;
+        }
+        else
+        {
+          work.hullNormal_ = normal.normalized();
+          far = -work.power_[t] / 2 * work.hullNormal_;
+        }
       }
       else
       {
@@ -169,12 +184,16 @@ bool NaturalNeighbors::visitFaces(const Vector& x, Workspace& work) const
       }
       if (!inner)
       {
-        work.border_.push_back({ { a, b, c }, end });
+        work.border_.push_back({ { a, b, c }, end, far });
       }
-      const Vector n = center.cross(end);
-      work.share_[a] += (B - C).dot(n);
-      work.share_[b] += (C - A).dot(n);
-      work.share_[c] += (A - B).dot(n);
+      const Vector n = center.cross(end), farN = center.cross(far);
+      const int corners[] = { a, b, c };
+      const Vector sides[] = { B - C, C - A, A - B };
+      for (int i = 0; i < 3; ++i)
+      {
+        work.share_[corners[i]] += sides[i].dot(n);
+        work.farShare_[corners[i]] += sides[i].dot(farN);
+      }
     }
   }
   return true;
@@ -201,11 +220,15 @@ void NaturalNeighbors::joinBorder(Workspace& work)
         edge.face = static_cast<int>(f);
         continue;
       }
-      const Vector n = work.border_[f].vertex.cross(work.border_[edge.face].vertex);
+      const Workspace::Face &one = work.border_[f], &other = work.border_[edge.face];
+      const Vector n = one.vertex.cross(other.vertex);
+      const Vector farN = one.far.cross(other.vertex) + one.vertex.cross(other.far);
       edge.face = -1;
       const Vector &V = work.place_[from], &W = work.place_[to];
       work.share_[from] += W.dot(n);
       work.share_[to] -= V.dot(n);
+      work.farShare_[from] += W.dot(farN);
+      work.farShare_[to] -= V.dot(farN);
     }
   }
 }
@@ -213,6 +236,10 @@ void NaturalNeighbors::joinBorder(Workspace& work)
 /// Normalizes the shares, drops zeros, checks and corrects the rest, and sorts by site.
 bool NaturalNeighbors::finish(Workspace& work)
 {
+  if (!work.hullNormal_.isZero())
+  {
+    work.share_.swap(work.farShare_);
+  }
   double total = 0;
   for (double share : work.share_)
   {
@@ -247,7 +274,9 @@ bool NaturalNeighbors::finish(Workspace& work)
   }
 
   // The smallest relative change of the weights that makes them sum to 1 and reproduce x.
+  // Sites of one plane say nothing across it.
   Eigen::Matrix4d normal = Eigen::Matrix4d::Zero();
+  normal.bottomRightCorner<3, 3>() = work.hullNormal_.transpose() * work.hullNormal_;
   for (int i : work.order_)
   {
     const Eigen::Vector4d row(

@@ -42,6 +42,7 @@ public:
     {
       int corners[3]; ///< local numbers
       Vector vertex;  ///< the new Voronoi vertex on its dual edge, relative to the point
+      Vector far;     ///< the vertex is at vertex + far / h at a height h over the hull
     };
     struct HalfEdge ///< of a border face, until its other half is found
     {
@@ -60,13 +61,15 @@ public:
     std::vector<HalfEdge> edges_; ///< hashed, open addressing, 2^n
     std::vector<int> local_;      ///< site of each local number
     std::vector<Vector> place_;   ///< site minus point
-    std::vector<double> share_;
+    std::vector<double> share_, farShare_; ///< without 1 / h, and the factors of 1 / h
+    Vector hullNormal_ = Vector::Zero();   ///< if the point is on the hull
     std::vector<int> order_;
   };
 
-  /// Computes the coordinates of `x`, which lies in the tetrahedron `inside`, into the workspace.
-  /// Returns false, with an undefined result, where they do not exist or rounding spoils them. This
-  /// happens on or outside the hull, or if the error in x exceeds 1e-8 of the distance to its
+  /// Computes the coordinates of `x`, which lies in the tetrahedron `inside`, into the workspace. In
+  /// a face of the hull they are the limit from inside, the coordinates in the face's plane. Returns
+  /// false, with an undefined result, where they do not exist or rounding spoils them. This happens
+  /// outside the hull, on its edges, or if the error in x exceeds 1e-8 of the distance to its
   /// neighbors. A smaller error is distributed over the weights, so they reproduce linear fields to
   /// rounding.
   bool compute(const Eigen::RowVector3d& x, int inside, Workspace& workspace) const;
