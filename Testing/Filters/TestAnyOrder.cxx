@@ -3,6 +3,7 @@
 #include "TestGrids.h"
 
 #include "Mesh/CellShape.h"
+#include "Mesh/Topology.h"
 #include "vtkExtractMorphBoundary.h"
 #include "vtkFEMWarpMorph.h"
 #include "vtkMorphMesh.h"
@@ -244,6 +245,23 @@ TEST(AnyOrder, NodesBetweenCornersFollowThem)
       EXPECT_LT((third - (2 * first + second) / 3).norm(), 1e-12);
     }
   }
+}
+
+TEST(AnyOrder, NodesOfACollapsedFaceAreOnTheEdgeThatItIs)
+{
+  morph::Mesh linear;
+  linear.offsets = { 0 };
+  linear.points.resize(6, 3);
+  linear.points << 0, 0, 0, 0, 1, 0, 1, 0, 0, 0, 0, 1, 0, 1, 1, 1, 0, 1;
+  meshes::add(linear, morph::Wedge, { 0, 1, 2, 3, 4, 5 });
+  morph::Mesh mesh = ofOrder(linear, 3, morph::LagrangeTetrahedron);
+  constexpr Index corner = 1, MiddleOfTriangle = 24, InBody = 38;
+  const Index inFace = mesh.connectivity[MiddleOfTriangle];
+  mesh.connectivity[corner] = mesh.connectivity[2];
+  morph::Monitor silent;
+  const std::vector<Index> nodes = morph::boundaryFaces(mesh, silent).nodes;
+  EXPECT_EQ(std::count(nodes.begin(), nodes.end(), inFace), 1);
+  EXPECT_EQ(std::count(nodes.begin(), nodes.end(), mesh.connectivity[InBody]), 0);
 }
 
 TEST(AnyOrder, AMotionOfZeroOfASurfaceMovesNothing)

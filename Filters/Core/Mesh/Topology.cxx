@@ -236,7 +236,6 @@ BoundaryFaces describeFaces(const Mesh& mesh, const std::vector<Place>& faces)
       continue;
     }
     const CellShape& shape = *volumeShape(mesh, cell);
-    const FaceShape& f = shape.faces[face.side];
     bool isOn[8] = {};
     Index corners[4];
     const int size = faceNodes(mesh, cell, shape, face.side, corners);
@@ -245,9 +244,10 @@ BoundaryFaces describeFaces(const Mesh& mesh, const std::vector<Place>& faces)
       result.connectivity.push_back(corners[k]);
       onBoundary[corners[k]] = 1;
     }
-    for (int k = 0; k < f.size; ++k)
+    for (int a = 0; a < shape.numberOfCorners; ++a) // two corners may be one node
     {
-      isOn[f.corner[k]] = true;
+      const Index node = mesh.cell(cell)[shape.cornerNode[a]];
+      isOn[a] = std::find(corners, corners + size, node) != corners + size;
     }
     // A mid-side or face node lies on the face if only the face's corners contribute to it.
     for (int k = shape.numberOfCorners; k < shape.numberOfNodes; ++k)
