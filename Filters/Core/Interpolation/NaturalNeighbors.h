@@ -58,9 +58,9 @@ public:
     std::vector<int> siteNumber_; ///< #sites: local number
     std::vector<int> zone_;
     std::vector<Face> border_;
-    std::vector<HalfEdge> edges_; ///< hashed, open addressing, 2^n
-    std::vector<int> local_;      ///< site of each local number
-    std::vector<Vector> place_;   ///< site minus point
+    std::vector<HalfEdge> edges_;          ///< hashed, open addressing, 2^n
+    std::vector<int> local_;               ///< site of each local number
+    std::vector<Vector> place_;            ///< site minus point
     std::vector<double> share_, farShare_; ///< without 1 / h, and the factors of 1 / h
     Vector hullNormal_ = Vector::Zero();   ///< if the point is on the hull
     std::vector<int> order_;
