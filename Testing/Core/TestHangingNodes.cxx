@@ -160,6 +160,33 @@ TEST(HangingNodes, OfTrianglesAndOfFacesThatAreCut)
   EXPECT_EQ(outer.cells.size(), 5u + 4u);
 }
 
+// The parts at a corner that is pulled in lie in the face the other way around.
+TEST(HangingNodes, OfAFaceThatIsFolded)
+{
+  const double corners[4][2] = { { 0, 0 }, { 1, 0 }, { .2, .2 }, { 0, 1 } };
+  Mesh mesh = meshes::hexes(2, 2, 1); // below z = 1, nodes by rows
+  for (Index n = 0; n < 18; ++n)
+  {
+    const double u = mesh.points(n, 0) / 2, v = mesh.points(n, 1) / 2;
+    const double N[4] = { (1 - u) * (1 - v), u * (1 - v), u * v, (1 - u) * v };
+    mesh.points.row(n).head<2>().setZero();
+    for (int a = 0; a < 4; ++a)
+    {
+      mesh.points.row(n).head<2>() += N[a] * Eigen::RowVector2d(corners[a][0], corners[a][1]);
+    }
+  }
+  mesh.points.conservativeResize(22, 3);
+  for (Index a = 0; a < 4; ++a)
+  {
+    mesh.points.row(18 + a) << corners[a][0], corners[a][1], 2;
+  }
+  meshes::add(mesh, morph::Hexahedron, { 9, 11, 17, 15, 18, 19, 20, 21 });
+  morph::Monitor monitor;
+  HangingNodes found;
+  morph::boundaryFaces(mesh, found, monitor);
+  EXPECT_EQ(found.nodes(), (std::vector<Index>{ 10, 12, 13, 14, 16 }));
+}
+
 // The middle of the large edge follows its corners, and what hangs follows it.
 TEST(HangingNodes, AreTiedToNodesThatFollow)
 {

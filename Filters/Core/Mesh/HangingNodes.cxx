@@ -171,7 +171,13 @@ public:
     , nodes_(nodesOfFaces(mesh, faces))
     , area_(static_cast<Index>(faces.cells.size()), 3)
   {
-    parallel(this->area_.rows(), monitor, [&](Index f) { this->area_.row(f) = this->areaOf(f); });
+    this->isFolded_.resize(this->area_.rows());
+    parallel(this->area_.rows(), monitor,
+      [&](Index f)
+      {
+        this->area_.row(f) = this->areaOf(f);
+        this->isFolded_[f] = this->isFolded(f);
+      });
     this->ofNode_ = sortIntoBuckets(this->area_.rows(), mesh.numberOfNodes(), monitor,
       [&](Index first, Index last, const auto& add)
       {
@@ -240,7 +246,7 @@ public:
     {
       rest += this->area_.row(part);
     }
-    if (rest.norm() > OnFace * this->area_.row(f).norm())
+    if (rest.norm() > OnFace * this->magnitudeOf(f))
     {
       found.clear();
     }
@@ -248,58 +254,30 @@ public:
     return found;
   }
 
-  /// Returns where on `f` a place is, and the weights of its nodes there; nothing off it.
+  /// Returns where on `f` a place is, and the weights of its nodes there; nothing off it. Steps start
+  /// at the nearest node. A face that is folded may pass a place twice: of what steps from each node
+  /// lead to a corner comes first, then a side.
   std::optional<PlaceOnFace> placeOn(Index f, const Eigen::RowVector3d& x) const
   {
-    const auto nodes = static_cast<int>(this->size(f));
-    const bool isTriangle = this->corners(f) == 3;
-    const Eigen::RowVector3d origin = this->place(f, 0);
-    const auto functions = [&](double u, double v)
-    { return isTriangle ? triangleFunctions(nodes, u, v) : quadrilateralFunctions(nodes, u, v); };
-    const auto sum = [&](const std::array<double, MostNodes>& weights)
-    {
-      Eigen::Vector3d result = Eigen::Vector3d::Zero();
-      for (int a = 0; a < nodes; ++a)
+    std::optional<PlaceOnFace> found;
+    const auto zeros = [](const PlaceOnFace& at)
+    { return std::count(at.N.begin(), at.N.end(), 0); };
+    const Index* nearest = std::min_element(this->begin(f), this->end(f),
+      [&](Index a, Index b)
       {
-        result += weights[a] * (this->place(f, a) - origin).transpose();
-      }
-      return result;
-    };
-    constexpr int Steps = 20; // of Gauss and Newton; one for a flat parallelogram
-    const Eigen::Vector3d wanted = (x - origin).transpose();
-    auto [u, v] = this->nearestNode(f, x);
-    for (int step = 0; step < Steps; ++step)
+        return (this->mesh_.points.row(a) - x).squaredNorm() <
+               (this->mesh_.points.row(b) - x).squaredNorm();
+      });
+    const Index first = nearest - this->begin(f);
+    for (Index i = 0; i < (this->isFolded_[f] ? this->size(f) : 1); ++i)
     {
-      const FaceFunctions at = functions(u, v);
-      Eigen::Matrix<double, 3, 2> tangents;
-      tangents << sum(at.dU), sum(at.dV);
-      const Eigen::Vector2d change = tangents.colPivHouseholderQr().solve(wanted - sum(at.N));
-      u += change[0];
-      v += change[1];
-      if (!(change.norm() > 1e-15))
+      const auto at = this->placeFrom((first + i) % this->size(f), f, x);
+      if (at && (!found || zeros(*at) > zeros(*found)))
       {
-        break;
+        found = at;
       }
     }
-    const double off = (wanted - sum(functions(u, v).N)).norm();
-    for (double* value : { &u, &v })
-    {
-      *value = std::abs(*value) < OnFace ? 0 : std::abs(*value - 1) < OnFace ? 1 : *value;
-    }
-    const bool isOnSlope = isTriangle && std::abs(1 - u - v) < OnFace;
-    v = isOnSlope ? 1 - u : v;
-    const bool isInside = u >= 0 && v >= 0 && u <= 1 && v <= 1 && (!isTriangle || 1 - u - v >= 0);
-    if (!isInside || !(off <= OnFace * std::sqrt(this->area_.row(f).norm())))
-    {
-      return std::nullopt;
-    }
-    PlaceOnFace result = { u, v, functions(u, v).N };
-    for (int a = 0; a < nodes; ++a)
-    {
-      // Of nodes on other sides: zero but for rounding.
-      result.N[a] = std::abs(result.N[a]) < 1e-15 ? 0 : result.N[a];
-    }
-    return result;
+    return found;
   }
 
   /// The ends of the side of `f` that a place is on, by their numbers in it, and how far it is from
@@ -334,21 +312,87 @@ public:
   }
 
 private:
-  /// The place of the node of `f` next to `x`, where steps to it start.
-  std::pair<double, double> nearestNode(Index f, const Eigen::RowVector3d& x) const
+  FaceFunctions functions(Index f, double u, double v) const
+  {
+    const auto nodes = static_cast<int>(this->size(f));
+    return this->corners(f) == 3 ? triangleFunctions(nodes, u, v)
+                                 : quadrilateralFunctions(nodes, u, v);
+  }
+  /// The sum of the nodes' places, relative to the first, by weights.
+  Eigen::Vector3d sum(Index f, const std::array<double, MostNodes>& weights) const
+  {
+    Eigen::Vector3d result = Eigen::Vector3d::Zero();
+    for (Index a = 0; a < this->size(f); ++a)
+    {
+      result += weights[a] * (this->place(f, a) - this->place(f, 0)).transpose();
+    }
+    return result;
+  }
+  /// The parameters of a node of `f`.
+  std::pair<double, double> placeOf(Index node, Index f) const
   {
     constexpr std::pair<double, double> OfTriangle[] = { { 0, 0 }, { 1, 0 }, { 0, 1 }, { 0.5, 0 },
       { 0.5, 0.5 }, { 0, 0.5 } };
     constexpr std::pair<double, double> OfQuadrilateral[] = { { 0, 0 }, { 1, 0 }, { 1, 1 },
       { 0, 1 }, { 0.5, 0 }, { 1, 0.5 }, { 0.5, 1 }, { 0, 0.5 }, { 0.5, 0.5 } };
-    const Index* nearest = std::min_element(this->begin(f), this->end(f),
-      [&](Index a, Index b)
+    return this->corners(f) == 3 ? OfTriangle[node] : OfQuadrilateral[node];
+  }
+  /// Whether a part of `f` at one of its nodes faces another way than the whole.
+  bool isFolded(Index f) const
+  {
+    for (Index node = 0; node < this->size(f); ++node)
+    {
+      const auto [u, v] = this->placeOf(node, f);
+      const FaceFunctions at = this->functions(f, u, v);
+      const Eigen::Vector3d normal = this->sum(f, at.dU).cross(this->sum(f, at.dV));
+      if (this->area_.row(f).dot(normal) < 0)
       {
-        return (this->mesh_.points.row(a) - x).squaredNorm() <
-               (this->mesh_.points.row(b) - x).squaredNorm();
-      });
-    const Index place = nearest - this->begin(f);
-    return this->corners(f) == 3 ? OfTriangle[place] : OfQuadrilateral[place];
+        return true;
+      }
+    }
+    return false;
+  }
+  /// The place that steps from a node of `f` lead to.
+  std::optional<PlaceOnFace> placeFrom(Index start, Index f, const Eigen::RowVector3d& x) const
+  {
+    const bool isTriangle = this->corners(f) == 3;
+    constexpr int Steps = 20; // of Gauss and Newton; one for a flat parallelogram
+    const Eigen::RowVector3d origin = this->place(f, 0);
+    const Eigen::Vector3d wanted = (x - origin).transpose();
+    auto [u, v] = this->placeOf(start, f);
+    for (int step = 0; step < Steps; ++step)
+    {
+      const FaceFunctions at = this->functions(f, u, v);
+      Eigen::Matrix<double, 3, 2> tangents;
+      tangents << this->sum(f, at.dU), this->sum(f, at.dV);
+      const Eigen::Vector2d change =
+        tangents.colPivHouseholderQr().solve(wanted - this->sum(f, at.N));
+      u += change[0];
+      v += change[1];
+      if (!(change.norm() > 1e-15))
+      {
+        break;
+      }
+    }
+    const double off = (wanted - this->sum(f, this->functions(f, u, v).N)).norm();
+    for (double* value : { &u, &v })
+    {
+      *value = std::abs(*value) < OnFace ? 0 : std::abs(*value - 1) < OnFace ? 1 : *value;
+    }
+    const bool isOnSlope = isTriangle && std::abs(1 - u - v) < OnFace;
+    v = isOnSlope ? 1 - u : v;
+    const bool isInside = u >= 0 && v >= 0 && u <= 1 && v <= 1 && (!isTriangle || 1 - u - v >= 0);
+    if (!isInside || !(off <= OnFace * std::sqrt(this->magnitudeOf(f))))
+    {
+      return std::nullopt;
+    }
+    PlaceOnFace result = { u, v, this->functions(f, u, v).N };
+    for (double& weight : result.N)
+    {
+      // Of nodes on other sides: zero but for rounding.
+      weight = std::abs(weight) < 1e-15 ? 0 : weight;
+    }
+    return result;
   }
   Eigen::RowVector3d place(Index f, Index node) const
   {
@@ -374,24 +418,67 @@ private:
     }
     return sum;
   }
-  /// Whether `g` lies in `f`, on its other side.
+  /// The area between the corners, also of a face that folds over.
+  double magnitudeOf(Index f) const
+  {
+    double sum = 0;
+    for (Index k = 2; k < this->corners(f); ++k)
+    {
+      const Eigen::RowVector3d a = this->place(f, k - 1) - this->place(f, 0);
+      const Eigen::RowVector3d b = this->place(f, k) - this->place(f, 0);
+      sum += a.cross(b).norm() / 2;
+    }
+    return sum;
+  }
+  /// Whether `g` lies in `f`, on its other side: it runs backward in the parameters of `f`.
   bool isPart(Index g, Index f) const
   {
-    const auto own = this->area_.row(g), all = this->area_.row(f);
-    if (!(own.dot(all) < 0 && own.squaredNorm() < (1 - OnFace) * all.squaredNorm()) ||
-        this->faces_.cells[g] == this->faces_.cells[f])
+    const bool isAgainst = this->isFolded_[f] || this->area_.row(g).dot(this->area_.row(f)) < 0;
+    if (!isAgainst || this->faces_.cells[g] == this->faces_.cells[f] || !this->mayReach(f, g))
     {
       return false;
     }
+    std::vector<PlaceOnFace> places;
+    for (const Index* node = this->begin(g); node != this->end(g); ++node)
+    {
+      const auto at = this->placeOn(f, this->mesh_.points.row(*node));
+      if (!at)
+      {
+        return false;
+      }
+      places.push_back(*at);
+    }
+    double area = 0; // in the parameters, twice
+    const auto corners = static_cast<std::size_t>(this->corners(g));
+    for (std::size_t k = 0; k < corners && !places.empty(); ++k)
+    {
+      const PlaceOnFace &one = places[k], &next = places[(k + 1) % corners];
+      area += one.u * next.v - next.u * one.v;
+    }
+    const double all = this->corners(f) == 3 ? 1 : 2;
+    return area < 0 && -area < (1 - OnFace) * all;
+  }
+  /// Whether all nodes of `g` are in the box of `f`, and so may lie on it. A side through its middle
+  /// leaves the box of the three by less than a quarter of the box's size.
+  bool mayReach(Index f, Index g) const
+  {
+    Eigen::AlignedBox3d box;
+    for (Index a = 0; a < this->size(f); ++a)
+    {
+      box.extend(this->place(f, a).transpose());
+    }
+    const double margin = this->size(f) == this->corners(f) ? OnFace : 0.25;
+    const Eigen::Vector3d more = Eigen::Vector3d::Constant(margin * box.sizes().maxCoeff());
+    box = { box.min() - more, box.max() + more };
     return std::all_of(this->begin(g), this->end(g),
-      [&](Index node)
-      { return this->has(f, node) || this->placeOn(f, this->mesh_.points.row(node)); });
+      [&](Index node) { return box.contains(this->mesh_.points.row(node).transpose()); });
   }
 
   const Mesh& mesh_;
   const BoundaryFaces& faces_;
   Adjacency nodes_;
   Points area_;
+  std::vector<std::uint8_t> isFolded_;
   Adjacency ofNode_;
 };
 
