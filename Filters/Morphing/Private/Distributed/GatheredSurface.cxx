@@ -18,6 +18,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 #include <tuple>
 #include <utility>
 
@@ -35,7 +36,7 @@ struct GatheredSurface::CellRecord
 
 struct GatheredSurface::FaceRecord
 {
-  std::int64_t cell, side;
+  std::int64_t cell, side, corners;
 };
 
 namespace
@@ -168,6 +169,7 @@ void GatheredSurface::Gather(const RankMesh& mesh, vtkUnstructuredGrid* piece)
   std::vector<std::int64_t> nodeIds, cellIds;
   std::vector<CellRecord> cells;
   std::vector<FaceRecord> faces;
+  std::vector<std::int64_t> corners; // of all faces
   std::vector<char> texts;
   ranks.together(
     [&]
@@ -189,10 +191,21 @@ void GatheredSurface::Gather(const RankMesh& mesh, vtkUnstructuredGrid* piece)
         cells.push_back({ whole.cellId(static_cast<Index>(cell)), whole.orientation()[cell],
           body < 0 ? body : this->NumberOfBody[body] });
       }
-      const morph::BoundaryFaces& outer = whole.outerFaces();
-      for (std::size_t f = 0; f < outer.cells.size(); ++f)
+      std::vector<std::pair<Index, int>> places;
+      for (std::size_t f = 0; f < whole.outerFaces().cells.size(); ++f)
       {
-        faces.push_back({ whole.cellId(outer.cells[f]), outer.sides[f] });
+        places.emplace_back(whole.outerFaces().cells[f], whole.outerFaces().sides[f]);
+      }
+      morph::BoundaryFaces outer = morph::facesAt(whole.mesh(), places);
+      whole.hanging().divideEdges(outer);
+      for (std::size_t f = 0; f < places.size(); ++f)
+      {
+        faces.push_back({ whole.cellId(outer.cells[f]), outer.sides[f],
+          outer.offsets[f + 1] - outer.offsets[f] });
+      }
+      for (const Index node : outer.connectivity)
+      {
+        corners.push_back(whole.nodeId(node));
       }
     });
   this->Bytes = 0;
@@ -200,6 +213,7 @@ void GatheredSurface::Gather(const RankMesh& mesh, vtkUnstructuredGrid* piece)
   const auto allNodes = gatherParts(ranks, nodeIds, this->Bytes);
   const auto allCells = gatherParts(ranks, cells, this->Bytes);
   const auto allFaces = gatherParts(ranks, faces, this->Bytes);
+  const auto allCorners = gatherParts(ranks, corners, this->Bytes);
   const auto allTexts = gatherParts(ranks, texts, this->Bytes);
   ranks.together(
     [&]
@@ -211,14 +225,14 @@ void GatheredSurface::Gather(const RankMesh& mesh, vtkUnstructuredGrid* piece)
           FieldTexts::Add(allTexts[p], parts[p]->GetFieldData());
         }
       }
-      this->Assemble(parts, allNodes, allCells, allFaces);
+      this->Assemble(parts, allNodes, allCells);
+      this->DescribeFaces(allFaces, allCorners);
     });
 }
 
 void GatheredSurface::Assemble(const std::vector<vtkSmartPointer<vtkUnstructuredGrid>>& parts,
   const std::vector<std::vector<std::int64_t>>& nodes,
-  const std::vector<std::vector<CellRecord>>& cells,
-  const std::vector<std::vector<FaceRecord>>& faces)
+  const std::vector<std::vector<CellRecord>>& cells)
 {
   std::vector<vtkSmartPointer<vtkIdList>> nodeNumbers, cellNumbers, fromNodes, fromCells;
   std::vector<std::vector<std::int64_t>> cellIds;
@@ -294,20 +308,39 @@ void GatheredSurface::Assemble(const std::vector<vtkSmartPointer<vtkUnstructured
   }
   this->Shell = GridMesh::FromGrid(grid);
 
-  std::vector<std::pair<Index, int>> places;
-  for (const std::vector<FaceRecord>& part : faces)
-  {
-    for (const FaceRecord& face : part)
-    {
-      places.emplace_back(std::lower_bound(this->CellIds.begin(), this->CellIds.end(), face.cell) -
-                            this->CellIds.begin(),
-        static_cast<int>(face.side));
-    }
-  }
-  std::sort(places.begin(), places.end());
-  this->Faces = morph::facesAt(this->Shell, places);
   this->DescribeCells(cells, cellNumbers);
   this->Grid = grid;
+}
+
+/// The faces by cell and side, with the corners that their own processes know.
+void GatheredSurface::DescribeFaces(const std::vector<std::vector<FaceRecord>>& faces,
+  const std::vector<std::vector<std::int64_t>>& corners)
+{
+  const auto numberOf = [](const std::vector<std::int64_t>& ids, std::int64_t id)
+  { return std::lower_bound(ids.begin(), ids.end(), id) - ids.begin(); };
+  std::map<std::pair<Index, int>, std::vector<Index>> cornersOf;
+  for (std::size_t p = 0; p < faces.size(); ++p)
+  {
+    const std::int64_t* corner = corners[p].data();
+    for (const FaceRecord& face : faces[p])
+    {
+      auto& own = cornersOf[{ numberOf(this->CellIds, face.cell), static_cast<int>(face.side) }];
+      for (const std::int64_t* end = corner + face.corners; corner != end; ++corner)
+      {
+        own.push_back(numberOf(this->NodeIds, *corner));
+      }
+    }
+  }
+  std::vector<std::pair<Index, int>> places;
+  std::vector<Index> offsets = { 0 }, connectivity;
+  for (const auto& [place, own] : cornersOf)
+  {
+    places.push_back(place);
+    connectivity.insert(connectivity.end(), own.begin(), own.end());
+    offsets.push_back(static_cast<Index>(connectivity.size()));
+  }
+  this->Faces = morph::facesAt(this->Shell, places);
+  morph::setCorners(std::move(offsets), std::move(connectivity), this->Faces);
 }
 
 void GatheredSurface::DescribeCells(const std::vector<std::vector<CellRecord>>& cells,

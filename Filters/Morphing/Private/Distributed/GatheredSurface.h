@@ -43,8 +43,9 @@ private:
   void NumberBodies(const morph::distributed::DistributedMesh& whole);
   void Assemble(const std::vector<vtkSmartPointer<vtkUnstructuredGrid>>& parts,
     const std::vector<std::vector<std::int64_t>>& nodes,
-    const std::vector<std::vector<CellRecord>>& cells,
-    const std::vector<std::vector<FaceRecord>>& faces);
+    const std::vector<std::vector<CellRecord>>& cells);
+  void DescribeFaces(const std::vector<std::vector<FaceRecord>>& faces,
+    const std::vector<std::vector<std::int64_t>>& corners);
   void DescribeCells(const std::vector<std::vector<CellRecord>>& cells,
     const std::vector<vtkSmartPointer<vtkIdList>>& numbers);
 };

@@ -127,13 +127,6 @@ void GatheredBoundary::Take(vtkUnstructuredGrid* piece, morph::Monitor& monitor)
   }
   own.Surface.Grid = nullptr;
   own.Mesh.RequireVolumeCells();
-  if (own.Mesh.Whole().hasHanging())
-  {
-    throw morph::Error(
-      "The mesh has faces that are divided on one side alone (2:1 refinement). On several MPI "
-      "processes its surfaces end there, so that its boundary cannot be displaced or classified. "
-      "Do that on one process, and morph the pieces by the displaced boundary.");
-  }
   own.Surface.Gather(own.Mesh, piece);
   own.Piece = piece;
   own.PieceTime = piece->GetMTime();
