@@ -18,7 +18,7 @@ Does nothing where they are all installed. Exits with 77 where the registry does
                 design_picture.py need (clang, clang-format, clang-tidy, doxygen, graphviz)
   --site        also what site.sh and its test need (mkdocs, doxygen, chromium)
   --portable    also compilers for other systems, see portable.sh
-  --package     also what package.sh and its test need (debhelper, lintian)
+  --package     also what package.sh and its test need (build-essential, debhelper, lintian)
   --other-debian  also what other-debian.sh needs (mmdebstrap)
 Knows Debian 12, 13 and unstable.
 END
@@ -69,7 +69,7 @@ for option in "$@"; do
     --site) packages+=(mkdocs doxygen chromium chromium-driver python3-selenium) ;;
     --portable) packages+=(clang googletest g++-mingw-w64-x86-64-posix wine64 g++-aarch64-linux-gnu
       qemu-user emscripten) ;;
-    --package) packages+=(debhelper lintian) ;;
+    --package) packages+=(build-essential debhelper lintian) ;;
     --other-debian) packages+=(mmdebstrap uidmap) ;;
     *) usage >&2; exit 2 ;;
   esac

@@ -10,7 +10,7 @@ Builds the Debian packages for the Debian that it runs on, from a copy of the so
 build/debian: meshmorphing has the plugin where ParaView lists it, and morph-mesh;
 libmeshmorphing-dev has the headers, the libraries and their CMake package. Prints their paths. The
 source package is beside them. Install them with: apt-get install <paths>
-Needs the Debian package debhelper (install-packages.sh --package).
+Needs the Debian packages build-essential and debhelper (install-packages.sh --package).
   -j N   processes to build with (default: all cores)
 END
 }
