@@ -66,12 +66,12 @@ public:
     std::vector<int> order_;
   };
 
-  /// Computes the coordinates of `x`, which lies in the tetrahedron `inside`, into the workspace. In
-  /// a face of the hull they are the limit from inside, the coordinates in the face's plane. Returns
-  /// false, with an undefined result, where they do not exist or rounding spoils them. This happens
-  /// outside the hull, on its edges, or if the error in x exceeds 1e-8 of the distance to its
-  /// neighbors. A smaller error is distributed over the weights, so they reproduce linear fields to
-  /// rounding.
+  /// Computes the coordinates of `x`, which lies in the tetrahedron `inside`, into the workspace.
+  /// In a face of the hull they are the limit from inside, the coordinates in the face's plane.
+  /// Returns false, with an undefined result, where they do not exist or rounding spoils them. This
+  /// happens outside the hull, on its edges, or if the error in x exceeds 1e-8 of the distance to
+  /// its neighbors. A smaller error is distributed over the weights, so they reproduce linear
+  /// fields to rounding.
   bool compute(const Eigen::RowVector3d& x, int inside, Workspace& workspace) const;
 
 private:

@@ -49,9 +49,9 @@ public:
   /// Returns the faces that lie in `f` and fill it, ascending; none if there are no such.
   std::vector<Index> parts(Index f) const;
 
-  /// Returns where on `f` a place is, and the weights of its nodes there; nothing off it. Steps start
-  /// at the nearest node. A face that is folded may pass a place twice: of what steps from each node
-  /// lead to a corner comes first, then a side.
+  /// Returns where on `f` a place is, and the weights of its nodes there; nothing off it. Steps
+  /// start at the nearest node. A face that is folded may pass a place twice: of what steps from
+  /// each node lead to a corner comes first, then a side.
   std::optional<PlaceOnFace> placeOn(Index f, const Eigen::RowVector3d& x) const;
 
   /// The ends of the side of `f` that a place is on, by their numbers in it, and how far it is from
@@ -79,8 +79,8 @@ private:
   double magnitudeOf(Index f) const;
   /// Whether `g` lies in `f`, on its other side: it runs backward in the parameters of `f`.
   bool isPart(Index g, Index f) const;
-  /// Whether all nodes of `g` are in the box of `f`, and so may lie on it. A side through its middle
-  /// leaves the box of the three by less than a quarter of the box's size.
+  /// Whether all nodes of `g` are in the box of `f`, and so may lie on it. A side through its
+  /// middle leaves the box of the three by less than a quarter of the box's size.
   bool mayReach(Index f, Index g) const;
 
   const Mesh& mesh_;
