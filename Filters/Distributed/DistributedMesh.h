@@ -66,6 +66,10 @@ public:
   const Halo& cellHalo() const { return this->cellHalo_; }
   const Directory& directory() const { return *this->directory_; }
 
+  /// Joins the components that ranks have of some nodes where these have a node in common.
+  /// `ofNode`: #nodes, -1 for others; becomes numbers from 0 that are the same on all ranks.
+  /// Returns how many there are. Collective.
+  Index join(std::vector<Index>& ofNode) const;
   /// The bodies of the whole mesh, by the same numbers on all ranks.
   const ConnectedComponents& bodies() const { return this->bodies_; }
   /// cellSigns() of the whole mesh; #cells.

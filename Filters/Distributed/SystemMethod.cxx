@@ -2,15 +2,17 @@
 #include "Distributed/SystemMethod.h"
 
 #include "Distributed/Stiffness.h"
-#include "LinearMethods/DirichletSystem.h"
 #include "LinearMethods/FemWarp.h"
 #include "LinearMethods/FemWarpSystem.h"
 #include "LinearMethods/LogBarrierSystem.h"
 #include "LinearMethods/LogBarrierWarp.h"
 #include "Support/Error.h"
+#include "Support/UnionFind.h"
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <numeric>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -35,6 +37,39 @@ std::string noVolume(const std::vector<Index>& ids)
 {
   return "Every cell around node ids " + listIds(ids) +
          " has zero volume, so nothing says where they go. Prescribe them or repair the cells.";
+}
+
+/// rowComponents() of all ranks' rows. `ghosts`: the nodes of the columns of `others`.
+RowComponents componentsOf(const DistributedMesh& mesh, const std::vector<Index>& rows,
+  const CsrMatrix& interior, const CsrMatrix& others, const std::vector<Index>& ghosts)
+{
+  const auto count = static_cast<int>(rows.size());
+  UnionFind<int> parts(count + static_cast<int>(ghosts.size()));
+  for (int i = 0; i < count; ++i)
+  {
+    for (CsrMatrix::InnerIterator entry(interior, i); entry; ++entry)
+    {
+      parts.join(i, static_cast<int>(entry.col()));
+    }
+    for (CsrMatrix::InnerIterator entry(others, i); entry; ++entry)
+    {
+      parts.join(i, count + static_cast<int>(entry.col()));
+    }
+  }
+  std::vector<Index> ofNode(mesh.mesh().numberOfNodes(), -1);
+  int next = 0;
+  for (const std::vector<Index>* nodes : { &rows, &ghosts })
+  {
+    for (const Index node : *nodes)
+    {
+      ofNode[node] = parts.root(next++);
+    }
+  }
+  RowComponents result;
+  result.count = mesh.join(ofNode);
+  std::transform(rows.begin(), rows.end(), std::back_inserter(result.ofRow),
+    [&](Index node) { return static_cast<int>(ofNode[node]); });
+  return result;
 }
 }
 
@@ -93,14 +128,28 @@ void SystemMethod::doPrepare(Monitor& monitor)
   }
   const Index held = static_cast<Index>(prescribed.size());
   this->coupling_ = rows.coupling.middleCols(0, held);
-  this->parts_ =
-    AffineParts(mesh, this->ownFree(), rows.interior, rows.coupling, prescribed, ghosts);
   LinearEquations equations;
   equations.ghosts = rows.coupling.middleCols(held, static_cast<Index>(ghosts.size()));
+  const RowComponents parts =
+    componentsOf(mesh, this->ownFree(), rows.interior, equations.ghosts, ghosts);
+  std::vector<Index> all(number.size());
+  std::iota(all.begin(), all.end(), Index(0));
+  this->processes_ = std::make_unique<RankCommunicator>(mesh, std::move(all));
+  const RankCommunicator& processes = *this->processes_;
+  processes.run(
+    [&]
+    {
+      const Points& points = mesh.mesh().points;
+      monitor.check();
+      this->guess_ =
+        AffineGuess(points, this->partition(), this->ownFree(), parts, this->coupling_, processes);
+      // Here, as hypre takes the matrix.
+      this->affineResidual_ = processes.maximum(
+        affineResidual(points, this->ownFree(), columns, rows.interior, rows.coupling, monitor));
+    });
   equations.matrix.swap(rows.interior);
   equations.ghostNumbers = std::move(ghostNumbers);
   monitor.progress(0.5);
-  ranks.together([&] { monitor.check(); });
   this->solver_ = std::make_unique<HypreSolver>(ranks, this->kind_);
   this->solver_->prepare(std::move(equations), monitor);
 }
@@ -109,11 +158,11 @@ SolveReport SystemMethod::solveEach(
   const HypreSolver& solver, Points rhs, Points& x, Monitor& monitor) const
 {
   const Ranks& ranks = this->mesh().ranks();
-  const std::vector<Index>& part = this->parts_.ofRow();
-  std::vector<double> size(this->parts_.count(), 0);
+  const auto part = [this](Index row) { return this->guess_.component(row); };
+  std::vector<double> size(this->guess_.components(), 0);
   for (Index i = 0; i < rhs.rows(); ++i)
   {
-    size[part[i]] += rhs.row(i).squaredNorm();
+    size[part(i)] += rhs.row(i).squaredNorm();
   }
   ranks.sum(size.data(), size.size());
   for (double& value : size)
@@ -122,15 +171,15 @@ SolveReport SystemMethod::solveEach(
   }
   for (Index i = 0; i < rhs.rows(); ++i)
   {
-    rhs.row(i) /= size[part[i]];
-    x.row(i) /= size[part[i]];
+    rhs.row(i) /= size[part(i)];
+    x.row(i) /= size[part(i)];
   }
   const double count = std::max(1., static_cast<double>(size.size()));
   const SolveReport solved =
     solver.solve(rhs, x, this->tolerance_ / std::sqrt(count), MaxIterations, monitor);
   for (Index i = 0; i < rhs.rows(); ++i)
   {
-    x.row(i) *= size[part[i]];
+    x.row(i) *= size[part(i)];
   }
   return solved;
 }
@@ -151,46 +200,29 @@ EvaluateReport SystemMethod::report(const SolveReport& solved, Monitor& monitor)
 EvaluateReport SystemMethod::displace(
   const Points& prescribed, Points& free, Monitor& monitor) const
 {
-  const DistributedMesh& mesh = this->mesh();
-  const Ranks& ranks = mesh.ranks();
-  const Points& rest = mesh.mesh().points;
-  // Affine motions solve the equations of a uniform stiffness, so the iteration finds only the
-  // remainder. With another stiffness the solution is the fit plus the answer to the rest.
-  const std::vector<AffineFit> fits = this->parts_.fits(mesh, prescribed);
-  Points fitted(free.rows(), 3);
-  for (Index i = 0; i < free.rows(); ++i)
-  {
-    fitted.row(i) = fits[this->parts_.ofRow()[i]].displacement(rest.row(this->ownFree()[i]));
-  }
-  Points rhs = Points::Zero(free.rows(), 3);
-  const std::vector<Index>& held = this->partition().prescribed;
-  for (Index i = 0; i < free.rows(); ++i)
-  {
-    const AffineFit& fit = fits[this->parts_.ofRow()[i]];
-    for (CsrMatrix::InnerIterator entry(this->coupling_, static_cast<int>(i)); entry; ++entry)
+  SolveReport solved;
+  MultiVector x;
+  const DirichletEquations equations = { this->mesh().mesh().points, this->partition(),
+    this->ownFree(), this->coupling_, this->guess_, this->isUniform_,
+    [this] { return this->affineResidual_; } };
+  this->processes_->run(
+    [&]
     {
-      Eigen::RowVector3d motion = prescribed.row(entry.col());
-      if (!this->isUniform_)
-      {
-        motion -= fit.displacement(rest.row(held[entry.col()]));
-      }
-      rhs.row(i) -= entry.value() * motion;
-    }
-  }
-  ranks.together([&] { monitor.check(); });
-  if (this->isUniform_)
-  {
-    free = fitted;
-  }
-  else
-  {
-    free.setZero();
-  }
-  const SolveReport solved = this->solveEach(*this->solver_, std::move(rhs), free, monitor);
-  if (!this->isUniform_)
-  {
-    free += fitted;
-  }
+      equations.solve(toRows(prescribed, monitor), this->tolerance_, x, monitor,
+        [&](const RightHandSide& rhs, MultiVector& solution)
+        {
+          Points b(rhs.rows(), 3), columns;
+          for (Index i = 0; i < b.rows(); ++i)
+          {
+            b.row(i) = rhs[i].head<3>();
+          }
+          fromRows(solution, columns, monitor);
+          this->processes_->sum(0.); // ends all ranks where one was cancelled
+          solved = this->solveEach(*this->solver_, std::move(b), columns, monitor);
+          solution = toRows(columns, monitor);
+        });
+      fromRows(x, free, monitor);
+    });
   return this->report(solved, monitor);
 }
 
@@ -198,34 +230,26 @@ EvaluateReport SystemMethod::displaceTranspose(
   const Points& free, Points& prescribed, Monitor& monitor) const
 {
   // u_I = -A_I^-1 A_B u_B, so M^T g = -A_B^T y with A_I^T y = g.
-  const DistributedMesh& mesh = this->mesh();
-  const Ranks& ranks = mesh.ranks();
   if (this->kind_ == HypreSolver::Kind::General && !this->transposed_)
   {
     this->transposed_ = this->solver_->transposed(monitor);
   }
   const HypreSolver& solver = this->transposed_ ? *this->transposed_ : *this->solver_;
-  ranks.together([&] { monitor.check(); });
   Points solution = Points::Zero(free.rows(), 3);
-  const SolveReport solved = this->solveEach(solver, free, solution, monitor);
-  prescribed -= this->coupling_.transpose() * solution;
-  if (!this->isUniform_)
-  {
-    // The fit F has F_I^T g + F_B^T A_B^T y.
-    const Points& rest = mesh.mesh().points;
-    std::vector<AffineParts::Load> loads(this->parts_.count());
-    for (Index i = 0; i < free.rows(); ++i)
+  SolveReport solved;
+  this->processes_->run(
+    [&]
     {
-      const Index part = this->parts_.ofRow()[i];
-      this->parts_.add(loads[part], part, rest.row(this->ownFree()[i]), free.row(i));
-      for (CsrMatrix::InnerIterator entry(this->coupling_, static_cast<int>(i)); entry; ++entry)
+      monitor.check();
+      this->processes_->sum(0.);
+      solved = this->solveEach(solver, free, solution, monitor);
+      prescribed -= this->coupling_.transpose() * solution;
+      if (!this->isUniform_)
       {
-        this->parts_.add(loads[part], part, rest.row(this->partition().prescribed[entry.col()]),
-          entry.value() * solution.row(i));
+        this->guess_.addTranspose(this->mesh().mesh().points, this->partition(), this->ownFree(),
+          this->coupling_, free, solution, prescribed);
       }
-    }
-    this->parts_.addTranspose(mesh, std::move(loads), prescribed);
-  }
+    });
   return this->report(solved, monitor);
 }
 

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Distributed/AffineParts.h"
 #include "Distributed/HypreSolver.h"
 #include "Distributed/Method.h"
+#include "Distributed/RankCommunicator.h"
 
+#include "LinearMethods/DirichletSystem.h"
 #include "Morpher/CellStiffness.h"
 #include "Solvers/CsrMatrix.h"
 
@@ -61,8 +62,10 @@ private:
   double tolerance_ = 1e-10;
   CellStiffness stiffness_;
   bool isUniform_ = true;
-  CsrMatrix coupling_; ///< #ownFree x #prescribed
-  AffineParts parts_;
+  CsrMatrix coupling_;                          ///< #ownFree x #prescribed
+  std::unique_ptr<RankCommunicator> processes_; ///< of all local nodes
+  AffineGuess guess_;
+  double affineResidual_ = 0;
   std::unique_ptr<HypreSolver> solver_;
   mutable std::unique_ptr<HypreSolver> transposed_; ///< of a General solver, once it is asked for
 };
