@@ -345,6 +345,19 @@ std::vector<Index> DistributedMesh::idsOfNodes(const std::vector<Index>& nodes) 
   return ids;
 }
 
+std::vector<Index> DistributedMesh::gatherCells(const std::vector<Index>& cells) const
+{
+  std::vector<Index> ids;
+  for (const Index cell : cells)
+  {
+    if (this->isGhost_[cell] == 0)
+    {
+      ids.push_back(this->cellIds_[cell]);
+    }
+  }
+  return this->ranks_->gatherSorted(ids);
+}
+
 Index DistributedMesh::nodeOf(std::int64_t id) const
 {
   const auto found =

@@ -58,6 +58,9 @@ public:
   const std::vector<std::int64_t>& cellIds() const { return this->cellIds_; }
   /// Global ids of nodes or cells, for messages.
   std::vector<Index> idsOfNodes(const std::vector<Index>& nodes) const;
+  /// The global ids of these cells of all ranks, ascending. `cells`: local; ghosts are left out.
+  /// Collective.
+  std::vector<Index> gatherCells(const std::vector<Index>& cells) const;
   /// Returns the local node of a global id, or -1.
   Index nodeOf(std::int64_t id) const;
 

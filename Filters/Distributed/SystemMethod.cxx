@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Distributed/SystemMethod.h"
 
+#include "Distributed/Methods.h"
 #include "Distributed/Stiffness.h"
 #include "LinearMethods/FemWarp.h"
 #include "LinearMethods/FemWarpSystem.h"
@@ -27,10 +28,8 @@ constexpr int MaxIterations = 2000;
 std::vector<Index> gatherIds(const Ranks& ranks, const std::vector<Index>& mine)
 {
   constexpr std::size_t Most = 100; // of a rank: a message names no more
-  std::vector<Index> ids(mine.begin(), mine.begin() + std::min(Most, mine.size()));
-  ids = ranks.gather(ids);
-  std::sort(ids.begin(), ids.end());
-  return ids;
+  return ranks.gatherSorted(
+    std::vector<Index>(mine.begin(), mine.begin() + std::min(Most, mine.size())));
 }
 
 std::string noVolume(const std::vector<Index>& ids)
@@ -79,18 +78,19 @@ void SystemMethod::setTolerance(double tolerance)
   this->tolerance_ = tolerance;
 }
 
-void SystemMethod::doPrepare(Monitor& monitor)
+void SystemMethod::doPrepare(const Mesh& rest, Monitor& monitor)
 {
-  const DistributedMesh& mesh = this->mesh();
+  const DistributedMesh& mesh = meshOf(this->processes());
   const Ranks& ranks = mesh.ranks();
   requirePrescribedBodies(mesh, this->partition());
   const std::vector<Index>& prescribed = this->partition().prescribed;
   std::vector<Index> columns = prescribed, ghosts;
-  for (Index node : this->partition().free)
+  for (Index n = 0; n < rest.numberOfNodes(); ++n)
   {
-    if (!mesh.owns(node))
+    const bool isCorner = mesh.bodies().ofNode[n] >= 0;
+    if (isCorner && !mesh.owns(n) && !std::binary_search(prescribed.begin(), prescribed.end(), n))
     {
-      ghosts.push_back(node);
+      ghosts.push_back(n);
     }
   }
   columns.insert(columns.end(), ghosts.begin(), ghosts.end());
@@ -99,13 +99,13 @@ void SystemMethod::doPrepare(Monitor& monitor)
   this->isUniform_ = ranks.sum(Index(!factors.empty())) == 0;
   Rows rows = this->assemble(columns, factors, monitor);
 
-  const Index count = static_cast<Index>(this->ownFree().size());
+  const Index count = static_cast<Index>(this->partition().free.size());
   std::vector<Index> singular;
   for (Index i = 0; i < count; ++i)
   {
     if (!(rows.interior.coeff(i, i) > 0))
     {
-      singular.push_back(mesh.nodeId(this->ownFree()[i]));
+      singular.push_back(mesh.nodeId(this->partition().free[i]));
     }
   }
   singular = gatherIds(ranks, singular);
@@ -118,7 +118,7 @@ void SystemMethod::doPrepare(Monitor& monitor)
   std::vector<std::int64_t> number(mesh.mesh().numberOfNodes(), -1);
   for (Index i = 0; i < count; ++i)
   {
-    number[this->ownFree()[i]] = first + i;
+    number[this->partition().free[i]] = first + i;
   }
   mesh.halo().update(ranks, number);
   std::vector<std::int64_t> ghostNumbers;
@@ -131,22 +131,12 @@ void SystemMethod::doPrepare(Monitor& monitor)
   LinearEquations equations;
   equations.ghosts = rows.coupling.middleCols(held, static_cast<Index>(ghosts.size()));
   const RowComponents parts =
-    componentsOf(mesh, this->ownFree(), rows.interior, equations.ghosts, ghosts);
-  std::vector<Index> all(number.size());
-  std::iota(all.begin(), all.end(), Index(0));
-  this->processes_ = std::make_unique<RankCommunicator>(mesh, std::move(all));
-  const RankCommunicator& processes = *this->processes_;
-  processes.run(
-    [&]
-    {
-      const Points& points = mesh.mesh().points;
-      monitor.check();
-      this->guess_ =
-        AffineGuess(points, this->partition(), this->ownFree(), parts, this->coupling_, processes);
-      // Here, as hypre takes the matrix.
-      this->affineResidual_ = processes.maximum(
-        affineResidual(points, this->ownFree(), columns, rows.interior, rows.coupling, monitor));
-    });
+    componentsOf(mesh, this->partition().free, rows.interior, equations.ghosts, ghosts);
+  this->guess_ = AffineGuess(rest.points, this->partition(), this->partition().free, parts,
+    this->coupling_, this->processes());
+  // Here, as hypre takes the matrix.
+  this->affineResidual_ = this->processes().maximum(affineResidual(
+    rest.points, this->partition().free, columns, rows.interior, rows.coupling, monitor));
   equations.matrix.swap(rows.interior);
   equations.ghostNumbers = std::move(ghostNumbers);
   monitor.progress(0.5);
@@ -157,7 +147,7 @@ void SystemMethod::doPrepare(Monitor& monitor)
 SolveReport SystemMethod::solveEach(
   const HypreSolver& solver, Points rhs, Points& x, Monitor& monitor) const
 {
-  const Ranks& ranks = this->mesh().ranks();
+  const Ranks& ranks = meshOf(this->processes()).ranks();
   const auto part = [this](Index row) { return this->guess_.component(row); };
   std::vector<double> size(this->guess_.components(), 0);
   for (Index i = 0; i < rhs.rows(); ++i)
@@ -190,7 +180,7 @@ EvaluateReport SystemMethod::report(const SolveReport& solved, Monitor& monitor)
   report.iterations = solved.iterations;
   report.relativeResidual = solved.relativeResidual;
   report.statistics = this->counts();
-  if (this->mesh().ranks().rank() == 0)
+  if (meshOf(this->processes()).ranks().rank() == 0)
   {
     reportRounding(solved, this->tolerance_, monitor);
   }
@@ -202,27 +192,22 @@ EvaluateReport SystemMethod::displace(
 {
   SolveReport solved;
   MultiVector x;
-  const DirichletEquations equations = { this->mesh().mesh().points, this->partition(),
-    this->ownFree(), this->coupling_, this->guess_, this->isUniform_,
+  const DirichletEquations equations = { this->restPoints(), this->partition(),
+    this->partition().free, this->coupling_, this->guess_, this->isUniform_,
     [this] { return this->affineResidual_; } };
-  this->processes_->run(
-    [&]
+  equations.solve(toRows(prescribed, monitor), this->tolerance_, x, monitor,
+    [&](const RightHandSide& rhs, MultiVector& solution)
     {
-      equations.solve(toRows(prescribed, monitor), this->tolerance_, x, monitor,
-        [&](const RightHandSide& rhs, MultiVector& solution)
-        {
-          Points b(rhs.rows(), 3), columns;
-          for (Index i = 0; i < b.rows(); ++i)
-          {
-            b.row(i) = rhs[i].head<3>();
-          }
-          fromRows(solution, columns, monitor);
-          this->processes_->sum(0.); // ends all ranks where one was cancelled
-          solved = this->solveEach(*this->solver_, std::move(b), columns, monitor);
-          solution = toRows(columns, monitor);
-        });
-      fromRows(x, free, monitor);
+      Points b(rhs.rows(), 3), columns;
+      for (Index i = 0; i < b.rows(); ++i)
+      {
+        b.row(i) = rhs[i].head<3>();
+      }
+      fromRows(solution, columns, monitor);
+      solved = this->solveEach(*this->solver_, std::move(b), columns, monitor);
+      solution = toRows(columns, monitor);
     });
+  fromRows(x, free, monitor);
   return this->report(solved, monitor);
 }
 
@@ -236,20 +221,14 @@ EvaluateReport SystemMethod::displaceTranspose(
   }
   const HypreSolver& solver = this->transposed_ ? *this->transposed_ : *this->solver_;
   Points solution = Points::Zero(free.rows(), 3);
-  SolveReport solved;
-  this->processes_->run(
-    [&]
-    {
-      monitor.check();
-      this->processes_->sum(0.);
-      solved = this->solveEach(solver, free, solution, monitor);
-      prescribed -= this->coupling_.transpose() * solution;
-      if (!this->isUniform_)
-      {
-        this->guess_.addTranspose(this->mesh().mesh().points, this->partition(), this->ownFree(),
-          this->coupling_, free, solution, prescribed);
-      }
-    });
+  monitor.check();
+  const SolveReport solved = this->solveEach(solver, free, solution, monitor);
+  prescribed -= this->coupling_.transpose() * solution;
+  if (!this->isUniform_)
+  {
+    this->guess_.addTranspose(this->restPoints(), this->partition(), this->partition().free,
+      this->coupling_, free, solution, prescribed);
+  }
   return this->report(solved, monitor);
 }
 
@@ -261,7 +240,7 @@ void FemWarp::takeEvaluateOptions(const Morpher& serial)
 SystemMethod::Rows FemWarp::assemble(
   const std::vector<Index>& columns, const std::vector<double>& factors, Monitor& monitor)
 {
-  const DistributedMesh& mesh = this->mesh();
+  const DistributedMesh& mesh = meshOf(this->processes());
   const Ranks& ranks = mesh.ranks();
   FemWarpSystem system;
   Rows rows;
@@ -269,7 +248,7 @@ SystemMethod::Rows FemWarp::assemble(
   ranks.together(
     [&]
     {
-      system = femWarpSystem(mesh.mesh(), this->ownFree(), columns, factors, monitor);
+      system = femWarpSystem(mesh.mesh(), this->partition().free, columns, factors, monitor);
       rows.interior.swap(system.interior); // Eigen 3.4 would copy on a move
       rows.coupling.swap(system.coupling);
       if (system.hasBadCells)
@@ -279,17 +258,7 @@ SystemMethod::Rows FemWarp::assemble(
     });
   for (std::vector<Index>* list : { &bad.inverted, &bad.flat, &bad.absolute })
   {
-    std::vector<Index> ids;
-    for (Index cell : *list)
-    {
-      if (mesh.isGhost()[cell] == 0)
-      {
-        ids.push_back(mesh.cellId(cell));
-      }
-    }
-    ids = ranks.gather(ids);
-    std::sort(ids.begin(), ids.end());
-    *list = ids;
+    *list = mesh.gatherCells(*list);
   }
   const std::string warning = describe(bad);
   if (!warning.empty() && ranks.rank() == 0)
@@ -307,14 +276,15 @@ void LogBarrierWarp::takeEvaluateOptions(const Morpher& serial)
 SystemMethod::Rows LogBarrierWarp::assemble(
   const std::vector<Index>& columns, const std::vector<double>& /*factors*/, Monitor& monitor)
 {
-  const DistributedMesh& mesh = this->mesh();
+  const DistributedMesh& mesh = meshOf(this->processes());
   const Ranks& ranks = mesh.ranks();
   LogBarrierSystem system;
   Rows rows;
   ranks.together(
     [&]
     {
-      system = logBarrierSystem(mesh.mesh(), this->ownFree(), columns, this->relax_, monitor);
+      system =
+        logBarrierSystem(mesh.mesh(), this->partition().free, columns, this->relax_, monitor);
       rows.interior.swap(system.interior); // Eigen 3.4 would copy on a move
       rows.coupling.swap(system.coupling);
     });
