@@ -345,6 +345,19 @@ std::vector<Index> DistributedMesh::idsOfNodes(const std::vector<Index>& nodes) 
   return ids;
 }
 
+std::vector<Index> DistributedMesh::gatherCells(const std::vector<Index>& cells) const
+{
+  std::vector<Index> ids;
+  for (const Index cell : cells)
+  {
+    if (this->isGhost_[cell] == 0)
+    {
+      ids.push_back(this->cellIds_[cell]);
+    }
+  }
+  return this->ranks_->gatherSorted(ids);
+}
+
 Index DistributedMesh::nodeOf(std::int64_t id) const
 {
   const auto found =
@@ -626,54 +639,68 @@ void DistributedMesh::findHanging(Builder& builder, Monitor& monitor)
   this->hanging_ = hanging.renumbered(nodeOf, cellOf, this->mesh_.numberOfNodes());
 }
 
-void DistributedMesh::findBodies(Monitor& monitor)
+Index DistributedMesh::join(std::vector<Index>& ofNode) const
 {
-  const Ranks& ranks = *this->ranks_;
-  this->bodies_ = connectedComponents(this->mesh_, monitor);
-  std::vector<std::int64_t> label(this->bodies_.count, NoBody);
-  std::vector<std::int64_t> ofNode(this->mesh_.numberOfNodes(), NoBody);
+  // The label of a component is the lowest id of its nodes.
+  std::vector<std::int64_t> label(ofNode.size(), NoBody);
   for (std::size_t n = 0; n < ofNode.size(); ++n)
   {
-    const Index body = this->bodies_.ofNode[n];
-    ofNode[n] = body < 0 ? NoBody : this->nodeIds_[n];
+    label[n] = ofNode[n] < 0 ? NoBody : this->nodeIds_[n];
   }
-  for (Index changes = 1; changes > 0;)
+  const Index parts = ofNode.empty() ? 0 : 1 + *std::max_element(ofNode.begin(), ofNode.end());
+  std::vector<std::int64_t> lowest(parts, NoBody);
+  for (Index changes = 1; changes > 0; changes = this->ranks_->sum(changes))
   {
     changes = 0;
     for (std::size_t n = 0; n < ofNode.size(); ++n)
     {
-      if (const Index body = this->bodies_.ofNode[n]; body >= 0 && ofNode[n] < label[body])
+      if (ofNode[n] >= 0 && label[n] < lowest[ofNode[n]])
       {
-        label[body] = ofNode[n];
+        lowest[ofNode[n]] = label[n];
         ++changes;
       }
     }
     for (std::size_t n = 0; n < ofNode.size(); ++n)
     {
-      if (const Index body = this->bodies_.ofNode[n]; body >= 0)
+      if (ofNode[n] >= 0)
       {
-        ofNode[n] = label[body];
+        label[n] = lowest[ofNode[n]];
       }
     }
-    this->halo_.minimum(ranks, ofNode);
-    changes = ranks.sum(changes);
+    this->halo_.minimum(*this->ranks_, label);
   }
-  std::vector<std::int64_t> labels = label;
-  std::sort(labels.begin(), labels.end());
-  labels.erase(std::unique(labels.begin(), labels.end()), labels.end());
-  labels = ranks.gather(labels);
-  std::sort(labels.begin(), labels.end());
-  labels.erase(std::unique(labels.begin(), labels.end()), labels.end());
-  const auto numberOf = [&](Index body)
+  const auto makeUnique = [](std::vector<std::int64_t>& values)
   {
-    return body < 0 ? body
-                    : std::lower_bound(labels.begin(), labels.end(), label[body]) - labels.begin();
+    std::sort(values.begin(), values.end());
+    values.erase(std::unique(values.begin(), values.end()), values.end());
   };
-  for (std::vector<Index>* list : { &this->bodies_.ofCell, &this->bodies_.ofNode })
+  makeUnique(lowest);
+  lowest = this->ranks_->gather(lowest);
+  makeUnique(lowest);
+  if (!lowest.empty() && lowest.back() == NoBody) // of numbers that no node has
   {
-    std::transform(list->begin(), list->end(), list->begin(), numberOf);
+    lowest.pop_back();
   }
-  this->bodies_.count = static_cast<Index>(labels.size());
+  for (std::size_t n = 0; n < ofNode.size(); ++n)
+  {
+    if (ofNode[n] >= 0)
+    {
+      ofNode[n] = std::lower_bound(lowest.begin(), lowest.end(), label[n]) - lowest.begin();
+    }
+  }
+  return static_cast<Index>(lowest.size());
+}
+
+void DistributedMesh::findBodies(Monitor& monitor)
+{
+  const Ranks& ranks = *this->ranks_;
+  this->bodies_ = connectedComponents(this->mesh_, monitor);
+  this->bodies_.count = this->join(this->bodies_.ofNode);
+  for (std::size_t c = 0; c < this->bodies_.ofCell.size(); ++c)
+  {
+    Index& body = this->bodies_.ofCell[c];
+    body = body < 0 ? body : this->bodies_.ofNode[*this->mesh_.cell(static_cast<Index>(c))];
+  }
 
   ShapeVolumes volumes = shapeVolumes(this->mesh_, this->bodies_, this->isGhost_, monitor);
   ranks.sum(volumes.volume.data(), volumes.volume.size());

@@ -58,6 +58,9 @@ public:
   const std::vector<std::int64_t>& cellIds() const { return this->cellIds_; }
   /// Global ids of nodes or cells, for messages.
   std::vector<Index> idsOfNodes(const std::vector<Index>& nodes) const;
+  /// The global ids of these cells of all ranks, ascending. `cells`: local; ghosts are left out.
+  /// Collective.
+  std::vector<Index> gatherCells(const std::vector<Index>& cells) const;
   /// Returns the local node of a global id, or -1.
   Index nodeOf(std::int64_t id) const;
 
@@ -66,6 +69,10 @@ public:
   const Halo& cellHalo() const { return this->cellHalo_; }
   const Directory& directory() const { return *this->directory_; }
 
+  /// Joins the components that ranks have of some nodes where these have a node in common.
+  /// `ofNode`: #nodes, -1 for others; becomes numbers from 0 that are the same on all ranks.
+  /// Returns how many there are. Collective.
+  Index join(std::vector<Index>& ofNode) const;
   /// The bodies of the whole mesh, by the same numbers on all ranks.
   const ConnectedComponents& bodies() const { return this->bodies_; }
   /// cellSigns() of the whole mesh; #cells.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Distributed/InversionFree.h"
 
+#include "Distributed/Methods.h"
 #include "LinearMethods/SimplexLinear.h"
 #include "Quality/BoundaryDetermined.h"
 #include "Quality/MovableQuality.h"
@@ -28,42 +29,37 @@ MeshImprovement InversionFree::improvement(const std::vector<Index>& hopeless) c
     this->geometry_, hopeless, this->options_, this->own_->communicator() };
 }
 
-void InversionFree::doPrepare(Monitor& monitor)
+void InversionFree::doPrepare(const Mesh& all, Monitor& monitor)
 {
-  const DistributedMesh& mesh = this->mesh();
-  const Points& rest = mesh.mesh().points;
+  const Points& rest = all.points;
   const Points& reference = this->reference_.rows() > 0 ? this->reference_ : rest;
-  mesh.ranks().together([&] { this->own_ = std::make_unique<OwnCells>(mesh, this->partition()); });
+  this->own_ = std::make_unique<OwnCells>(meshOf(this->processes()), this->partition());
   OwnCells& own = *this->own_;
   ProgressRange first(monitor, 0, 0.2), second(monitor, 0.2, 0.7), third(monitor, 0.7, 1);
-  own.communicator().run(
-    [&]
-    {
-      own.mesh().points = own.take(reference);
-      this->scale_ = unitEdgeScale(own.mesh(), own.communicator());
-      own.mesh().points *= this->scale_;
-      const auto minimumAt = [&](const Points& points)
-      {
-        const morph::Quality quality = measureCorners(
-          own.mesh(), own.take(points) * this->scale_, own.orientation(), {}, monitor);
-        return own.communicator().minimum(
-          quality.measured > 0 ? quality.minimum : std::numeric_limits<double>::infinity());
-      };
-      this->options_.minimumAtRest = minimumAt(rest);
-      if (!(minimumAt(reference) > 0))
-      {
-        throw Error(
-          "The undeformed mesh has inverted or degenerate cells. On several MPI ranks the "
-          "inversion-free method needs a valid one: repair it on one rank first.");
-      }
-      this->boundary_ = own.outerFaces();
-      this->geometry_ = classify(own.mesh(), this->boundary_, {}, first);
-    });
-  this->femWarp_.prepare(mesh, this->partition(), second);
+  own.mesh().points = own.take(reference);
+  this->scale_ = unitEdgeScale(own.mesh(), own.communicator());
+  own.mesh().points *= this->scale_;
+  const auto minimumAt = [&](const Points& points)
+  {
+    const morph::Quality quality =
+      measureCorners(own.mesh(), own.take(points) * this->scale_, own.orientation(), {}, monitor);
+    return own.communicator().minimum(
+      quality.measured > 0 ? quality.minimum : std::numeric_limits<double>::infinity());
+  };
+  this->options_.minimumAtRest = minimumAt(rest);
+  if (!(minimumAt(reference) > 0))
+  {
+    throw Error("The undeformed mesh has inverted or degenerate cells. On several MPI ranks the "
+                "inversion-free method needs a valid one: repair it on one rank first.");
+  }
+  this->boundary_ = own.outerFaces();
+  this->geometry_ = classify(own.mesh(), this->boundary_, {}, first);
+  const auto processes = std::make_shared<RankCommunicator>(meshOf(this->processes()));
+  this->femWarp_.prepare(all, this->partition(), second, processes);
   this->simplexLinear_ = std::make_unique<SiteMethod>(std::make_unique<SimplexLinear>());
   try
   {
-    this->simplexLinear_->prepare(mesh, this->partition(), third);
+    this->simplexLinear_->prepare(all, this->partition(), third, processes);
   }
   catch (const Error& error)
   {
@@ -85,25 +81,21 @@ void InversionFree::findStart(const Points& target, const std::vector<Index>& ho
   {
     this->simplexLinear_->evaluate(target, simplex, monitor);
   }
-  this->own_->communicator().run(
-    [&]
-    {
-      const MovableQuality quality = this->improvement(hopeless).quality();
-      const auto at = [&](const Points& start)
-      { return quality.measure(this->own_->take(start) * this->scale_, monitor); };
-      if (this->simplexLinear_ && at(points) < at(simplex))
-      {
-        points = simplex;
-      }
-    });
+  const MovableQuality quality = this->improvement(hopeless).quality();
+  const auto at = [&](const Points& start)
+  { return quality.measure(this->own_->take(start) * this->scale_, monitor); };
+  if (this->simplexLinear_ && at(points) < at(simplex))
+  {
+    points = simplex;
+  }
 }
 
 EvaluateReport InversionFree::displace(
   const Points& prescribed, Points& free, Monitor& monitor) const
 {
-  const DistributedMesh& mesh = this->mesh();
+  const DistributedMesh& mesh = meshOf(this->processes());
   const Ranks& ranks = mesh.ranks();
-  const Points& rest = mesh.mesh().points;
+  const Points& rest = this->restPoints();
   const OwnCells& own = *this->own_;
   Monitor quiet;
   Monitor& speaking = ranks.rank() == 0 ? monitor : quiet;
@@ -120,44 +112,29 @@ EvaluateReport InversionFree::displace(
   Points points = rest;
   points(this->partition().prescribed, allColumns) = target;
   mesh.halo().update(ranks, points);
-  std::vector<Index> determined, hopeless;
-  own.communicator().run(
-    [&]
-    {
-      const Points moved = own.take(points) * this->scale_;
-      determined = inversionsByBoundaryMotion(own.mesh(), own.partition(), own.orientation(),
-        own.take(rest) * this->scale_, moved, second);
-      hopeless =
-        boundaryDeterminedInversions(own.mesh(), own.partition(), own.orientation(), moved);
-    });
+  Points improved = own.take(points) * this->scale_;
+  const std::vector<Index> determined = inversionsByBoundaryMotion(own.mesh(), own.partition(),
+    own.orientation(), own.take(rest) * this->scale_, improved, second);
+  const std::vector<Index> hopeless =
+    boundaryDeterminedInversions(own.mesh(), own.partition(), own.orientation(), improved);
   const Points atRest = points;
   this->findStart(target, hopeless, points, guesses, first);
-  MeshImprovement::Outcome outcome;
-  own.communicator().run(
-    [&]
-    {
-      Points improved = own.take(points) * this->scale_;
-      const Points guide = improved;
-      const MeshImprovement improvement = this->improvement(hopeless);
-      outcome = improvement.run(guide, TargetConstruction::Stretched, false, improved, second);
-      const Points moved = own.take(atRest) * this->scale_;
-      const MovableQuality quality = improvement.quality();
-      if (!outcome.untangled && quality.measure(improved, second) < quality.measure(moved, second))
-      {
-        improved = moved;
-      }
-      points(own.nodes(), allColumns) = improved / this->scale_;
-    });
-  free = points(this->ownFree(), allColumns) - rest(this->ownFree(), allColumns);
+  improved = own.take(points) * this->scale_;
+  const Points guide = improved;
+  const MeshImprovement improvement = this->improvement(hopeless);
+  MeshImprovement::Outcome outcome =
+    improvement.run(guide, TargetConstruction::Stretched, false, improved, second);
+  const Points moved = own.take(atRest) * this->scale_;
+  const MovableQuality quality = improvement.quality();
+  if (!outcome.untangled && quality.measure(improved, second) < quality.measure(moved, second))
+  {
+    improved = moved;
+  }
+  points(own.nodes(), allColumns) = improved / this->scale_;
+  free = points(this->partition().free, allColumns) - rest(this->partition().free, allColumns);
   outcome.onFolds = own.gatherIds(outcome.onFolds);
   EvaluateReport report = reportImprovement(outcome, own.gatherIds(determined), speaking);
   report.iterations += guesses.iterations;
   return report;
-}
-
-EvaluateReport InversionFree::displaceTranspose(const Points&, Points&, Monitor&) const
-{
-  throw Error("The inversion-free method is not linear, so it has no adjoint that is the same for "
-              "all motions. Use one that is, FEMWARP for instance.");
 }
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Distributed/Method.h"
 #include "Distributed/OwnCells.h"
 #include "Distributed/SiteMethod.h"
 #include "Distributed/SystemMethod.h"
@@ -21,21 +20,18 @@ namespace morph::distributed
 /// recognized by the outer faces of each rank alone.
 ///
 /// Counts: those of morph::InversionFree.
-class InversionFree : public Method
+class InversionFree : public Morpher
 {
 public:
   /// Takes the options of the serial method.
   explicit InversionFree(const morph::InversionFree& serial) { this->takeEvaluateOptions(serial); }
 
-  int layers() const override { return 1; }
   void takeEvaluateOptions(const Morpher& serial) override;
   void setReference(Points reference) override { this->reference_ = std::move(reference); }
 
 protected:
-  void doPrepare(Monitor& monitor) override;
+  void doPrepare(const Mesh& rest, Monitor& monitor) override;
   EvaluateReport displace(const Points& prescribed, Points& free, Monitor& monitor) const override;
-  EvaluateReport displaceTranspose(
-    const Points& free, Points& prescribed, Monitor& monitor) const override;
 
 private:
   MeshImprovement improvement(const std::vector<Index>& hopeless) const;

@@ -76,13 +76,11 @@ BoundaryFaces OwnCells::outerFaces() const
 
 std::vector<Index> OwnCells::gatherIds(const std::vector<Index>& cells) const
 {
-  std::vector<Index> ids;
+  std::vector<Index> ofWhole;
   for (const Index cell : cells)
   {
-    ids.push_back(this->whole_.cellId(this->part_.cells[cell]));
+    ofWhole.push_back(this->part_.cells[cell]);
   }
-  ids = this->whole_.ranks().gather(ids);
-  std::sort(ids.begin(), ids.end());
-  return ids;
+  return this->whole_.gatherCells(ofWhole);
 }
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Distributed/Patches.h"
 
+#include "Distributed/Silent.h"
 #include "Mesh/CellShape.h"
 #include "Quality/ScaledJacobian.h"
 #include "Support/Error.h"
@@ -209,17 +210,6 @@ struct Patch
     }
     return result;
   }
-};
-
-/// Keeps back what a patch says: it has other numbers.
-class Silent : public ProgressRange
-{
-public:
-  explicit Silent(Monitor& whole)
-    : ProgressRange(whole, 0, 1)
-  {
-  }
-  void warn(const std::string&) override {}
 };
 
 /// Sends each patch to its rank, which is that of its number among `all` labels in turn.

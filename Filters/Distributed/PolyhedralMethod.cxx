@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Distributed/PolyhedralMethod.h"
 
+#include "Distributed/Methods.h"
+#include "Distributed/RankCommunicator.h"
 #include "Distributed/SystemMethod.h"
 
 #include "Support/Error.h"
@@ -11,7 +13,7 @@
 
 namespace morph::distributed
 {
-PolyhedralMethod::PolyhedralMethod(std::unique_ptr<Method> method)
+PolyhedralMethod::PolyhedralMethod(std::unique_ptr<Morpher> method)
   : method_(std::move(method))
 {
   if (const auto* system = dynamic_cast<const SystemMethod*>(this->method_.get()))
@@ -30,12 +32,12 @@ void PolyhedralMethod::setReference(Points reference)
   this->reference_ = std::move(reference);
 }
 
-void PolyhedralMethod::doPrepare(Monitor& monitor)
+void PolyhedralMethod::doPrepare(const Mesh& rest, Monitor& monitor)
 {
-  const DistributedMesh& whole = this->mesh();
+  const DistributedMesh& whole = meshOf(this->processes());
   requirePrescribedBodies(whole, this->partition()); // its message counts cells, not pieces
   // As their owners have them, who know all cells around them.
-  std::vector<std::int64_t> follows(whole.mesh().numberOfNodes(), 0);
+  std::vector<std::int64_t> follows(rest.numberOfNodes(), 0);
   for (const Index node : this->partition().higherOrderNodes)
   {
     follows[node] = 1;
@@ -79,22 +81,25 @@ void PolyhedralMethod::doPrepare(Monitor& monitor)
     }
     system->setStiffness(std::move(stiffness));
   }
-  this->method_->prepare(this->cut_->mesh(), this->cut_->extend(this->partition()), monitor);
+  this->method_->prepare(this->cut_->mesh().mesh(), this->cut_->extend(this->partition()), monitor,
+    std::make_shared<RankCommunicator>(this->cut_->mesh()));
 }
 
 EvaluateReport PolyhedralMethod::displace(
   const Points& prescribed, Points& free, Monitor& monitor) const
 {
-  Points displacement = Points::Zero(this->mesh().mesh().numberOfNodes(), 3);
+  Points displacement = Points::Zero(this->restPoints().rows(), 3);
   displacement(this->partition().prescribed, allColumns) = prescribed;
-  this->mesh().hanging().apply(displacement);
+  meshOf(this->processes()).hanging().apply(displacement);
   const Points all = this->cut_->extend(displacement);
-  Points field;
+  const std::vector<Index>& ids = this->method_->partition().prescribed;
+  const Points& places = this->method_->restPoints();
+  Points moved;
   const EvaluateReport report =
-    this->method_->mode(all(this->method_->partition().prescribed, allColumns), field, monitor);
-  displacement = this->cut_->reduce(field, std::move(displacement));
-  this->mesh().hanging().apply(displacement);
-  free = displacement(this->ownFree(), allColumns);
+    this->method_->evaluate(Points(places(ids, allColumns) + all(ids, allColumns)), moved, monitor);
+  displacement = this->cut_->reduce(moved - places, std::move(displacement));
+  meshOf(this->processes()).hanging().apply(displacement);
+  free = displacement(this->partition().free, allColumns);
   return report;
 }
 
@@ -102,7 +107,7 @@ EvaluateReport PolyhedralMethod::displaceTranspose(
   const Points& free, Points& prescribed, Monitor& monitor) const
 {
   // The ties of a rank's own nodes give to ghosts, which give to their owners.
-  const DistributedMesh& whole = this->mesh();
+  const DistributedMesh& whole = meshOf(this->processes());
   const auto applyTies = [&](Points& rows)
   {
     whole.hanging().applyTranspose(rows);
@@ -110,18 +115,19 @@ EvaluateReport PolyhedralMethod::displaceTranspose(
   };
   const Index nodes = this->cut_->mesh().mesh().numberOfNodes();
   Points own = Points::Zero(whole.mesh().numberOfNodes(), 3);
-  own(this->ownFree(), allColumns) = free;
+  own(this->partition().free, allColumns) = free;
   applyTies(own);
   prescribed += own(this->partition().prescribed, allColumns);
   Points gradient = Points::Zero(nodes, 3), given;
-  for (const Index node : this->ownFree())
+  for (const Index node : this->partition().free)
   {
     if (this->cut_->nodeOf(node) >= 0)
     {
       gradient.row(this->cut_->nodeOf(node)) = own.row(node);
     }
   }
-  const EvaluateReport report = this->method_->applyTranspose(gradient, given, monitor);
+  const EvaluateReport report =
+    dynamic_cast<const LinearMorpher&>(*this->method_).applyTranspose(gradient, given, monitor);
   Points all = Points::Zero(nodes, 3);
   all(this->method_->partition().prescribed, allColumns) = given;
   own = this->cut_->extendTranspose(all);

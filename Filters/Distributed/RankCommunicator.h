@@ -11,19 +11,21 @@
 
 namespace morph::distributed
 {
-/// The communicator of the part of a distributed mesh that has each rank's own cells. Each function
-/// begins with a vote: if another rank has failed meanwhile, all throw that rank's Error.
+/// The communicator of the local nodes of a distributed mesh, or of a part of them. All its
+/// functions communicate by the mesh's Ranks.
 class RankCommunicator : public Communicator
 {
 public:
-  /// `nodes`: of `mesh`, those that own volume cells use: node i of the part is `nodes`[i]. Holds
-  /// `mesh` by reference.
+  /// `nodes`: of `mesh`: node i of the part is `nodes`[i]; by default all. Holds `mesh` by
+  /// reference.
+  ///@{
+  explicit RankCommunicator(const DistributedMesh& mesh);
   RankCommunicator(const DistributedMesh& mesh, std::vector<Index> nodes);
+  ///@}
 
-  /// Calls `work`, in which ranks communicate by this object and its parts alone. If it throws on
-  /// one rank, all ranks throw its Error: the others at their next communication. Collective.
-  void run(const std::function<void()>& work) const;
-
+  const DistributedMesh& mesh() const { return this->mesh_; }
+  void together(const std::function<void()>& work) const override;
+  std::vector<Index> idsOf(const std::vector<Index>& nodes) const override;
   double sum(double value) const override;
   double minimum(double value) const override;
   void sum(double* values, int count) const override;
@@ -32,17 +34,14 @@ public:
   using Communicator::maximum;
   void spread(std::vector<Index>& nodes) const override;
   /// Cost: two messages for each neighbor of a rank, of 8 bytes a node that both have.
-  std::unique_ptr<CopiedRows> rows(const std::vector<Index>& nodes) const override;
+  std::unique_ptr<CopiedRows> rows() const override;
+  using Communicator::rows;
   std::unique_ptr<Communicator> part(const std::vector<Index>& nodes) const override;
 
-  /// Whether ranks have failed, and have told one another.
-  class Votes;
-
 private:
-  RankCommunicator(const RankCommunicator& whole, std::vector<Index> nodes);
+  std::vector<Index> ofMesh(std::vector<Index> nodes) const;
 
   const DistributedMesh& mesh_;
   std::vector<Index> nodes_;
-  std::shared_ptr<Votes> votes_;
 };
 }

@@ -3,7 +3,6 @@
 
 #include "Support/Error.h"
 
-#include <exception>
 #include <limits>
 #include <new>
 #include <string>
@@ -13,6 +12,12 @@ namespace morph::distributed
 namespace
 {
 constexpr int Tag = 7361; // of all messages between two ranks
+
+/// One that all ranks throw.
+struct ErrorOfAll : Error
+{
+  using Error::Error;
+};
 
 template <typename Value>
 Value reduce(MPI_Comm communicator, Value value, MPI_Datatype type, MPI_Op operation)
@@ -42,15 +47,22 @@ Ranks::Ranks(MPI_Comm communicator)
   MPI_Comm_size(communicator, &this->count_);
 }
 
-void Ranks::together(const std::function<void()>& work) const
+double Ranks::meet(double value, const std::exception_ptr& failure) const
 {
+  double values[2] = { value, failure ? 1. : 0. };
+  reduceAll(this->communicator_, values, 2, MPI_DOUBLE, MPI_SUM);
+  if (values[1] == 0)
+  {
+    return values[0];
+  }
   std::string message;
   Error::Kind kind = Error::Kind::InvalidInput;
-  bool failed = true;
   try
   {
-    work();
-    failed = false;
+    if (failure)
+    {
+      std::rethrow_exception(failure);
+    }
   }
   catch (const Error& error)
   {
@@ -66,65 +78,99 @@ void Ranks::together(const std::function<void()>& work) const
     message = std::string("Unexpected failure: ") + error.what();
   }
   const int first =
-    reduce(this->communicator_, failed ? this->rank_ : this->count_, MPI_INT, MPI_MIN);
-  if (first == this->count_)
-  {
-    return;
-  }
+    reduce(this->communicator_, failure ? this->rank_ : this->count_, MPI_INT, MPI_MIN);
   int header[2] = { static_cast<int>(kind), static_cast<int>(message.size()) };
   MPI_Bcast(header, 2, MPI_INT, first, this->communicator_);
   message.resize(header[1]);
   MPI_Bcast(message.data(), header[1], MPI_CHAR, first, this->communicator_);
-  throw Error(static_cast<Error::Kind>(header[0]), message);
+  throw ErrorOfAll(static_cast<Error::Kind>(header[0]), message);
+}
+
+void Ranks::vote() const
+{
+  if (this->depth_ > 0)
+  {
+    this->meet(0, nullptr);
+  }
+}
+
+void Ranks::together(const std::function<void()>& work) const
+{
+  std::exception_ptr failure;
+  ++this->depth_;
+  try
+  {
+    work();
+  }
+  catch (const ErrorOfAll&)
+  {
+    --this->depth_;
+    throw;
+  }
+  catch (...)
+  {
+    failure = std::current_exception();
+  }
+  --this->depth_;
+  this->meet(0, failure);
 }
 
 void Ranks::sum(double* values, std::size_t size) const
 {
+  this->vote();
   reduceAll(this->communicator_, values, size, MPI_DOUBLE, MPI_SUM);
 }
 
 void Ranks::sum(Index* values, std::size_t size) const
 {
+  this->vote();
   reduceAll(this->communicator_, values, size, MPI_INT64_T, MPI_SUM);
 }
 
 void Ranks::maximum(double* values, std::size_t size) const
 {
+  this->vote();
   reduceAll(this->communicator_, values, size, MPI_DOUBLE, MPI_MAX);
 }
 
 Index Ranks::sum(Index value) const
 {
+  this->vote();
   return reduce(this->communicator_, value, MPI_INT64_T, MPI_SUM);
 }
 
 double Ranks::sum(double value) const
 {
-  return reduce(this->communicator_, value, MPI_DOUBLE, MPI_SUM);
+  return this->meet(value, nullptr);
 }
 
 double Ranks::minimum(double value) const
 {
+  this->vote();
   return reduce(this->communicator_, value, MPI_DOUBLE, MPI_MIN);
 }
 
 double Ranks::maximum(double value) const
 {
+  this->vote();
   return reduce(this->communicator_, value, MPI_DOUBLE, MPI_MAX);
 }
 
 Index Ranks::minimum(Index value) const
 {
+  this->vote();
   return reduce(this->communicator_, value, MPI_INT64_T, MPI_MIN);
 }
 
 Index Ranks::maximum(Index value) const
 {
+  this->vote();
   return reduce(this->communicator_, value, MPI_INT64_T, MPI_MAX);
 }
 
 Index Ranks::sumBefore(Index value) const
 {
+  this->vote();
   Index before = 0;
   MPI_Exscan(&value, &before, 1, MPI_INT64_T, MPI_SUM, this->communicator_);
   return this->rank_ == 0 ? 0 : before;
@@ -177,6 +223,7 @@ void Ranks::exchangeNeighbors(const std::vector<int>& targets,
   const std::vector<std::vector<double>>& from, const std::vector<int>& sources,
   std::vector<std::vector<double>>& into) const
 {
+  this->vote();
   std::vector<MPI_Request> requests(targets.size() + sources.size());
   MPI_Request* request = requests.data();
   for (std::size_t i = 0; i < sources.size(); ++i)

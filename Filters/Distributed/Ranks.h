@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <exception>
 #include <functional>
 #include <type_traits>
 #include <vector>
@@ -25,8 +26,9 @@ public:
   int count() const { return this->count_; }
   MPI_Comm communicator() const { return this->communicator_; }
 
-  /// Calls `work`, which must not communicate. If it throws on some ranks, all ranks throw Error
-  /// with the message of the first of these. So no rank waits for one that has given up.
+  /// Calls `work`. If it throws on some ranks, all ranks throw Error with the message of the first
+  /// of these: the others at their next communication by this object, which may be in `work`. So no
+  /// rank waits for one that has given up. Calls may be nested.
   void together(const std::function<void()>& work) const;
 
   /// Element-wise over the ranks; all get the result.
@@ -85,6 +87,15 @@ public:
     return all;
   }
 
+  /// gather(), ascending.
+  template <typename Item>
+  std::vector<Item> gatherSorted(const std::vector<Item>& mine) const
+  {
+    std::vector<Item> all = this->gather(mine);
+    std::sort(all.begin(), all.end());
+    return all;
+  }
+
   /// Point-to-point messages: fills `into`, one buffer a rank of `sources`, from the ranks that
   /// name this one in `targets` with buffers of the same size.
   void exchangeNeighbors(const std::vector<int>& targets,
@@ -92,6 +103,10 @@ public:
     std::vector<std::vector<double>>& into) const;
 
 private:
+  /// Sums `value` over the ranks. Throws Error on all of them if one gives a failure.
+  double meet(double value, const std::exception_ptr& failure) const;
+  /// Called before a communication: throws if another rank has failed in together() meanwhile.
+  void vote() const;
   void requireMessageSize(std::size_t items) const;
   std::vector<int> exchangeSizes(const std::vector<int>& sent) const;
   void exchangeBytes(std::size_t itemSize, const std::vector<int>& sent,
@@ -101,5 +116,6 @@ private:
   MPI_Comm communicator_;
   int rank_ = 0;
   int count_ = 1;
+  mutable int depth_ = 0; ///< of calls of together()
 };
 }

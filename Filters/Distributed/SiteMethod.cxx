@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Distributed/SiteMethod.h"
 
+#include "Distributed/Methods.h"
+#include "Distributed/Silent.h"
 #include "Morpher/BodyByBody.h"
-#include "Support/ProgressRange.h"
 
 #include <algorithm>
 #include <array>
@@ -11,20 +12,6 @@
 
 namespace morph::distributed
 {
-namespace
-{
-/// Keeps back what the serial method says: it numbers its nodes differently.
-class Silent : public ProgressRange
-{
-public:
-  explicit Silent(Monitor& whole)
-    : ProgressRange(whole, 0, 1)
-  {
-  }
-  void warn(const std::string&) override {}
-};
-}
-
 SiteMethod::SiteMethod(std::unique_ptr<Morpher> method)
   : method_(std::move(method))
 {
@@ -32,20 +19,21 @@ SiteMethod::SiteMethod(std::unique_ptr<Morpher> method)
 
 std::vector<Index> SiteMethod::gatherBodies() const
 {
-  const std::vector<Index> ofNode = bodyOfNodes(this->mesh().mesh(), this->mesh().bodies());
+  const std::vector<Index> ofNode =
+    bodyOfNodes(meshOf(this->processes()).mesh(), meshOf(this->processes()).bodies());
   const std::vector<Index>& prescribed = this->partition().prescribed;
   std::vector<Index> mine;
   for (const Index i : this->owned_)
   {
     mine.push_back(ofNode[prescribed[i]]);
   }
-  const std::vector<Index> all = this->mesh().ranks().gather(mine);
+  const std::vector<Index> all = meshOf(this->processes()).ranks().gather(mine);
   std::vector<Index> result(all.size());
   for (std::size_t k = 0; k < all.size(); ++k)
   {
     result[this->place_[k]] = all[k];
   }
-  for (const Index node : this->ownFree())
+  for (const Index node : this->partition().free)
   {
     result.push_back(ofNode[node]);
   }
@@ -59,7 +47,7 @@ Points SiteMethod::gather(const Points& rows) const
   {
     mine.push_back({ rows(i, 0), rows(i, 1), rows(i, 2) });
   }
-  const auto all = this->mesh().ranks().gather(mine);
+  const auto all = meshOf(this->processes()).ranks().gather(mine);
   Points result(static_cast<Index>(all.size()), 3);
   for (std::size_t k = 0; k < all.size(); ++k)
   {
@@ -68,9 +56,9 @@ Points SiteMethod::gather(const Points& rows) const
   return result;
 }
 
-void SiteMethod::doPrepare(Monitor& monitor)
+void SiteMethod::doPrepare(const Mesh& rest, Monitor& monitor)
 {
-  const DistributedMesh& mesh = this->mesh();
+  const DistributedMesh& mesh = meshOf(this->processes());
   const Ranks& ranks = mesh.ranks();
   const std::vector<Index>& prescribed = this->partition().prescribed;
   this->owned_.clear();
@@ -93,17 +81,17 @@ void SiteMethod::doPrepare(Monitor& monitor)
   {
     this->place_[order[k]] = static_cast<Index>(k);
   }
-  const Points sites = this->gather(mesh.mesh().points(prescribed, allColumns));
+  const Points sites = this->gather(rest.points(prescribed, allColumns));
   this->gatheredBytes_ = ids.size() * (sizeof(std::int64_t) + 3 * sizeof(double));
 
   // The sites, and then this rank's free nodes.
   Mesh points;
   points.offsets = { 0 };
-  const std::vector<Index>& free = this->ownFree();
+  const std::vector<Index>& free = this->partition().free;
   const Index own = static_cast<Index>(free.size());
   points.points.resize(sites.rows() + own, 3);
   points.points.topRows(sites.rows()) = sites;
-  points.points.bottomRows(own) = mesh.mesh().points(free, allColumns);
+  points.points.bottomRows(own) = rest.points(free, allColumns);
   NodePartition partition;
   partition.prescribed.resize(sites.rows());
   std::iota(partition.prescribed.begin(), partition.prescribed.end(), Index(0));
@@ -121,7 +109,7 @@ void SiteMethod::doPrepare(Monitor& monitor)
 
 EvaluateReport SiteMethod::displace(const Points& prescribed, Points& free, Monitor& monitor) const
 {
-  const Ranks& ranks = this->mesh().ranks();
+  const Ranks& ranks = meshOf(this->processes()).ranks();
   const Points sites = this->gather(prescribed);
   const Points& rest = this->serial_->restPoints();
   EvaluateReport report;
@@ -140,7 +128,7 @@ EvaluateReport SiteMethod::displace(const Points& prescribed, Points& free, Moni
 EvaluateReport SiteMethod::displaceTranspose(
   const Points& free, Points& prescribed, Monitor& monitor) const
 {
-  const Ranks& ranks = this->mesh().ranks();
+  const Ranks& ranks = meshOf(this->processes()).ranks();
   const auto& linear = dynamic_cast<const LinearMorpher&>(*this->serial_);
   Points gradient = Points::Zero(this->serial_->restPoints().rows(), 3);
   gradient.bottomRows(free.rows()) = free;

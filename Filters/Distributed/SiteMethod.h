@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Distributed/Method.h"
-
 #include "Morpher/Morpher.h"
 
 #include <memory>
@@ -14,19 +12,17 @@ namespace morph::distributed
 /// all prescribed nodes, and evaluates its own free nodes by the serial method, each body alone. So
 /// memory and messages of each rank grow with the whole boundary: 32 bytes a prescribed node to
 /// prepare, 24 a motion.
-class SiteMethod : public Method
+class SiteMethod : public LinearMorpher
 {
 public:
   /// `method`: one that has copyWithoutCells().
   explicit SiteMethod(std::unique_ptr<Morpher> method);
 
-  void takeEvaluateOptions(const Morpher&) override {}
-
   /// Bytes that this rank received for its last preparation.
   std::size_t gatheredBytes() const { return this->gatheredBytes_; }
 
 protected:
-  void doPrepare(Monitor& monitor) override;
+  void doPrepare(const Mesh& rest, Monitor& monitor) override;
   EvaluateReport displace(const Points& prescribed, Points& free, Monitor& monitor) const override;
   EvaluateReport displaceTranspose(
     const Points& free, Points& prescribed, Monitor& monitor) const override;

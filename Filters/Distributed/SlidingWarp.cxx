@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Distributed/SlidingWarp.h"
 
-#include "Distributed/RankCommunicator.h"
+#include "Distributed/Methods.h"
+
 #include <algorithm>
 #include <utility>
 
@@ -11,9 +12,8 @@ std::vector<NodeSliding::Round> SlidingWarp::slide(const std::vector<Index>& sli
   const NodeSliding::Surfaces& surfaces, const NodeSliding::Limits& limits, Points& moved,
   Monitor& monitor) const
 {
-  const DistributedMesh& mesh = this->mesh();
-  const Points& rest = mesh.mesh().points;
-  const std::vector<Index>& unknowns = this->ownFree();
+  const Points& rest = this->restPoints();
+  const std::vector<Index>& unknowns = this->partition().free;
   NodeSliding::Nodes nodes;
   std::vector<Index> own, indices;
   for (std::size_t i = 0; i < sliding.size(); ++i)
@@ -27,16 +27,15 @@ std::vector<NodeSliding::Round> SlidingWarp::slide(const std::vector<Index>& sli
     }
   }
   nodes.rest = rest(own, allColumns);
-  if (limits.rounds <= 0 || mesh.ranks().sum(static_cast<Index>(own.size())) == 0)
+  if (limits.rounds <= 0 || this->processes().all(own.empty()))
   {
     return {};
   }
   const NodeSliding::Surfaces ofOwn = { [&](Index i, const NodeSliding::Row& x)
     { return surfaces.directions(indices[i], x); },
     [&](Index i, const NodeSliding::Row& x) { return surfaces.closest(indices[i], x); } };
-  const RankCommunicator communicator(mesh, {});
   std::vector<NodeSliding::Round> result;
-  communicator.run(
+  this->processes().together(
     [&]
     {
       const std::vector<Index>& prescribed = this->partition().prescribed;
@@ -47,7 +46,8 @@ std::vector<NodeSliding::Round> SlidingWarp::slide(const std::vector<Index>& sli
       {
         x.row(nodes.rows[i]) = moved.row(own[i]) - nodes.rest.row(static_cast<Index>(i));
       }
-      result = NodeSliding(this->solver(), b, nodes, ofOwn, communicator).run(limits, x, monitor);
+      result =
+        NodeSliding(this->solver(), b, nodes, ofOwn, this->processes()).run(limits, x, monitor);
       for (std::size_t k = 0; !result.empty() && k < own.size(); ++k)
       {
         const auto i = static_cast<Index>(k);

@@ -15,7 +15,7 @@ SmoothingReport smoothMesh(const DistributedMesh& mesh, const Points& rest,
   ranks.together([&] { own = std::make_unique<OwnCells>(mesh, partition); });
   SmoothingReport report;
   Points smoothed;
-  own->communicator().run(
+  own->communicator().together(
     [&]
     {
       own->mesh().points = own->take(rest);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Distributed/Method.h"
 #include "Distributed/OwnCells.h"
 
 #include "Mesh/SharedHigherOrderNodes.h"
@@ -16,7 +15,7 @@ namespace morph::distributed
 /// rank owns. So the affine start, energies and the minimum are those of the whole mesh.
 ///
 /// Counts: those of morph::Smoothing.
-class Smoothing : public Method
+class Smoothing : public Morpher
 {
 public:
   /// Takes the options of the serial method.
@@ -25,10 +24,8 @@ public:
   void takeEvaluateOptions(const Morpher& serial) override;
 
 protected:
-  void doPrepare(Monitor& monitor) override;
+  void doPrepare(const Mesh& rest, Monitor& monitor) override;
   EvaluateReport displace(const Points& prescribed, Points& free, Monitor& monitor) const override;
-  EvaluateReport displaceTranspose(
-    const Points& free, Points& prescribed, Monitor& monitor) const override;
 
 private:
   SmoothingOptions options_;

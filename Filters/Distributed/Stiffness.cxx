@@ -32,8 +32,7 @@ Points gatherWalls(
   if (isNamed && stiffness.areWallsGlobal)
   {
     // The boundary may be on another rank than its nodes.
-    nodes = ranks.gather(nodes);
-    std::sort(nodes.begin(), nodes.end());
+    nodes = ranks.gatherSorted(nodes);
     nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
     std::transform(
       nodes.begin(), nodes.end(), nodes.begin(), [&](Index id) { return mesh.nodeOf(id); });
@@ -73,8 +72,7 @@ std::vector<double> valuesOf(const DistributedMesh& mesh, const std::vector<doub
       wrong.push_back(mesh.cellId(c));
     }
   }
-  wrong = ranks.gather(wrong);
-  std::sort(wrong.begin(), wrong.end());
+  wrong = ranks.gatherSorted(wrong);
   if (!wrong.empty())
   {
     throw Error("The stiffness is not positive and finite at cell ids " + listIds(wrong) +

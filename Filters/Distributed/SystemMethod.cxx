@@ -1,16 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Distributed/SystemMethod.h"
 
+#include "Distributed/Methods.h"
 #include "Distributed/Stiffness.h"
-#include "LinearMethods/DirichletSystem.h"
 #include "LinearMethods/FemWarp.h"
 #include "LinearMethods/FemWarpSystem.h"
 #include "LinearMethods/LogBarrierSystem.h"
 #include "LinearMethods/LogBarrierWarp.h"
 #include "Support/Error.h"
+#include "Support/UnionFind.h"
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <numeric>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -25,16 +28,47 @@ constexpr int MaxIterations = 2000;
 std::vector<Index> gatherIds(const Ranks& ranks, const std::vector<Index>& mine)
 {
   constexpr std::size_t Most = 100; // of a rank: a message names no more
-  std::vector<Index> ids(mine.begin(), mine.begin() + std::min(Most, mine.size()));
-  ids = ranks.gather(ids);
-  std::sort(ids.begin(), ids.end());
-  return ids;
+  return ranks.gatherSorted(
+    std::vector<Index>(mine.begin(), mine.begin() + std::min(Most, mine.size())));
 }
 
 std::string noVolume(const std::vector<Index>& ids)
 {
   return "Every cell around node ids " + listIds(ids) +
          " has zero volume, so nothing says where they go. Prescribe them or repair the cells.";
+}
+
+/// rowComponents() of all ranks' rows. `ghosts`: the nodes of the columns of `others`.
+RowComponents componentsOf(const DistributedMesh& mesh, const std::vector<Index>& rows,
+  const CsrMatrix& interior, const CsrMatrix& others, const std::vector<Index>& ghosts)
+{
+  const auto count = static_cast<int>(rows.size());
+  UnionFind<int> parts(count + static_cast<int>(ghosts.size()));
+  for (int i = 0; i < count; ++i)
+  {
+    for (CsrMatrix::InnerIterator entry(interior, i); entry; ++entry)
+    {
+      parts.join(i, static_cast<int>(entry.col()));
+    }
+    for (CsrMatrix::InnerIterator entry(others, i); entry; ++entry)
+    {
+      parts.join(i, count + static_cast<int>(entry.col()));
+    }
+  }
+  std::vector<Index> ofNode(mesh.mesh().numberOfNodes(), -1);
+  int next = 0;
+  for (const std::vector<Index>* nodes : { &rows, &ghosts })
+  {
+    for (const Index node : *nodes)
+    {
+      ofNode[node] = parts.root(next++);
+    }
+  }
+  RowComponents result;
+  result.count = mesh.join(ofNode);
+  std::transform(rows.begin(), rows.end(), std::back_inserter(result.ofRow),
+    [&](Index node) { return static_cast<int>(ofNode[node]); });
+  return result;
 }
 }
 
@@ -44,18 +78,19 @@ void SystemMethod::setTolerance(double tolerance)
   this->tolerance_ = tolerance;
 }
 
-void SystemMethod::doPrepare(Monitor& monitor)
+void SystemMethod::doPrepare(const Mesh& rest, Monitor& monitor)
 {
-  const DistributedMesh& mesh = this->mesh();
+  const DistributedMesh& mesh = meshOf(this->processes());
   const Ranks& ranks = mesh.ranks();
   requirePrescribedBodies(mesh, this->partition());
   const std::vector<Index>& prescribed = this->partition().prescribed;
   std::vector<Index> columns = prescribed, ghosts;
-  for (Index node : this->partition().free)
+  for (Index n = 0; n < rest.numberOfNodes(); ++n)
   {
-    if (!mesh.owns(node))
+    const bool isCorner = mesh.bodies().ofNode[n] >= 0;
+    if (isCorner && !mesh.owns(n) && !std::binary_search(prescribed.begin(), prescribed.end(), n))
     {
-      ghosts.push_back(node);
+      ghosts.push_back(n);
     }
   }
   columns.insert(columns.end(), ghosts.begin(), ghosts.end());
@@ -64,13 +99,13 @@ void SystemMethod::doPrepare(Monitor& monitor)
   this->isUniform_ = ranks.sum(Index(!factors.empty())) == 0;
   Rows rows = this->assemble(columns, factors, monitor);
 
-  const Index count = static_cast<Index>(this->ownFree().size());
+  const Index count = static_cast<Index>(this->partition().free.size());
   std::vector<Index> singular;
   for (Index i = 0; i < count; ++i)
   {
     if (!(rows.interior.coeff(i, i) > 0))
     {
-      singular.push_back(mesh.nodeId(this->ownFree()[i]));
+      singular.push_back(mesh.nodeId(this->partition().free[i]));
     }
   }
   singular = gatherIds(ranks, singular);
@@ -83,7 +118,7 @@ void SystemMethod::doPrepare(Monitor& monitor)
   std::vector<std::int64_t> number(mesh.mesh().numberOfNodes(), -1);
   for (Index i = 0; i < count; ++i)
   {
-    number[this->ownFree()[i]] = first + i;
+    number[this->partition().free[i]] = first + i;
   }
   mesh.halo().update(ranks, number);
   std::vector<std::int64_t> ghostNumbers;
@@ -93,14 +128,18 @@ void SystemMethod::doPrepare(Monitor& monitor)
   }
   const Index held = static_cast<Index>(prescribed.size());
   this->coupling_ = rows.coupling.middleCols(0, held);
-  this->parts_ =
-    AffineParts(mesh, this->ownFree(), rows.interior, rows.coupling, prescribed, ghosts);
   LinearEquations equations;
   equations.ghosts = rows.coupling.middleCols(held, static_cast<Index>(ghosts.size()));
+  const RowComponents parts =
+    componentsOf(mesh, this->partition().free, rows.interior, equations.ghosts, ghosts);
+  this->guess_ = AffineGuess(rest.points, this->partition(), this->partition().free, parts,
+    this->coupling_, this->processes());
+  // Here, as hypre takes the matrix.
+  this->affineResidual_ = this->processes().maximum(affineResidual(
+    rest.points, this->partition().free, columns, rows.interior, rows.coupling, monitor));
   equations.matrix.swap(rows.interior);
   equations.ghostNumbers = std::move(ghostNumbers);
   monitor.progress(0.5);
-  ranks.together([&] { monitor.check(); });
   this->solver_ = std::make_unique<HypreSolver>(ranks, this->kind_);
   this->solver_->prepare(std::move(equations), monitor);
 }
@@ -108,12 +147,12 @@ void SystemMethod::doPrepare(Monitor& monitor)
 SolveReport SystemMethod::solveEach(
   const HypreSolver& solver, Points rhs, Points& x, Monitor& monitor) const
 {
-  const Ranks& ranks = this->mesh().ranks();
-  const std::vector<Index>& part = this->parts_.ofRow();
-  std::vector<double> size(this->parts_.count(), 0);
+  const Ranks& ranks = meshOf(this->processes()).ranks();
+  const auto part = [this](Index row) { return this->guess_.component(row); };
+  std::vector<double> size(this->guess_.components(), 0);
   for (Index i = 0; i < rhs.rows(); ++i)
   {
-    size[part[i]] += rhs.row(i).squaredNorm();
+    size[part(i)] += rhs.row(i).squaredNorm();
   }
   ranks.sum(size.data(), size.size());
   for (double& value : size)
@@ -122,15 +161,15 @@ SolveReport SystemMethod::solveEach(
   }
   for (Index i = 0; i < rhs.rows(); ++i)
   {
-    rhs.row(i) /= size[part[i]];
-    x.row(i) /= size[part[i]];
+    rhs.row(i) /= size[part(i)];
+    x.row(i) /= size[part(i)];
   }
   const double count = std::max(1., static_cast<double>(size.size()));
   const SolveReport solved =
     solver.solve(rhs, x, this->tolerance_ / std::sqrt(count), MaxIterations, monitor);
   for (Index i = 0; i < rhs.rows(); ++i)
   {
-    x.row(i) *= size[part[i]];
+    x.row(i) *= size[part(i)];
   }
   return solved;
 }
@@ -141,7 +180,7 @@ EvaluateReport SystemMethod::report(const SolveReport& solved, Monitor& monitor)
   report.iterations = solved.iterations;
   report.relativeResidual = solved.relativeResidual;
   report.statistics = this->counts();
-  if (this->mesh().ranks().rank() == 0)
+  if (meshOf(this->processes()).ranks().rank() == 0)
   {
     reportRounding(solved, this->tolerance_, monitor);
   }
@@ -151,46 +190,24 @@ EvaluateReport SystemMethod::report(const SolveReport& solved, Monitor& monitor)
 EvaluateReport SystemMethod::displace(
   const Points& prescribed, Points& free, Monitor& monitor) const
 {
-  const DistributedMesh& mesh = this->mesh();
-  const Ranks& ranks = mesh.ranks();
-  const Points& rest = mesh.mesh().points;
-  // Affine motions solve the equations of a uniform stiffness, so the iteration finds only the
-  // remainder. With another stiffness the solution is the fit plus the answer to the rest.
-  const std::vector<AffineFit> fits = this->parts_.fits(mesh, prescribed);
-  Points fitted(free.rows(), 3);
-  for (Index i = 0; i < free.rows(); ++i)
-  {
-    fitted.row(i) = fits[this->parts_.ofRow()[i]].displacement(rest.row(this->ownFree()[i]));
-  }
-  Points rhs = Points::Zero(free.rows(), 3);
-  const std::vector<Index>& held = this->partition().prescribed;
-  for (Index i = 0; i < free.rows(); ++i)
-  {
-    const AffineFit& fit = fits[this->parts_.ofRow()[i]];
-    for (CsrMatrix::InnerIterator entry(this->coupling_, static_cast<int>(i)); entry; ++entry)
+  SolveReport solved;
+  MultiVector x;
+  const DirichletEquations equations = { this->restPoints(), this->partition(),
+    this->partition().free, this->coupling_, this->guess_, this->isUniform_,
+    [this] { return this->affineResidual_; } };
+  equations.solve(toRows(prescribed, monitor), this->tolerance_, x, monitor,
+    [&](const RightHandSide& rhs, MultiVector& solution)
     {
-      Eigen::RowVector3d motion = prescribed.row(entry.col());
-      if (!this->isUniform_)
+      Points b(rhs.rows(), 3), columns;
+      for (Index i = 0; i < b.rows(); ++i)
       {
-        motion -= fit.displacement(rest.row(held[entry.col()]));
+        b.row(i) = rhs[i].head<3>();
       }
-      rhs.row(i) -= entry.value() * motion;
-    }
-  }
-  ranks.together([&] { monitor.check(); });
-  if (this->isUniform_)
-  {
-    free = fitted;
-  }
-  else
-  {
-    free.setZero();
-  }
-  const SolveReport solved = this->solveEach(*this->solver_, std::move(rhs), free, monitor);
-  if (!this->isUniform_)
-  {
-    free += fitted;
-  }
+      fromRows(solution, columns, monitor);
+      solved = this->solveEach(*this->solver_, std::move(b), columns, monitor);
+      solution = toRows(columns, monitor);
+    });
+  fromRows(x, free, monitor);
   return this->report(solved, monitor);
 }
 
@@ -198,33 +215,19 @@ EvaluateReport SystemMethod::displaceTranspose(
   const Points& free, Points& prescribed, Monitor& monitor) const
 {
   // u_I = -A_I^-1 A_B u_B, so M^T g = -A_B^T y with A_I^T y = g.
-  const DistributedMesh& mesh = this->mesh();
-  const Ranks& ranks = mesh.ranks();
   if (this->kind_ == HypreSolver::Kind::General && !this->transposed_)
   {
     this->transposed_ = this->solver_->transposed(monitor);
   }
   const HypreSolver& solver = this->transposed_ ? *this->transposed_ : *this->solver_;
-  ranks.together([&] { monitor.check(); });
   Points solution = Points::Zero(free.rows(), 3);
+  monitor.check();
   const SolveReport solved = this->solveEach(solver, free, solution, monitor);
   prescribed -= this->coupling_.transpose() * solution;
   if (!this->isUniform_)
   {
-    // The fit F has F_I^T g + F_B^T A_B^T y.
-    const Points& rest = mesh.mesh().points;
-    std::vector<AffineParts::Load> loads(this->parts_.count());
-    for (Index i = 0; i < free.rows(); ++i)
-    {
-      const Index part = this->parts_.ofRow()[i];
-      this->parts_.add(loads[part], part, rest.row(this->ownFree()[i]), free.row(i));
-      for (CsrMatrix::InnerIterator entry(this->coupling_, static_cast<int>(i)); entry; ++entry)
-      {
-        this->parts_.add(loads[part], part, rest.row(this->partition().prescribed[entry.col()]),
-          entry.value() * solution.row(i));
-      }
-    }
-    this->parts_.addTranspose(mesh, std::move(loads), prescribed);
+    this->guess_.addTranspose(this->restPoints(), this->partition(), this->partition().free,
+      this->coupling_, free, solution, prescribed);
   }
   return this->report(solved, monitor);
 }
@@ -237,7 +240,7 @@ void FemWarp::takeEvaluateOptions(const Morpher& serial)
 SystemMethod::Rows FemWarp::assemble(
   const std::vector<Index>& columns, const std::vector<double>& factors, Monitor& monitor)
 {
-  const DistributedMesh& mesh = this->mesh();
+  const DistributedMesh& mesh = meshOf(this->processes());
   const Ranks& ranks = mesh.ranks();
   FemWarpSystem system;
   Rows rows;
@@ -245,7 +248,7 @@ SystemMethod::Rows FemWarp::assemble(
   ranks.together(
     [&]
     {
-      system = femWarpSystem(mesh.mesh(), this->ownFree(), columns, factors, monitor);
+      system = femWarpSystem(mesh.mesh(), this->partition().free, columns, factors, monitor);
       rows.interior.swap(system.interior); // Eigen 3.4 would copy on a move
       rows.coupling.swap(system.coupling);
       if (system.hasBadCells)
@@ -255,17 +258,7 @@ SystemMethod::Rows FemWarp::assemble(
     });
   for (std::vector<Index>* list : { &bad.inverted, &bad.flat, &bad.absolute })
   {
-    std::vector<Index> ids;
-    for (Index cell : *list)
-    {
-      if (mesh.isGhost()[cell] == 0)
-      {
-        ids.push_back(mesh.cellId(cell));
-      }
-    }
-    ids = ranks.gather(ids);
-    std::sort(ids.begin(), ids.end());
-    *list = ids;
+    *list = mesh.gatherCells(*list);
   }
   const std::string warning = describe(bad);
   if (!warning.empty() && ranks.rank() == 0)
@@ -283,14 +276,15 @@ void LogBarrierWarp::takeEvaluateOptions(const Morpher& serial)
 SystemMethod::Rows LogBarrierWarp::assemble(
   const std::vector<Index>& columns, const std::vector<double>& /*factors*/, Monitor& monitor)
 {
-  const DistributedMesh& mesh = this->mesh();
+  const DistributedMesh& mesh = meshOf(this->processes());
   const Ranks& ranks = mesh.ranks();
   LogBarrierSystem system;
   Rows rows;
   ranks.together(
     [&]
     {
-      system = logBarrierSystem(mesh.mesh(), this->ownFree(), columns, this->relax_, monitor);
+      system =
+        logBarrierSystem(mesh.mesh(), this->partition().free, columns, this->relax_, monitor);
       rows.interior.swap(system.interior); // Eigen 3.4 would copy on a move
       rows.coupling.swap(system.coupling);
     });

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Distributed/AffineParts.h"
+#include "Distributed/DistributedMesh.h"
 #include "Distributed/HypreSolver.h"
-#include "Distributed/Method.h"
 
+#include "LinearMethods/DirichletSystem.h"
 #include "Morpher/CellStiffness.h"
+#include "Morpher/Morpher.h"
 #include "Solvers/CsrMatrix.h"
 
 #include <memory>
@@ -14,8 +15,9 @@
 
 namespace morph::distributed
 {
-/// A method that solves A_I U_I = -A_B U_B with the rows of each rank's own free nodes.
-class SystemMethod : public Method
+/// A method that solves A_I U_I = -A_B U_B with the rows of each rank's own free nodes. Its
+/// processes are a RankCommunicator.
+class SystemMethod : public LinearMorpher
 {
 public:
   /// Sets the relative residual at which the solver stops, per coordinate. Range (0, 1), default
@@ -34,19 +36,19 @@ protected:
 
   struct Rows
   {
-    CsrMatrix interior; ///< #ownFree x #ownFree
-    CsrMatrix coupling; ///< #ownFree x #columns
+    CsrMatrix interior; ///< #free x #free
+    CsrMatrix coupling; ///< #free x #columns
   };
-  /// Assembles the rows of ownFree(). `columns`: the local nodes of the other columns. `factors`:
+  /// Assembles the rows of free nodes. `columns`: the local nodes of the other columns. `factors`:
   /// of the cells, see stiffnessFactors(). Communicates where it has to, and throws on all ranks.
   virtual Rows assemble(
     const std::vector<Index>& columns, const std::vector<double>& factors, Monitor& monitor) = 0;
   /// The method's own counts, of the whole mesh.
   virtual std::vector<Statistic> counts() const { return {}; }
 
-  const CsrMatrix& coupling() const { return this->coupling_; } ///< #ownFree x #prescribed
+  const CsrMatrix& coupling() const { return this->coupling_; } ///< #free x #prescribed
 
-  void doPrepare(Monitor& monitor) final;
+  void doPrepare(const Mesh& rest, Monitor& monitor) final;
   EvaluateReport displace(const Points& prescribed, Points& free, Monitor& monitor) const final;
   EvaluateReport displaceTranspose(
     const Points& free, Points& prescribed, Monitor& monitor) const final;
@@ -61,8 +63,9 @@ private:
   double tolerance_ = 1e-10;
   CellStiffness stiffness_;
   bool isUniform_ = true;
-  CsrMatrix coupling_; ///< #ownFree x #prescribed
-  AffineParts parts_;
+  CsrMatrix coupling_; ///< #free x #prescribed
+  AffineGuess guess_;
+  double affineResidual_ = 0;
   std::unique_ptr<HypreSolver> solver_;
   mutable std::unique_ptr<HypreSolver> transposed_; ///< of a General solver, once it is asked for
 };

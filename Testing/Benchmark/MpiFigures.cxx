@@ -8,6 +8,7 @@
 #include "Timing.h"
 
 #include "Distributed/DistributedMesh.h"
+#include "Distributed/RankCommunicator.h"
 #include "Distributed/SystemMethod.h"
 #include "LinearMethods/FemWarp.h"
 #include "LinearMethods/FemWarpSystem.h"
@@ -133,7 +134,8 @@ void Run::distributed(const Problem& problem, const Ranks& ranks, Times& times, 
   const Points target = problem.target(rows, morph::allColumns);
   morph::distributed::FemWarp method;
   method.setTolerance(Tolerance);
-  method.prepare(mesh, morph::partitionNodes(mesh.mesh(), prescribed), *monitor);
+  method.prepare(mesh.mesh(), morph::partitionNodes(mesh.mesh(), prescribed), *monitor,
+    std::make_shared<morph::distributed::RankCommunicator>(mesh));
   Points local;
   morph::EvaluateReport report = method.evaluate(target, local, *monitor);
   times.cold.push_back(ranks.maximum(cold.seconds()));

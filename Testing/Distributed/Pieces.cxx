@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Pieces.h"
 
+#include "Distributed/RankCommunicator.h"
 #include "Mesh/Polyhedra.h"
 #include "Meshes.h"
 #include "Support/Error.h"
@@ -138,14 +139,15 @@ double distance(const morph::distributed::DistributedMesh& mesh, const morph::Po
 }
 
 OnRanks::OnRanks(const morph::distributed::Ranks& ranks, const morph::Mesh& whole,
-  const std::vector<morph::Index>& outer, std::unique_ptr<morph::distributed::Method> unprepared,
-  unsigned seed, morph::Monitor& monitor)
+  const std::vector<morph::Index>& outer, std::unique_ptr<morph::Morpher> unprepared, unsigned seed,
+  morph::Monitor& monitor)
   : mesh(distribute(ranks, whole, unprepared->layers(), seed))
   , method(std::move(unprepared))
   , prescribed(localNodes(this->mesh, outer))
 {
-  this->method->prepare(
-    this->mesh, morph::partitionNodes(this->mesh.mesh(), this->prescribed), monitor);
+  this->method->prepare(this->mesh.mesh(),
+    morph::partitionNodes(this->mesh.mesh(), this->prescribed), monitor,
+    std::make_shared<morph::distributed::RankCommunicator>(this->mesh));
 }
 
 morph::EvaluateReport OnRanks::evaluate(

@@ -2,10 +2,10 @@
 #pragma once
 
 #include "Distributed/DistributedMesh.h"
-#include "Distributed/Method.h"
 #include "Distributed/Piece.h"
 #include "Distributed/Ranks.h"
 #include "Mesh/Mesh.h"
+#include "Morpher/Morpher.h"
 
 #include <functional>
 #include <memory>
@@ -46,12 +46,12 @@ double distance(const morph::distributed::DistributedMesh& mesh, const morph::Po
 struct OnRanks
 {
   morph::distributed::DistributedMesh mesh;
-  std::unique_ptr<morph::distributed::Method> method;
+  std::unique_ptr<morph::Morpher> method;
   std::vector<morph::Index> prescribed; ///< local nodes
 
   /// Prepares `unprepared`. `outer`: the prescribed nodes of the whole mesh, ascending.
   OnRanks(const morph::distributed::Ranks& ranks, const morph::Mesh& whole,
-    const std::vector<morph::Index>& outer, std::unique_ptr<morph::distributed::Method> unprepared,
+    const std::vector<morph::Index>& outer, std::unique_ptr<morph::Morpher> unprepared,
     unsigned seed, morph::Monitor& monitor);
   OnRanks(const OnRanks&) = delete;
   OnRanks& operator=(const OnRanks&) = delete;

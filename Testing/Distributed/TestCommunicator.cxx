@@ -68,7 +68,7 @@ TEST(RankCommunicator, SumsTheCopiesOfRows)
   std::iota(nodes.rbegin(), nodes.rend(), Index(0)); // rows in another order than nodes
   Points rows = local(nodes, morph::allColumns);
   double product = 0;
-  c.own.communicator().run(
+  c.own.communicator().together(
     [&]
     {
       const auto copies = c.own.communicator().rows(nodes);
@@ -95,7 +95,7 @@ TEST(RankCommunicator, RowsThatTheirOwnerDoesNotHaveCountOnce)
   }
   Points ones = Points::Ones(static_cast<Index>(nodes.size()), 3);
   double product = 0;
-  c.own.communicator().run(
+  c.own.communicator().together(
     [&]
     {
       const auto copies = c.own.communicator().rows(nodes);
@@ -128,7 +128,7 @@ TEST(RankCommunicator, RingsOfCellsCrossInterfaces)
     const morph::KRing expected =
       morph::kRingOfCells(c.whole, morph::nodeToCells(c.whole), all, { 7 }, rings);
     morph::KRing mine;
-    c.own.communicator().run(
+    c.own.communicator().together(
       [&]
       {
         std::vector<Index> seeds, free(c.own.nodes().size());
@@ -160,7 +160,7 @@ TEST(RankCommunicator, AFailureOfOneRankEndsAllWithItsMessage)
     const std::string message = pieces::messageOf(
       [&]
       {
-        c.own.communicator().run(
+        c.own.communicator().together(
           [&]
           {
             std::vector<Index> nodes = { 0 };
@@ -181,6 +181,6 @@ TEST(RankCommunicator, AFailureOfOneRankEndsAllWithItsMessage)
     EXPECT_EQ(message, "the last rank gives up");
   }
   double sum = 0; // and it works again
-  c.own.communicator().run([&] { sum = c.own.communicator().sum(1.); });
+  c.own.communicator().together([&] { sum = c.own.communicator().sum(1.); });
   EXPECT_EQ(sum, ranks.count());
 }

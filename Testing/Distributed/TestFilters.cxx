@@ -47,10 +47,30 @@ TEST(DistributedFilters, PrepareOnceAndTellAllRanksTheSame)
     EXPECT_EQ(ranks.minimum(value), ranks.maximum(value));
   }
   EXPECT_EQ(filter->GetPrescribedPoints(), 7 * 6 * 5 - 5 * 4 * 3);
+  EXPECT_EQ(filter->GetSolverIterations(), 0); // the fit of an affine motion is the solution
   EXPECT_LT((grids::points(filter->GetOutput()) - grids::mapped(grids::points(grid), grids::affine))
               .cwiseAbs()
               .maxCoeff(),
     1e-9);
+}
+
+TEST(DistributedFilters, AMirroredBodyIsNamedByItsFirstCellOfAllRanks)
+{
+  const Ranks ranks = pieces::world();
+  morph::Mesh whole = meshes::hexes(6, 5, 4);
+  whole.points.col(0) *= -1;
+  const auto grid = rank_grids::piece(ranks, whole);
+  vtkNew<vtkFEMWarpMorph> filter;
+  filter->SetInputData(grid);
+  filter->SetBoundaryData(grids::boundary(grid, grids::twist));
+  grids::Listener listener(filter);
+  filter->Update();
+  EXPECT_EQ(filter->GetMirroredBodies(), 1);
+  ASSERT_EQ(listener.Warnings.size(), ranks.rank() == 0 ? 1u : 0u);
+  for (const std::string& warning : listener.Warnings)
+  {
+    EXPECT_NE(warning.find("the first is cell 0."), std::string::npos) << warning;
+  }
 }
 
 TEST(DistributedFilters, ShellsFollowTheVolumeAcrossRanks)

@@ -3,6 +3,7 @@
 #include "Distributed/DistributedMesh.h"
 #include "Distributed/Methods.h"
 #include "Distributed/PolyhedralMethod.h"
+#include "Distributed/RankCommunicator.h"
 #include "LinearMethods.h"
 #include "Mesh/HangingNodes.h"
 #include "Mesh/Topology.h"
@@ -24,7 +25,6 @@ using morph::Monitor;
 using morph::NodePartition;
 using morph::Points;
 using morph::distributed::DistributedMesh;
-using morph::distributed::Method;
 using morph::distributed::Ranks;
 using motions::Row;
 
@@ -46,7 +46,7 @@ protected:
   std::unique_ptr<morph::LinearMorpher> Serial;
   std::unique_ptr<DistributedMesh> Mesh;
   std::vector<Index> Prescribed; ///< local nodes
-  std::unique_ptr<Method> Mine;
+  std::unique_ptr<morph::Morpher> Mine;
 
   void Prepare(const meshes::LinearMethod& method, unsigned seed)
   {
@@ -61,9 +61,9 @@ protected:
     this->Mesh = std::make_unique<DistributedMesh>(
       pieces::distribute(this->Processes, whole, this->Mine->layers(), seed));
     this->Prescribed = pieces::localNodes(*this->Mesh, this->Partition.prescribed);
-    this->Mine->prepare(*this->Mesh,
+    this->Mine->prepare(this->Mesh->mesh(),
       morph::partitionNodes(this->Mesh->mesh(), this->Mesh->hanging(), this->Prescribed),
-      this->Quiet);
+      this->Quiet, std::make_shared<morph::distributed::RankCommunicator>(*this->Mesh));
   }
 };
 }
@@ -137,8 +137,8 @@ TEST_P(RankHangingNodes, HaveTheAdjointOfOneRank)
     Points expected, found;
     this->Serial->applyTranspose(gradient, expected, this->Quiet);
 
-    this->Mine->applyTranspose(
-      gradient(this->Mesh->nodeIds(), morph::allColumns), found, this->Quiet);
+    dynamic_cast<morph::LinearMorpher&>(*this->Mine)
+      .applyTranspose(gradient(this->Mesh->nodeIds(), morph::allColumns), found, this->Quiet);
 
     for (std::size_t k = 0; k < this->Prescribed.size(); ++k)
     {
@@ -164,8 +164,10 @@ TEST(RankHangingNodesOfFollowers, AreRefused)
   const std::vector<Index> prescribed = pieces::localNodes(mesh, { 0, 3, 12, 15, 32, 33, 34, 35 });
 
   const std::string message = pieces::messageOf(
-    [&] {
-      method.prepare(mesh, morph::partitionNodes(mesh.mesh(), mesh.hanging(), prescribed), monitor);
+    [&]
+    {
+      method.prepare(mesh.mesh(), morph::partitionNodes(mesh.mesh(), mesh.hanging(), prescribed),
+        monitor, std::make_shared<morph::distributed::RankCommunicator>(mesh));
     });
 
   EXPECT_NE(message.find("whose middle nodes are no corners of the small cells"), std::string::npos)

@@ -2,6 +2,7 @@
 #include "BoundaryShapes.h"
 #include "Distributed/HypreSolver.h"
 #include "Distributed/Methods.h"
+#include "Distributed/RankCommunicator.h"
 #include "LinearMethods/FemWarp.h"
 #include "LinearMethods/LogBarrierWarp.h"
 #include "LinearMethods/RadialBasis.h"
@@ -246,7 +247,11 @@ TEST(DistributedMethods, NameABodyWithoutAPrescribedNode)
   }
   const auto method = morph::distributed::makeMethod(std::make_unique<morph::FemWarp>());
   const std::string message = pieces::messageOf(
-    [&] { method->prepare(mesh, morph::partitionNodes(mesh.mesh(), prescribed), monitor); });
+    [&]
+    {
+      method->prepare(mesh.mesh(), morph::partitionNodes(mesh.mesh(), prescribed), monitor,
+        std::make_shared<morph::distributed::RankCommunicator>(mesh));
+    });
   EXPECT_NE(
     message.find("(2 cells, the first is cell 8) has no prescribed node"), std::string::npos)
     << message;

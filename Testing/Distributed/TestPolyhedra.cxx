@@ -3,6 +3,7 @@
 #include "Distributed/CutMesh.h"
 #include "Distributed/Methods.h"
 #include "Distributed/PolyhedralMethod.h"
+#include "Distributed/RankCommunicator.h"
 #include "LinearMethods/FemWarp.h"
 #include "LinearMethods/LogBarrierWarp.h"
 #include "LinearMethods/RadialBasis.h"
@@ -29,7 +30,6 @@ using morph::Morpher;
 using morph::Points;
 using morph::distributed::CutMesh;
 using morph::distributed::DistributedMesh;
-using morph::distributed::Method;
 using morph::distributed::Ranks;
 
 using Make = std::function<std::unique_ptr<Morpher>()>;
@@ -82,7 +82,7 @@ Points affine(const Points& x)
   return (x * map).rowwise() + Eigen::RowVector3d(0.5, -1, 2);
 }
 
-std::unique_ptr<Method> onPieces(std::unique_ptr<Morpher> serial)
+std::unique_ptr<Morpher> onPieces(std::unique_ptr<Morpher> serial)
 {
   return std::make_unique<morph::distributed::PolyhedralMethod>(
     morph::distributed::makeMethod(std::move(serial)));
@@ -142,7 +142,8 @@ TEST(DistributedPolyhedra, HaveTheAdjointOfOneRank)
       Points expected, found;
       dynamic_cast<morph::LinearMorpher&>(*serial).applyTranspose(gradient, expected, monitor);
       const pieces::OnRanks mine(ranks, whole, outer, onPieces(make()), ++seed, monitor);
-      mine.method->applyTranspose(gradient(mine.mesh.nodeIds(), morph::allColumns), found, monitor);
+      dynamic_cast<morph::LinearMorpher&>(*mine.method)
+        .applyTranspose(gradient(mine.mesh.nodeIds(), morph::allColumns), found, monitor);
       for (std::size_t k = 0; k < mine.prescribed.size(); ++k)
       {
         if (mine.mesh.owns(mine.prescribed[k]))
@@ -170,8 +171,9 @@ TEST(DistributedPolyhedra, MoveWhereARankHasNoCells)
   for (const auto& [name, make] : methods())
   {
     SCOPED_TRACE(name);
-    const std::unique_ptr<Method> method = onPieces(make());
-    method->prepare(mesh, morph::partitionNodes(mesh.mesh(), prescribed), monitor);
+    const std::unique_ptr<Morpher> method = onPieces(make());
+    method->prepare(mesh.mesh(), morph::partitionNodes(mesh.mesh(), prescribed), monitor,
+      std::make_shared<morph::distributed::RankCommunicator>(mesh));
     const Points target = affine(mesh.mesh().points);
     Points moved;
     method->evaluate(target(prescribed, morph::allColumns), moved, monitor);

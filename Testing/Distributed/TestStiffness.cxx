@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The stiffness of the cells, and the adjoint, of a mesh on several MPI ranks.
 #include "Distributed/Methods.h"
+#include "Distributed/RankCommunicator.h"
 #include "LinearMethods/FemWarp.h"
 #include "LinearMethods/LogBarrierWarp.h"
 #include "LinearMethods/RadialBasis.h"
@@ -25,7 +26,6 @@ using morph::Mesh;
 using morph::Monitor;
 using morph::Points;
 using morph::distributed::DistributedMesh;
-using morph::distributed::Method;
 using morph::distributed::Ranks;
 
 using Make = std::function<std::unique_ptr<morph::LinearMorpher>(const CellStiffness&)>;
@@ -112,13 +112,14 @@ std::pair<double, double> differences(
   serial->applyTranspose(gradient, expectedGradient, monitor);
 
   const DistributedMesh mesh = pieces::distribute(ranks, whole, 2, meshes::seed());
-  const std::unique_ptr<Method> method =
+  const std::unique_ptr<morph::Morpher> method =
     morph::distributed::makeMethod(make(ofPiece(mesh, stiffness)));
   const std::vector<Index> prescribed = pieces::localNodes(mesh, outer);
-  method->prepare(mesh, morph::partitionNodes(mesh.mesh(), prescribed), monitor);
+  method->prepare(mesh.mesh(), morph::partitionNodes(mesh.mesh(), prescribed), monitor,
+    std::make_shared<morph::distributed::RankCommunicator>(mesh));
   Points moved, result;
   method->evaluate(target(mesh.idsOfNodes(prescribed), morph::allColumns), moved, monitor);
-  method->applyTranspose(
+  dynamic_cast<morph::LinearMorpher&>(*method).applyTranspose(
     gradient(std::vector<Index>(mesh.nodeIds().begin(), mesh.nodeIds().end()), morph::allColumns),
     result, monitor);
   Points sums = Points::Zero(expectedGradient.rows(), 3);

@@ -5,24 +5,21 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace morph
 {
 namespace
 {
-Eigen::RowVector3d sumOfRows(const Points& points)
+Eigen::RowVector3d sumOfRows(const Points& points, const Communicator& all)
 {
   Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
   for (Index i = 0; i < points.rows(); ++i)
   {
     sum += points.row(i);
   }
+  all.sum(sum.data(), 3);
   return sum;
-}
-
-Eigen::RowVector3d meanOfRows(const Points& points)
-{
-  return sumOfRows(points) / static_cast<double>(std::max<Index>(points.rows(), 1));
 }
 
 /// The leverage beyond that of the points up to which a direction counts whole.
@@ -43,13 +40,14 @@ PrincipalDirections::PrincipalDirections(const Eigen::Matrix3d& spread, double c
   this->limit(Eigen::RowVector3d::Ones(), Eigen::RowVector3d::Ones());
 }
 
-void PrincipalDirections::measure(const Points& arms)
+void PrincipalDirections::measure(const Points& arms, const Communicator& all)
 {
   Eigen::RowVector3d squares = Eigen::RowVector3d::Zero();
   for (Index i = 0; i < arms.rows(); ++i)
   {
     squares += (arms.row(i) * this->axes_).cwiseAbs2();
   }
+  all.sum(squares.data(), 3);
   this->extent_ = (squares / std::max(this->count_, 1.)).cwiseSqrt();
 }
 
@@ -112,17 +110,24 @@ Eigen::Matrix3d PrincipalDirections::rest() const
   return this->axes_ * rest.asDiagonal() * this->axes_.transpose();
 }
 
-AffineLeastSquares::AffineLeastSquares(const Points& rest, const ConstPoints& places)
+AffineLeastSquares::AffineLeastSquares(
+  const Points& rest, const ConstPoints& places, const Communicator& all)
+  : count_(all.sum(static_cast<double>(rest.rows())))
 {
   // Sum differences: sums of coordinates far from the origin would lose the digits that tell the
   // points apart.
-  Eigen::RowVector3d first = Eigen::RowVector3d::Zero();
+  Eigen::RowVector3d first = Eigen::RowVector3d::Constant(std::numeric_limits<double>::lowest());
   if (rest.rows() > 0)
   {
     first = rest.row(0);
   }
+  all.maximum(first.data(), 3);
+  if (this->count_ == 0)
+  {
+    first.setZero();
+  }
   this->arms_ = rest.rowwise() - first;
-  const Eigen::RowVector3d middle = meanOfRows(this->arms_);
+  const Eigen::RowVector3d middle = sumOfRows(this->arms_, all) / std::max(this->count_, 1.);
   this->center_ = first + middle;
   this->arms_.rowwise() -= middle;
   Eigen::Matrix3d Q = Eigen::Matrix3d::Zero();
@@ -130,8 +135,9 @@ AffineLeastSquares::AffineLeastSquares(const Points& rest, const ConstPoints& pl
   {
     Q.noalias() += this->arms_.row(i).transpose() * this->arms_.row(i);
   }
-  this->directions_ = PrincipalDirections(Q, static_cast<double>(rest.rows()));
-  this->directions_.measure(this->arms_);
+  all.sum(Q.data(), 9);
+  this->directions_ = PrincipalDirections(Q, this->count_);
+  this->directions_.measure(this->arms_, all);
   const auto largest = [&](const ConstPoints& of)
   {
     Eigen::RowVector3d leverages = Eigen::RowVector3d::Zero();
@@ -139,20 +145,22 @@ AffineLeastSquares::AffineLeastSquares(const Points& rest, const ConstPoints& pl
     {
       leverages = leverages.cwiseMax(this->directions_.leverages(of.row(i) - this->center_));
     }
+    all.maximum(leverages.data(), 3);
     return leverages;
   };
   this->directions_.limit(largest(rest), largest(places));
   this->inverse_ = this->directions_.inverse();
 }
 
-AffineFit AffineLeastSquares::fit(const Points& displacement) const
+AffineFit AffineLeastSquares::fit(const Points& displacement, const Communicator& all) const
 {
-  const Eigen::RowVector3d mean = meanOfRows(displacement);
+  const Eigen::RowVector3d mean = sumOfRows(displacement, all) / std::max(this->count_, 1.);
   Eigen::Matrix3d P = Eigen::Matrix3d::Zero();
   for (Index i = 0; i < displacement.rows(); ++i)
   {
     P.noalias() += this->arms_.row(i).transpose() * (displacement.row(i) - mean);
   }
+  all.sum(P.data(), 9);
   return { this->center_, mean, this->inverse_, P };
 }
 
@@ -163,14 +171,15 @@ Eigen::VectorXd AffineLeastSquares::weights(const Eigen::RowVector3d& place) con
 }
 
 void AffineLeastSquares::fitTranspose(
-  const Points& x, const Points& gradient, Points& displacement) const
+  const Points& x, const Points& gradient, Points& displacement, const Communicator& all) const
 {
-  const Eigen::RowVector3d ofMean = sumOfRows(gradient) / static_cast<double>(displacement.rows());
+  const Eigen::RowVector3d ofMean = sumOfRows(gradient, all) / this->count_;
   Eigen::Matrix3d ofGradient = Eigen::Matrix3d::Zero();
   for (Index i = 0; i < x.rows(); ++i)
   {
     ofGradient.noalias() += (x.row(i) - this->center_).transpose() * gradient.row(i);
   }
+  all.sum(ofGradient.data(), 9);
   // The arms sum to zero, so the mean within P adds no term.
   const Eigen::Matrix3d ofP = this->inverse_ * ofGradient;
   for (Index i = 0; i < displacement.rows(); ++i)

@@ -7,7 +7,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
+#include <memory>
 #include <sstream>
 
 namespace morph
@@ -15,6 +17,14 @@ namespace morph
 namespace
 {
 constexpr Index Grain = 4096;
+
+std::vector<Index> nodesOf(const std::vector<int>& columns, const NodePartition& partition)
+{
+  std::vector<Index> nodes;
+  std::transform(columns.begin(), columns.end(), std::back_inserter(nodes),
+    [&](int column) { return partition.prescribed[column]; });
+  return nodes;
+}
 }
 
 void requireTolerance(double tolerance)
@@ -28,8 +38,11 @@ void requireTolerance(double tolerance)
 }
 
 AffineGuess::AffineGuess(const Points& points, const NodePartition& partition,
-  const std::vector<Index>& rows, const RowComponents& components, const CsrMatrix& coupling)
-  : components_(components)
+  const std::vector<Index>& rows, const RowComponents& components, const CsrMatrix& coupling,
+  const Communicator& processes)
+  : processes_(&processes)
+  , components_(components)
+  , isShared_(components.count)
   , coupled_(components.count)
 {
   for (Index row = 0; row < coupling.rows(); ++row)
@@ -45,25 +58,34 @@ AffineGuess::AffineGuess(const Points& points, const NodePartition& partition,
   {
     moved[components.of(static_cast<Index>(row))].push_back(rows[row]);
   }
+  std::vector<double> owners(moved.size());
+  std::transform(moved.begin(), moved.end(), owners.begin(),
+    [](const std::vector<Index>& some) { return some.empty() ? 0. : 1.; });
+  processes.sum(owners.data(), static_cast<int>(owners.size()));
   for (std::size_t c = 0; c < this->coupled_.size(); ++c)
   {
     std::vector<int>& columns = this->coupled_[c];
     std::sort(columns.begin(), columns.end());
     columns.erase(std::unique(columns.begin(), columns.end()), columns.end());
-    columns.shrink_to_fit();
-    Points places(static_cast<Index>(columns.size()), 3);
-    for (Index i = 0; i < places.rows(); ++i)
+    this->isShared_[c] = owners[c] > 1;
+    std::vector<Index> nodes = nodesOf(columns, partition);
+    const std::unique_ptr<CopiedRows> copies = this->processesOf(c).rows(nodes);
+    for (auto row = copies->countedElsewhere().rbegin(); row != copies->countedElsewhere().rend();
+         ++row)
     {
-      places.row(i) = points.row(partition.prescribed[columns[i]]);
+      columns.erase(columns.begin() + *row);
     }
-    this->leastSquares_.emplace_back(places, points(moved[c], allColumns));
+    columns.shrink_to_fit();
+    nodes = nodesOf(columns, partition);
+    this->leastSquares_.emplace_back(
+      points(nodes, allColumns), points(moved[c], allColumns), this->processesOf(c));
   }
 }
 
 AffineGuess::Fits AffineGuess::fits(const MultiVector& prescribed) const
 {
-  const bool hasFourth = std::any_of(
-    prescribed.begin(), prescribed.end(), [](const MultiVectorRow& row) { return row[3] != 0; });
+  const bool hasFourth = !this->processes_->all(std::all_of(
+    prescribed.begin(), prescribed.end(), [](const MultiVectorRow& row) { return row[3] == 0; }));
   Fits result;
   result.three_.reserve(this->coupled_.size());
   for (std::size_t c = 0; c < this->coupled_.size(); ++c)
@@ -74,14 +96,14 @@ AffineGuess::Fits AffineGuess::fits(const MultiVector& prescribed) const
     {
       some.row(i) = prescribed[columns[i]].head<3>();
     }
-    result.three_.push_back(this->leastSquares_[c].fit(some));
+    result.three_.push_back(this->leastSquares_[c].fit(some, this->processesOf(c)));
     if (hasFourth)
     {
       for (Index i = 0; i < some.rows(); ++i)
       {
         some.row(i) << prescribed[columns[i]][3], 0, 0;
       }
-      result.fourth_.push_back(this->leastSquares_[c].fit(some));
+      result.fourth_.push_back(this->leastSquares_[c].fit(some, this->processesOf(c)));
     }
   }
   return result;
@@ -93,18 +115,20 @@ bool AffineGuess::agree(const Points& points, const NodePartition& partition,
   bool all = true;
   for (std::size_t c = 0; c < this->coupled_.size(); ++c)
   {
-    Eigen::Array4d largest = Eigen::Array4d::Zero(), most = Eigen::Array4d::Zero();
+    Eigen::Array<double, 4, 2> largest = Eigen::Array<double, 4, 2>::Zero(); // of all, and off
     for (const int column : this->coupled_[c])
     {
       const MultiVectorRow& given = prescribed[column];
       const MultiVectorRow off =
         given - fits.displacement(static_cast<int>(c), points.row(partition.prescribed[column]));
-      largest = largest.max(given.array().abs());
-      most = most.max(off.array().abs());
+      largest.col(0) = largest.col(0).max(given.array().abs());
+      largest.col(1) = largest.col(1).max(off.array().abs());
     }
-    all = all && (most <= tolerance * largest).all(); // not for numbers that have overflowed
+    this->processesOf(c).maximum(largest.data(), 8);
+    // Not for numbers that have overflowed.
+    all = all && (largest.col(1) <= tolerance * largest.col(0)).all();
   }
-  return all;
+  return this->processes_->all(all);
 }
 
 void AffineGuess::takeOff(const Points& points, const NodePartition& partition,
@@ -157,11 +181,7 @@ void AffineGuess::addTranspose(const Points& points, const NodePartition& partit
       load.row(k) = loads[c][k];
     }
     Points some = Points::Zero(static_cast<Index>(this->coupled_[c].size()), 3);
-    if (some.rows() == 0)
-    {
-      continue;
-    }
-    this->leastSquares_[c].fitTranspose(x, load, some);
+    this->leastSquares_[c].fitTranspose(x, load, some, this->processesOf(c));
     for (Index k = 0; k < some.rows(); ++k)
     {
       prescribed.row(this->coupled_[c][k]) += some.row(k);
@@ -177,13 +197,14 @@ void firstGuess(const Points& points, const std::vector<Index>& rows, const Affi
     [&](Index i) { x[i] = fits.displacement(guess.component(i), points.row(rows[i])); });
 }
 
-double AffineResidual::of(const DirichletEquations& equations, Monitor& monitor) const
+double AffineResidual::of(const Points& points, const std::vector<Index>& rows,
+  const std::vector<Index>& columns, const CsrMatrix& interior, const CsrMatrix& coupling,
+  Monitor& monitor) const
 {
   double value = this->value_;
   if (value == Unknown)
   {
-    value = affineResidual(equations.points, equations.rows, equations.partition,
-      equations.interior, equations.coupling, monitor);
+    value = affineResidual(points, rows, columns, interior, coupling, monitor);
     this->value_ = value;
   }
   return value;
@@ -197,7 +218,7 @@ bool DirichletEquations::solve(const MultiVector& prescribed, double tolerance, 
   const AffineGuess::Fits fits = this->guess.fits(prescribed);
   firstGuess(this->points, this->rows, this->guess, fits, x, monitor);
   if (this->guess.agree(this->points, this->partition, prescribed, fits, affine) &&
-      (!this->isUniform || this->affineResidual.of(*this, monitor) <= affine))
+      (!this->isUniform || this->affineResidual() <= affine))
   {
     return false;
   }
@@ -218,7 +239,7 @@ bool DirichletEquations::solve(const MultiVector& prescribed, double tolerance, 
 }
 
 double affineResidual(const Points& points, const std::vector<Index>& rows,
-  const NodePartition& partition, const CsrMatrix& interior, const CsrMatrix& coupling,
+  const std::vector<Index>& columns, const CsrMatrix& interior, const CsrMatrix& coupling,
   Monitor& monitor)
 {
   const auto count = static_cast<Index>(rows.size());
@@ -244,7 +265,7 @@ double affineResidual(const Points& points, const std::vector<Index>& rows,
         }
         for (CsrMatrix::InnerIterator entry(coupling, static_cast<int>(i)); entry; ++entry)
         {
-          add(entry.value(), partition.prescribed[entry.col()]);
+          add(entry.value(), columns[entry.col()]);
         }
         const double scale = size.tail<3>().maxCoeff();
         const double missed = std::max(

@@ -8,6 +8,7 @@
 #include "Solvers/MultiVector.h"
 #include "Solvers/RightHandSide.h"
 #include "Solvers/RowComponents.h"
+#include "Support/Communicator.h"
 #include "Support/Monitor.h"
 
 #include <atomic>
@@ -25,14 +26,19 @@ void requireTolerance(double tolerance);
 /// The first guess of A_I U_I = -A_B U_B: an affine displacement field in each component of the
 /// rows. It fits the prescribed nodes that A_B couples with the component. Affine motions solve the
 /// equations, so the iteration finds only the remainder.
+///
+/// On several processes each has some of the rows, and all functions but component() and takeOff()
+/// are collective. Components with rows on one process need no messages.
 class AffineGuess
 {
 public:
   AffineGuess() = default;
-  /// `rows`: the nodes of A_I's rows; `components`: of A_I, copied; `coupling`: A_B. Cost: one pass
-  /// over A_B and the rows.
+  /// `rows`: the nodes of A_I's rows; `components`: of A_I, copied, by the same numbers on all
+  /// processes; `coupling`: A_B. `processes`: of the nodes of `points`, kept by reference. Cost:
+  /// one pass over A_B and the rows.
   AffineGuess(const Points& points, const NodePartition& partition, const std::vector<Index>& rows,
-    const RowComponents& components, const CsrMatrix& coupling);
+    const RowComponents& components, const CsrMatrix& coupling,
+    const Communicator& processes = Communicator::alone());
 
   /// The fit of each component, for the columns of a MultiVector.
   class Fits
@@ -57,6 +63,7 @@ public:
   /// `prescribed`: #prescribed displacements.
   Fits fits(const MultiVector& prescribed) const;
   int component(Index row) const { return this->components_.of(row); }
+  Index components() const { return this->components_.count; }
   /// Whether the fits give the displacements of all coupled nodes, to `tolerance` of the largest of
   /// each column and component. Cost: one pass over these nodes.
   bool agree(const Points& points, const NodePartition& partition, const MultiVector& prescribed,
@@ -78,8 +85,17 @@ public:
   ///@}
 
 private:
+  /// Those with rows of a component.
+  const Communicator& processesOf(std::size_t component) const
+  {
+    return this->isShared_[component] ? *this->processes_ : Communicator::alone();
+  }
+
+  const Communicator* processes_ = &Communicator::alone();
   RowComponents components_;
-  std::vector<std::vector<int>> coupled_; ///< per component, its columns of A_B, ascending
+  std::vector<bool> isShared_; ///< per component: several processes have rows
+  /// per component, its columns of A_B, ascending; each node counts on one process
+  std::vector<std::vector<int>> coupled_;
   std::vector<AffineLeastSquares> leastSquares_;
 };
 
@@ -87,33 +103,33 @@ private:
 void firstGuess(const Points& points, const std::vector<Index>& rows, const AffineGuess& guess,
   const AffineGuess::Fits& fits, MultiVector& x, Monitor& monitor);
 
-struct DirichletEquations;
-
 /// affineResidual() of equations, computed when it is first asked for: only affine motions ask.
 class AffineResidual
 {
 public:
   /// The equations are others from now on.
   void reset() { this->value_ = Unknown; }
-  /// Several threads may call it at once. Cost of the first calls: that of affineResidual().
-  double of(const DirichletEquations& equations, Monitor& monitor) const;
+  /// Several threads may call it at once. Cost of the first calls: that of affineResidual(), which
+  /// has these arguments.
+  double of(const Points& points, const std::vector<Index>& rows, const std::vector<Index>& columns,
+    const CsrMatrix& interior, const CsrMatrix& coupling, Monitor& monitor) const;
 
 private:
   static constexpr double Unknown = -1;
   mutable std::atomic<double> value_{ Unknown }; // whoever computes it, it is the same
 };
 
-/// Equations A_I U_I = -A_B U_B with their guess. It has references alone.
+/// Equations A_I U_I = -A_B U_B with their guess, whose rows may be on several processes. It has
+/// references alone.
 struct DirichletEquations
 {
   const Points& points; ///< undeformed
   const NodePartition& partition;
   const std::vector<Index>& rows;
-  const CsrMatrix& interior; ///< A_I
   const CsrMatrix& coupling; ///< A_B
   const AffineGuess& guess;
-  bool isUniform;                       ///< affine motions solve them, but for rounding
-  const AffineResidual& affineResidual; ///< asked where they are uniform
+  bool isUniform;                               ///< affine motions solve them, but for rounding
+  const std::function<double()> affineResidual; ///< asked where they are uniform
 
   /// Solves to `tolerance` by solveEach(), and sets `x`, #rows. Returns false where the guess is
   /// the solution to a hundredth of the tolerance. `solver` is not called then, as a pass over the
@@ -123,9 +139,10 @@ struct DirichletEquations
 };
 
 /// By how much affine motions miss the equations: the largest residual of a row, of the sum of its
-/// terms' absolute values. About 1e-15 is rounding. Cost: one pass over both matrices.
+/// terms' absolute values. `columns`: the nodes of the coupling's columns. About 1e-15 is rounding.
+/// Cost: one pass over both matrices.
 double affineResidual(const Points& points, const std::vector<Index>& rows,
-  const NodePartition& partition, const CsrMatrix& interior, const CsrMatrix& coupling,
+  const std::vector<Index>& columns, const CsrMatrix& interior, const CsrMatrix& coupling,
   Monitor& monitor);
 
 /// Reorders rows from NodePartition::free's order to the matrix order, and back. `free`: #free x 3,

@@ -97,9 +97,14 @@ void FemWarp::doPrepare(const Mesh& rest, Monitor& monitor)
 EvaluateReport FemWarp::solve(const MultiVector& prescribed, MultiVector& x, Monitor& monitor) const
 {
   SolveReport report;
-  const DirichletEquations equations = { this->restPoints(), this->partition(), this->rows(),
-    this->solver_.matrix(), this->coupling_, this->guess_, this->isUniform_,
-    this->affineResidual_ };
+  const NodePartition& partition = this->partition();
+  const DirichletEquations equations = { this->restPoints(), partition, this->rows(),
+    this->coupling_, this->guess_, this->isUniform_,
+    [&]
+    {
+      return this->affineResidual_.of(this->restPoints(), this->rows(), partition.prescribed,
+        this->solver_.matrix(), this->coupling_, monitor);
+    } };
   equations.solve(prescribed, this->tolerance_, x, monitor,
     [&](const RightHandSide& rhs, MultiVector& solution)
     {

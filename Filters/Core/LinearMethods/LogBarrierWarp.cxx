@@ -98,8 +98,14 @@ EvaluateReport LogBarrierWarp::solve(
   const MultiVector& prescribed, MultiVector& x, Monitor& monitor) const
 {
   SolveReport solved;
-  const DirichletEquations equations = { this->restPoints(), this->partition(), this->rows(),
-    this->solver_.matrix(), this->coupling_, this->guess_, true, this->affineResidual_ };
+  const NodePartition& partition = this->partition();
+  const DirichletEquations equations = { this->restPoints(), partition, this->rows(),
+    this->coupling_, this->guess_, true,
+    [&]
+    {
+      return this->affineResidual_.of(this->restPoints(), this->rows(), partition.prescribed,
+        this->solver_.matrix(), this->coupling_, monitor);
+    } };
   equations.solve(prescribed, this->tolerance_, x, monitor,
     [&](const RightHandSide& rhs, MultiVector& solution)
     { solved = this->solver_.solve(rhs, solution, this->tolerance_, MaxIterations, monitor); });

@@ -9,6 +9,7 @@
 #include "Support/ReproducibleSum.h"
 
 #include <algorithm>
+#include <iterator>
 #include <typeinfo>
 #include <utility>
 
@@ -42,25 +43,27 @@ std::vector<Index> notFinite(const Columns& some, const std::vector<Index>& ids)
 
 /// Throws unless these are finite displacements of the prescribed nodes.
 template <typename Columns>
-void requireMode(const Columns& displacement, const NodePartition& partition)
+void requireMode(
+  const Columns& displacement, const NodePartition& partition, const Communicator& processes)
 {
   requireRows("The array of boundary displacements", displacement.rows(),
     static_cast<Index>(partition.prescribed.size()));
   if (!displacement.allFinite())
   {
     throw Error("Boundary displacements that are not finite (NaN or infinite) at node ids " +
-                listIds(notFinite(displacement, partition.prescribed)) + ".");
+                listIds(processes.idsOf(notFinite(displacement, partition.prescribed))) + ".");
   }
 }
 
 /// Throws unless what was found for the free nodes is finite.
 template <typename Columns>
-void requireFound(const Columns& free, const NodePartition& partition)
+void requireFound(
+  const Columns& free, const NodePartition& partition, const Communicator& processes)
 {
   if (!free.allFinite())
   {
     throw Error("The displacements found are not finite (NaN or infinite) at node ids " +
-                listIds(notFinite(free, partition.free)) +
+                listIds(processes.idsOf(notFinite(free, partition.free))) +
                 ". The motion, or the mesh, is too large to compute with: scale it down.");
   }
 }
@@ -86,44 +89,72 @@ std::vector<Index> outside(const NodePartition& partition, Index nodes)
   }
   return ids;
 }
+
+/// Leaves the free nodes that count on this process.
+std::shared_ptr<const NodePartition> countedHere(
+  std::shared_ptr<const NodePartition> partition, const std::vector<Index>& elsewhere)
+{
+  if (elsewhere.empty())
+  {
+    return partition;
+  }
+  auto result = std::make_shared<NodePartition>(*partition);
+  result->free.clear();
+  std::set_difference(partition->free.begin(), partition->free.end(), elsewhere.begin(),
+    elsewhere.end(), std::back_inserter(result->free));
+  return result;
+}
 }
 
 Morpher::~Morpher() = default;
 
-void Morpher::prepare(const Mesh& rest, const NodePartition& partition, Monitor& monitor)
+void Morpher::prepare(const Mesh& rest, const NodePartition& partition, Monitor& monitor,
+  std::shared_ptr<const Communicator> processes)
 {
+  this->processes_ = std::move(processes);
   auto points = std::make_shared<Points>();
   points->resize(rest.points.rows(), 3);
   *points = rest.points;
-  this->prepareFor(rest, std::move(points), std::make_shared<NodePartition>(partition), monitor);
+  this->processes().together(
+    [&]
+    {
+      this->prepareFor(
+        rest, std::move(points), std::make_shared<NodePartition>(partition), monitor);
+    });
 }
 
 void Morpher::prepare(std::shared_ptr<const Mesh> rest,
   std::shared_ptr<const NodePartition> partition, Monitor& monitor)
 {
   const std::shared_ptr<const Points> points(rest, &rest->points);
+  this->processes_ = nullptr;
   this->prepareFor(*rest, points, std::move(partition), monitor);
 }
 
 void Morpher::prepareFor(const Mesh& rest, std::shared_ptr<const Points> points,
   std::shared_ptr<const NodePartition> partition, Monitor& monitor)
 {
+  this->prepared_ = false; // until all members below are consistent
   validate(rest);
   requireIndexable(rest);
-  if (partition->prescribed.empty())
+  const Communicator& processes = this->processes();
+  if (processes.all(partition->prescribed.empty()))
   {
     throw Error(Error::Kind::Singular, "No node is prescribed, so nothing says where the mesh "
                                        "goes. Prescribe the boundary's nodes.");
   }
-  this->prepared_ = false; // until all members below are consistent
   this->rest_ = std::move(points);
-  this->partition_ = std::move(partition);
+  this->copies_ = processes.rows();
+  this->partition_ = countedHere(std::move(partition), this->copies_->countedElsewhere());
   this->outside_ = outside(this->partition(), rest.points.rows());
   this->higherOrderNodes_.prepare(rest, this->partition());
   this->normal_ = rest.layer.normal;
   this->images_ = imagesAmong(rest.layer, this->partition().free);
   monitor.check();
-  if (!this->partition().free.empty())
+  this->isComplete_ =
+    processes.all(this->higherOrderNodes_.empty() && this->copies_->countedElsewhere().empty());
+  this->hasFree_ = !processes.all(this->partition().free.empty());
+  if (this->hasFree_)
   {
     ProgressRange whole(monitor, 0, 1);
     this->doPrepare(rest, whole);
@@ -177,7 +208,7 @@ Points Morpher::displacementOf(const ConstPoints& prescribed, Monitor& monitor) 
   if (bad > 0)
   {
     throw Error("Prescribed positions that are not finite (NaN or infinite) at node ids " +
-                listIds(notFinite(displacement, ids)) + ".");
+                listIds(this->processes().idsOf(notFinite(displacement, ids))) + ".");
   }
   return displacement;
 }
@@ -204,7 +235,27 @@ void Morpher::place(Index node, const Displacement& displacement, Points& result
   }
 }
 
+void Morpher::complete(Points& displacement) const
+{
+  const auto copy = [&]
+  {
+    displacement(this->copies_->countedElsewhere(), allColumns).setZero();
+    this->copies_->add(displacement);
+  };
+  copy();
+  this->higherOrderNodes_.apply(displacement);
+  copy(); // a process may not have all cells of its nodes
+}
+
 EvaluateReport Morpher::evaluate(
+  const ConstPoints& prescribed, Points& moved, Monitor& monitor) const
+{
+  EvaluateReport report;
+  this->processes().together([&] { report = this->evaluateHere(prescribed, moved, monitor); });
+  return report;
+}
+
+EvaluateReport Morpher::evaluateHere(
   const ConstPoints& prescribed, Points& moved, Monitor& monitor) const
 {
   this->requirePrepared();
@@ -216,7 +267,7 @@ EvaluateReport Morpher::evaluate(
   Points freeDisplacement(static_cast<Index>(this->partition().free.size()), 3);
   EvaluateReport report;
   ProgressRange whole(monitor, 0, 1);
-  if (freeDisplacement.rows() > 0)
+  if (this->hasFree_)
   {
     this->warnOf(displacement, monitor);
     report = this->displace(displacement, freeDisplacement, whole);
@@ -225,9 +276,10 @@ EvaluateReport Morpher::evaluate(
   if (reproducibleSum(freeDisplacement.rows(), monitor, Index(0),
         [&](Index i) { return Index(!freeDisplacement.row(i).allFinite()); }) > 0)
   {
-    throw Error("The positions found are not finite (NaN or infinite) at node ids " +
-                listIds(notFinite(freeDisplacement, this->partition().free)) +
-                ". The motion, or the mesh, is too large to compute with: scale it down.");
+    throw Error(
+      "The positions found are not finite (NaN or infinite) at node ids " +
+      listIds(this->processes().idsOf(notFinite(freeDisplacement, this->partition().free))) +
+      ". The motion, or the mesh, is too large to compute with: scale it down.");
   }
 
   // Allocates only if the caller's array does not fit: mapping new pages takes longer than filling
@@ -237,7 +289,7 @@ EvaluateReport Morpher::evaluate(
   Points fresh;
   Points& result = moved.rows() == this->restPoints().rows() && !overlaps ? moved : fresh;
   result.resize(this->restPoints().rows(), 3);
-  if (this->higherOrderNodes_.empty())
+  if (this->isComplete_)
   {
     parallel(freeDisplacement.rows(), monitor,
       [&](Index i) { this->place(this->partition().free[i], freeDisplacement.row(i), result); });
@@ -251,7 +303,7 @@ EvaluateReport Morpher::evaluate(
     Points all = Points::Zero(this->restPoints().rows(), 3);
     all(this->partition().free, allColumns) = freeDisplacement;
     all(ids, allColumns) = displacement;
-    this->higherOrderNodes_.apply(all);
+    this->complete(all);
     for (Index n = 0; n < all.rows(); ++n)
     {
       this->place(n, all.row(n), result);
@@ -271,6 +323,14 @@ EvaluateReport Morpher::evaluate(
 EvaluateReport LinearMorpher::applyTranspose(
   const ConstPoints& gradient, Points& prescribed, Monitor& monitor) const
 {
+  EvaluateReport report;
+  this->processes().together([&] { report = this->transposeHere(gradient, prescribed, monitor); });
+  return report;
+}
+
+EvaluateReport LinearMorpher::transposeHere(
+  const ConstPoints& gradient, Points& prescribed, Monitor& monitor) const
+{
   this->requirePrepared();
   requireRows("The gradient", gradient.rows(), this->restPoints().rows());
   Points all = gradient;
@@ -278,11 +338,16 @@ EvaluateReport LinearMorpher::applyTranspose(
   {
     throw Error("The gradient has entries that are not finite (NaN or infinite).");
   }
+  const std::vector<Index>&ids = this->partition().prescribed,
+        &elsewhere = this->copies_->countedElsewhere();
   // Prescribed nodes have no weights: they also receive the gradient from higher-order nodes.
+  all(elsewhere, allColumns).setZero();
   this->higherOrderNodes_.applyTranspose(all);
-  Points result = all(this->partition().prescribed, allColumns);
+  this->copies_->add(all);
+  all(elsewhere, allColumns).setZero();
+  Points result = all(ids, allColumns);
   EvaluateReport report;
-  if (!this->partition().free.empty())
+  if (this->hasFree_)
   {
     ProgressRange whole(monitor, 0, 1);
     Points free = all(this->partition().free, allColumns);
@@ -290,6 +355,14 @@ EvaluateReport LinearMorpher::applyTranspose(
     report = this->displaceTranspose(free, result, whole);
   }
   monitor.check(); // a method whose product takes milliseconds need not ask
+  if (!this->isComplete_)
+  {
+    all.setZero();
+    all(ids, allColumns) = result;
+    this->copies_->add(all);
+    all(elsewhere, allColumns).setZero();
+    result = all(ids, allColumns);
+  }
   prescribed.swap(result);
   monitor.progress(1);
   return report;
@@ -299,18 +372,18 @@ Points LinearMorpher::mode(
   const Points& displacement, EvaluateReport& report, Monitor& monitor) const
 {
   const NodePartition& partition = this->partition();
-  requireMode(displacement, partition);
+  requireMode(displacement, partition, this->processes());
   Points free(static_cast<Index>(partition.free.size()), 3);
-  if (free.rows() > 0)
+  if (this->hasFree_)
   {
     report = this->displace(displacement, free, monitor);
     this->keepInPlane(free);
   }
-  requireFound(free, partition);
+  requireFound(free, partition, this->processes());
   Points all = Points::Zero(this->restPoints().rows(), 3);
   all(partition.free, allColumns) = free;
   all(partition.prescribed, allColumns) = displacement;
-  this->higherOrderNodes_.apply(all);
+  this->complete(all);
   return all;
 }
 
@@ -341,8 +414,8 @@ FourFields LinearMorpher::fields(
   const NodePartition& partition = this->partition();
   FourFields free = FourFields::Zero(static_cast<Index>(partition.free.size()), 4);
   EvaluateReport found;
-  requireMode(prescribed, partition);
-  if (free.rows() > 0)
+  requireMode(prescribed, partition, this->processes());
+  if (this->hasFree_)
   {
     ProgressRange whole(monitor, 0, 1);
     found = this->displaceFields(prescribed, free, whole);
@@ -351,16 +424,16 @@ FourFields LinearMorpher::fields(
       free.row(front) = free.row(back) = ((free.row(front) + free.row(back)) / 2).eval();
     }
   }
-  requireFound(free, partition);
+  requireFound(free, partition, this->processes());
   FourFields all = FourFields::Zero(this->restPoints().rows(), 4);
   all(partition.free, allColumns) = free;
   all(partition.prescribed, allColumns) = prescribed;
-  if (!this->higherOrderNodes_.empty())
+  if (!this->isComplete_)
   {
     Points three = all.leftCols<3>(), fourth = Points::Zero(all.rows(), 3);
     fourth.col(0) = all.col(3);
-    this->higherOrderNodes_.apply(three);
-    this->higherOrderNodes_.apply(fourth);
+    this->complete(three);
+    this->complete(fourth);
     all << three, fourth.col(0);
   }
   if (report)
@@ -382,7 +455,8 @@ std::vector<Points> LinearMorpher::basis(const std::vector<Points>& displacement
   {
     const auto done = static_cast<double>(i);
     ProgressRange part(monitor, done / count, (done + 1) / count);
-    modes.push_back(this->mode(displacements[i], found[i], part));
+    this->processes().together(
+      [&] { modes.push_back(this->mode(displacements[i], found[i], part)); });
   }
   if (reports)
   {

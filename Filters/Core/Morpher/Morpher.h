@@ -4,6 +4,7 @@
 #include "Mesh/HigherOrderNodes.h"
 #include "Mesh/Mesh.h"
 #include "Mesh/NodePartition.h"
+#include "Support/Communicator.h"
 #include "Support/Monitor.h"
 
 #include <memory>
@@ -50,7 +51,14 @@ public:
   /// method cannot use: no prescribed node, a body without one, unknown cells, counts beyond 32
   /// bits. Without a free node the method prepares nothing. evaluate() then only moves the
   /// prescribed and higher-order nodes.
-  void prepare(const Mesh& rest, const NodePartition& partition, Monitor& monitor);
+  ///
+  /// `processes`: null, or several that have parts of the mesh, of which `rest` is this process's,
+  /// with all cells around the nodes that count here; see Communicator. All functions are then
+  /// collective, the free nodes of partition() are those that count here, and ids in messages are
+  /// those of the whole mesh. Of a gradient, and of what applyTranspose() returns, the rows of
+  /// nodes that count here count; the others are zero in the second.
+  void prepare(const Mesh& rest, const NodePartition& partition, Monitor& monitor,
+    std::shared_ptr<const Communicator> processes = nullptr);
   /// The same without copies: keeps the mesh and the partition, which must not change any more.
   void prepare(std::shared_ptr<const Mesh> rest, std::shared_ptr<const NodePartition> partition,
     Monitor& monitor);
@@ -67,6 +75,8 @@ public:
   /// #nodes x 3; no rows mean the undeformed mesh. Call it before prepare(). Methods that only
   /// follow the motion ignore it.
   virtual void setReference(Points reference);
+  /// The layers of cells around the nodes of a process that prepare() reads there.
+  virtual int layers() const { return 1; }
 
   /// A copy with the same options of a linear method that reads no cells, null of all others. Such
   /// a method interpolates between all prescribed nodes, so that motions would cross the gaps
@@ -108,6 +118,12 @@ protected:
   }
   ///@}
 
+  /// Those that have parts of the mesh.
+  const Communicator& processes() const
+  {
+    return this->processes_ ? *this->processes_ : Communicator::alone();
+  }
+
   HigherOrderNodes higherOrderNodes_;
 
   /// Throws Error unless the last prepare() succeeded.
@@ -122,12 +138,19 @@ private:
 
   void prepareFor(const Mesh& rest, std::shared_ptr<const Points> points,
     std::shared_ptr<const NodePartition> partition, Monitor& monitor);
+  /// Completes displacements of the prescribed and the free nodes, #nodes x 3.
+  void complete(Points& displacement) const;
+  EvaluateReport evaluateHere(const ConstPoints& prescribed, Points& moved, Monitor& monitor) const;
   /// Returns #prescribed x 3; throws Error where it is not finite.
   Points displacementOf(const ConstPoints& prescribed, Monitor& monitor) const;
   template <typename Displacement>
   void place(Index node, const Displacement& displacement, Points& result) const;
 
   bool prepared_ = false;
+  std::shared_ptr<const Communicator> processes_; ///< null for one
+  std::shared_ptr<const CopiedRows> copies_;      ///< of all nodes
+  bool hasFree_ = false;                          ///< on any process
+  bool isComplete_ = false;                       ///< prescribed and free nodes are all that move
   std::shared_ptr<const Points> rest_ = std::make_shared<Points>();
   std::shared_ptr<const NodePartition> partition_ = std::make_shared<NodePartition>();
   std::vector<Index> outside_;
@@ -179,5 +202,7 @@ protected:
 
 private:
   Points mode(const Points& displacement, EvaluateReport& report, Monitor& monitor) const;
+  EvaluateReport transposeHere(
+    const ConstPoints& gradient, Points& prescribed, Monitor& monitor) const;
 };
 }

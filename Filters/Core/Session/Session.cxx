@@ -118,16 +118,9 @@ void Session::setMesh(std::shared_ptr<const UndeformedMesh> mesh)
 void Session::reportMesh(const Options& options, Monitor& monitor) const
 {
   const UndeformedMesh& mesh = *this->mesh_;
-  if (mesh.mirroredBodies() > 0)
-  {
-    const auto first = std::find(mesh.orientation().begin(), mesh.orientation().end(), -1);
-    monitor.warn("The mesh has mirrored bodies (" + std::to_string(mesh.mirroredBodies()) +
-                 "): in VTK's order of nodes all their cells of a "
-                 "type are inverted, the first is cell " +
-                 std::to_string(first - mesh.orientation().begin()) +
-                 ". They are morphed and measured as if they were not. Reverse their order of "
-                 "nodes if a solver expects VTK's.");
-  }
+  const std::vector<std::int8_t>& signs = mesh.orientation();
+  const auto first = std::find(signs.begin(), signs.end(), -1);
+  warnOfMirrored(mesh.mirroredBodies(), first - signs.begin(), monitor);
   warnOfShared(mesh.repeatedCells(), mesh.touchingNodes(), monitor);
   warnOfUnmapped(mesh.unmappedCells(), monitor);
   if (options.measureAll)

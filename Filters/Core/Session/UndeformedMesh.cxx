@@ -95,6 +95,19 @@ const InvertedBefore& UndeformedMesh::before(Monitor& monitor) const
   return *this->before_;
 }
 
+void warnOfMirrored(Index bodies, Index first, Monitor& monitor)
+{
+  if (bodies > 0)
+  {
+    monitor.warn("The mesh has mirrored bodies (" + std::to_string(bodies) +
+                 "): in VTK's order of nodes all their cells of a type are inverted, the first is "
+                 "cell " +
+                 std::to_string(first) +
+                 ". They are morphed and measured as if they were not. Reverse their order of "
+                 "nodes if a solver expects VTK's.");
+  }
+}
+
 void warnOfShared(const std::vector<Index>& repeatedCells, const std::vector<Index>& touchingNodes,
   Monitor& monitor)
 {

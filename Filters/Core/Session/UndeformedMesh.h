@@ -65,6 +65,8 @@ private:
   mutable std::optional<InvertedBefore> before_; ///< once it was asked for
 };
 
+/// Warns of `bodies` mirrored bodies, if there are some. `first`: the first cell of orientation -1.
+void warnOfMirrored(Index bodies, Index first, Monitor& monitor);
 /// Warns of cells that are there twice, and of nodes where bodies touch; see SharedCorners.h. Ids
 /// are those of the whole mesh, ascending.
 void warnOfShared(const std::vector<Index>& repeatedCells, const std::vector<Index>& touchingNodes,

@@ -97,38 +97,56 @@ std::vector<Index> Validity::inverted(const Points& points, Monitor& monitor) co
   return this->before.added(points, invertedCells(this->mesh, points, this->orientation, monitor));
 }
 
-std::string Validity::describe(
-  const std::vector<Index>& inverted, const Quality& quality, const Points& points) const
+std::vector<Validity::BadCell> Validity::worst(const Mesh& mesh, const std::vector<Index>& cells,
+  const Quality& quality, const Points& points, const std::vector<std::int64_t>* ids)
 {
-  constexpr std::size_t Most = 10;
-  std::vector<Index> worst = inverted;
-  std::stable_sort(worst.begin(), worst.end(),
-    [&](Index a, Index b) { return quality.scaledJacobian[a] < quality.scaledJacobian[b]; });
-  worst.resize(std::min(worst.size(), Most));
-  std::ostringstream text;
-  for (Index cell : worst)
+  std::vector<BadCell> result;
+  for (const Index cell : cells)
   {
     // Of a plane mesh's cell: that of its front.
-    Eigen::RowVector3d center = -thickness(this->mesh) / 2 * this->mesh.layer.normal;
-    const Index corners = cornerCount(this->mesh, cell, *cellShape(this->mesh.types[cell]));
+    Eigen::RowVector3d center = -thickness(mesh) / 2 * mesh.layer.normal;
+    const Index corners = cornerCount(mesh, cell, *cellShape(mesh.types[cell]));
     for (Index k = 0; k < corners; ++k)
     {
-      center += points.row(this->mesh.cell(cell)[k]) / static_cast<double>(corners);
+      center += points.row(mesh.cell(cell)[k]) / static_cast<double>(corners);
     }
-    text << "\n  cell " << cell << " at (" << center[0] << ", " << center[1] << ", " << center[2]
-         << "), scaled Jacobian " << quality.scaledJacobian[cell];
+    result.push_back({ quality.scaledJacobian[cell], ids ? (*ids)[cell] : cell,
+      { center[0], center[1], center[2] } });
   }
-  text << (inverted.size() > worst.size() ? "\n  ...\n" : "\n");
+  std::sort(result.begin(), result.end());
+  result.resize(std::min(result.size(), mostNamed));
+  return result;
+}
+
+namespace
+{
+/// A line for each of the worst of `count` cells.
+std::string linesOf(const std::vector<Validity::BadCell>& worst, Index count)
+{
+  std::ostringstream text;
+  for (const Validity::BadCell& cell : worst)
+  {
+    text << "\n  cell " << cell.id << " at (" << cell.center[0] << ", " << cell.center[1] << ", "
+         << cell.center[2] << "), scaled Jacobian " << cell.jacobian;
+  }
+  text << (count > static_cast<Index>(worst.size()) ? "\n  ...\n" : "\n");
   return text.str();
+}
+}
+
+std::string Validity::found(Index count, Index all, const std::vector<BadCell>& worst)
+{
+  return std::to_string(count) + " cells are inverted or degenerate" +
+         (count == all ? "" : " by the motion") +
+         ". The worst, with their centers:" + linesOf(worst, count);
 }
 
 std::string Validity::found(const Quality& quality, const Points& points) const
 {
   const std::vector<Index> inverted = this->inverted(quality, points);
-  const bool countsAll = inverted.size() == invertedCells(quality).size();
-  return std::to_string(inverted.size()) + " cells are inverted or degenerate" +
-         (countsAll ? "" : " by the motion") +
-         ". The worst, with their centers:" + this->describe(inverted, quality, points);
+  return found(static_cast<Index>(inverted.size()),
+    static_cast<Index>(invertedCells(quality).size()),
+    worst(this->mesh, inverted, quality, points));
 }
 
 Validity::Outcome Validity::ofSubSteps(
@@ -241,8 +259,10 @@ Validity::Outcome Validity::subStep(
   }
   Outcome outcome = ofSubSteps(result, "folds, runs into itself, or leaves",
     ", at the result's places:" +
-      this->describe(result.inverted,
-        measureQuality(this->mesh, result.moved, this->orientation, {}, monitor), result.moved));
+      linesOf(
+        worst(this->mesh, result.inverted,
+          measureQuality(this->mesh, result.moved, this->orientation, {}, monitor), result.moved),
+        static_cast<Index>(result.inverted.size())));
   if (!result.isForbidden && !this->isInversionFree && this->mode == Mode::SubStep)
   {
     outcome.error += " `Validity` set to Repair often goes all the way where sub-steps stop.";

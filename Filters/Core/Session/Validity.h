@@ -13,6 +13,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace morph
@@ -89,6 +90,26 @@ public:
   /// ascending.
   static std::string note(Mode mode, const std::vector<Index>& ids);
 
+  /// What messages say of an inverted cell.
+  struct BadCell
+  {
+    double jacobian;
+    Index id; ///< of the whole mesh
+    double center[3];
+    bool operator<(const BadCell& other) const
+    {
+      return std::tie(this->jacobian, this->id) < std::tie(other.jacobian, other.id);
+    }
+  };
+  static constexpr std::size_t mostNamed = 10;
+  /// Returns the worst of these cells, `mostNamed` at most, the worst first. `ids`: #cells, of the
+  /// whole mesh, or null where they are those of `mesh`.
+  static std::vector<BadCell> worst(const Mesh& mesh, const std::vector<Index>& cells,
+    const Quality& quality, const Points& points, const std::vector<std::int64_t>* ids = nullptr);
+  /// "N cells are inverted or degenerate ...", by the motion if `count` of `all` bad cells are, and
+  /// the worst, a line each.
+  static std::string found(Index count, Index all, const std::vector<BadCell>& worst);
+
   /// The outcome of sub-steps. Where they have not made the whole motion, its error names what
   /// stopped them: `room`, what the boundary does where the next step is forbidden, as "leaves";
   /// `cells`, a text of where the cells are, to which a sentence may follow.
@@ -110,14 +131,10 @@ private:
   /// The inverted cells that count.
   std::vector<Index> inverted(const Quality& quality, const Points& points) const;
   std::vector<Index> inverted(const Points& points, Monitor& monitor) const;
-  /// Describes the worst of these cells, a line for each.
-  std::string describe(
-    const std::vector<Index>& inverted, const Quality& quality, const Points& points) const;
   Outcome subStep(
     const std::function<std::unique_ptr<Morpher>()>& make, Points& moved, Monitor& monitor) const;
   /// The outcome of a mesh that stays invalid though `mode` asks for a valid one. `reason`: why.
   Outcome remaining(const Points& moved, const std::string& reason, Monitor& monitor) const;
-  /// "N cells are inverted or degenerate ...", by the motion where others are, too, and the worst.
   std::string found(const Quality& quality, const Points& points) const;
 };
 }

@@ -30,6 +30,16 @@ const CopiedRows& CopiedRows::alone()
 
 Communicator::~Communicator() = default;
 
+void Communicator::together(const std::function<void()>& work) const
+{
+  work();
+}
+
+std::vector<Index> Communicator::idsOf(const std::vector<Index>& nodes) const
+{
+  return nodes;
+}
+
 double Communicator::sum(double value) const
 {
   return value;
@@ -52,7 +62,7 @@ void Communicator::spread(std::vector<Index>&) const
 {
 }
 
-std::unique_ptr<CopiedRows> Communicator::rows(const std::vector<Index>&) const
+std::unique_ptr<CopiedRows> Communicator::rows() const
 {
   return std::make_unique<CopiedRows>();
 }

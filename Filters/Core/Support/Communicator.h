@@ -4,6 +4,7 @@
 #include "Support/Monitor.h"
 #include "Support/Types.h"
 
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -36,6 +37,12 @@ class Communicator
 public:
   virtual ~Communicator();
 
+  /// Calls `work`. If it throws on one process, all throw its Error, the others at their next
+  /// communication. Calls may be nested.
+  virtual void together(const std::function<void()>& work) const;
+  /// Returns the numbers of nodes in the whole mesh, for messages. Not collective.
+  virtual std::vector<Index> idsOf(const std::vector<Index>& nodes) const;
+
   /// Over all processes; all get the same bits.
   ///@{
   virtual double sum(double value) const;
@@ -52,8 +59,15 @@ public:
   /// Adds the nodes of this process of which another process has a copy in its `nodes`. The order
   /// changes where there are some.
   virtual void spread(std::vector<Index>& nodes) const;
-  /// Returns what is needed to sum rows of these nodes, each of which is in the list once.
-  virtual std::unique_ptr<CopiedRows> rows(const std::vector<Index>& nodes) const;
+  /// Returns what is needed to sum rows of all nodes, or of these, each of which is in the list
+  /// once.
+  ///@{
+  virtual std::unique_ptr<CopiedRows> rows() const;
+  std::unique_ptr<CopiedRows> rows(const std::vector<Index>& nodes) const
+  {
+    return this->part(nodes)->rows();
+  }
+  ///@}
   /// Returns the communicator of a part of the mesh, whose node i is `nodes`[i] here.
   virtual std::unique_ptr<Communicator> part(const std::vector<Index>& nodes) const;
 

@@ -14,6 +14,7 @@ namespace morph::filters::RankCrossings
 namespace
 {
 using morph::Index;
+using morph::distributed::Ranks;
 
 /// What a process tells of its outer faces, and of each of their corners.
 ///@{
@@ -69,8 +70,10 @@ struct Gathered
   std::vector<Index> sides;
   morph::Points rest, moved;
 
-  explicit Gathered(const Part& all)
+  /// Collective.
+  Gathered(const Ranks& ranks, const Part& mine)
   {
+    const Part all = { ranks.gather(mine.faces), ranks.gather(mine.corners) };
     std::vector<Index> begin(all.faces.size() + 1, 0), order(all.faces.size());
     std::vector<std::int64_t> ids;
     for (std::size_t f = 0; f < all.faces.size(); ++f)
@@ -187,7 +190,7 @@ Crossings::Found Find(const RankMesh& mesh, vtkUnstructuredGrid* output, morph::
         withPoints(output, [&](const morph::ConstPoints& moved) { mine = ownPart(mesh, moved); });
       }
     });
-  const Gathered gathered({ ranks.gather(mine.faces), ranks.gather(mine.corners) });
+  const Gathered gathered(ranks, mine);
   const Crossings::Pairs pairs = gathered.Pairs(mesh, monitor);
   const std::vector<Index> faces = Crossings::FacesOf(pairs);
   std::vector<Index> own;
@@ -202,7 +205,7 @@ bool Any(const RankMesh& mesh, const morph::Points& moved, morph::Monitor& monit
 {
   Part mine;
   mesh.Ranks().together([&] { mine = ownPart(mesh, morph::ConstPoints(moved)); });
-  const Gathered gathered({ mesh.Ranks().gather(mine.faces), mesh.Ranks().gather(mine.corners) });
+  const Gathered gathered(mesh.Ranks(), mine);
   return !gathered.Pairs(mesh, monitor).empty();
 }
 }

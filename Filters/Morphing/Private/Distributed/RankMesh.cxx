@@ -5,7 +5,6 @@
 #include "Mesh/Polyhedra.h"
 #include "Private/Data/GridMesh.h"
 #include "Private/Data/Surface.h"
-#include "Private/Distributed/RankQuality.h"
 #include "Private/RankBlocks/GlobalRanks.h"
 #include "Quality/Certificate.h"
 #include "Session/UndeformedMesh.h"
@@ -175,14 +174,10 @@ const morph::InvertedBefore& RankMesh::Before(morph::Monitor& monitor) const
 void RankMesh::WarnOfShared(morph::Monitor& monitor) const
 {
   const morph::distributed::DistributedMesh& whole = *this->Distributed;
-  const std::vector<morph::Index> cells = RankQuality::GatherIds(whole, whole.repeatedCells());
-  std::vector<morph::Index> unmapped = morph::unmappedCells(whole.mesh());
-  unmapped.erase(std::remove_if(unmapped.begin(), unmapped.end(),
-                   [&](morph::Index cell) { return whole.isGhost()[cell] != 0; }),
-    unmapped.end());
-  unmapped = RankQuality::GatherIds(whole, unmapped);
-  std::vector<morph::Index> nodes = this->Processes.gather(whole.idsOfNodes(whole.touchingNodes()));
-  std::sort(nodes.begin(), nodes.end());
+  const std::vector<morph::Index> cells = whole.gatherCells(whole.repeatedCells()),
+                                  unmapped = whole.gatherCells(morph::unmappedCells(whole.mesh())),
+                                  nodes = this->Processes.gatherSorted(
+                                    whole.idsOfNodes(whole.touchingNodes()));
   if (this->Processes.rank() == 0)
   {
     morph::warnOfShared(cells, nodes, monitor);

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Distributed/AttachedNodes.h"
 #include "Distributed/DistributedMesh.h"
-#include "Distributed/Method.h"
 #include "Distributed/Methods.h"
-#include "Distributed/PolyhedralMethod.h"
 #include "Distributed/Quality.h"
+#include "Distributed/RankCommunicator.h"
 #include "Mesh/NodePartition.h"
 #include "Private/Data/Quality.h"
 #include "Private/Distributed/OnRanks.h"
@@ -12,7 +11,6 @@
 #include "Private/Distributed/RankMatch.h"
 #include "Private/Distributed/RankMesh.h"
 #include "Private/Distributed/RankOutput.h"
-#include "Support/ProgressRange.h"
 
 #include <vtkPointSet.h>
 #include <vtkPolyData.h>
@@ -79,30 +77,27 @@ public:
         partition =
           morph::partitionNodes(whole.mesh(), whole.hanging(), whole.hanging().without(prescribed));
       });
-    auto prepared = morph::distributed::makeMethod(std::move(method));
-    if (this->Pieces.NeedsPieces())
-    {
-      prepared = std::make_unique<morph::distributed::PolyhedralMethod>(std::move(prepared));
-    }
-    prepared->prepare(whole, partition, monitor);
+    auto prepared = morph::distributed::makeMethod(std::move(method), this->Pieces.NeedsPieces());
+    prepared->prepare(whole.mesh(), partition, monitor,
+      std::make_shared<morph::distributed::RankCommunicator>(whole));
     this->Hanging = morph::distributed::attachedNodes(whole, partition);
-    this->Method = std::move(prepared);
+    this->Method.reset(dynamic_cast<morph::LinearMorpher*>(prepared.release()));
     this->Prescribed = prescribed;
   }
   std::vector<morph::Points> Basis(const std::vector<morph::Points>& displacements,
     std::vector<morph::EvaluateReport>& reports, morph::Monitor& monitor) const override
   {
-    std::vector<morph::Points> fields(displacements.size());
-    const auto number = static_cast<double>(fields.size());
-    reports.clear();
-    for (std::size_t i = 0; i < fields.size(); ++i)
+    std::vector<morph::Points> given;
+    for (const morph::Points& displacement : displacements)
     {
-      const auto done = static_cast<double>(i);
-      morph::ProgressRange part(monitor, done / number, (done + 1) / number);
       morph::Points all = morph::Points::Zero(this->Mesh().numberOfNodes(), 3);
-      all(this->Prescribed, morph::allColumns) = displacements[i];
-      reports.push_back(this->Method->mode(
-        all(this->Method->partition().prescribed, morph::allColumns), fields[i], part));
+      all(this->Prescribed, morph::allColumns) = displacement;
+      given.emplace_back(all(this->Method->partition().prescribed, morph::allColumns));
+    }
+    std::vector<morph::Points> fields = this->Method->basis(given, monitor, &reports);
+    for (morph::Points& field : fields)
+    {
+      this->Pieces.Whole().copyToDoubles(field);
     }
     return fields;
   }
@@ -140,9 +135,9 @@ public:
 
 private:
   RankMesh Pieces;
-  std::unique_ptr<morph::distributed::Method> Method; ///< prepared, or null
-  std::vector<morph::Index> Prescribed;               ///< by the caller
-  morph::AttachedNodes Hanging;                       ///< of Method
+  std::unique_ptr<morph::LinearMorpher> Method; ///< prepared, or null
+  std::vector<morph::Index> Prescribed;         ///< by the caller
+  morph::AttachedNodes Hanging;                 ///< of Method
 };
 }
 

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Distributed/AttachedNodes.h"
 #include "Distributed/DistributedMesh.h"
-#include "Distributed/InversionFree.h"
-#include "Distributed/Method.h"
 #include "Distributed/Methods.h"
-#include "Distributed/PolyhedralMethod.h"
+#include "Distributed/RankCommunicator.h"
 #include "Mesh/Extent.h"
 #include "Mesh/NodePartition.h"
 #include "Private/Data/Gradient.h"
@@ -14,7 +12,6 @@
 #include "Private/Distributed/RankMesh.h"
 #include "Private/Distributed/RankOutput.h"
 #include "Private/Distributed/RankPolyhedra.h"
-#include "Private/Distributed/RankQuality.h"
 #include "Private/Distributed/RankValidity.h"
 #include "Private/Pipeline/Input.h"
 #include "Quality/MovableQuality.h"
@@ -23,6 +20,7 @@
 #include "Support/Error.h"
 #include "Support/ProgressRange.h"
 #include "Support/Stopwatch.h"
+#include "Untangling/InversionFree.h"
 
 #include <vtkDataArray.h>
 #include <vtkDoubleArray.h>
@@ -42,7 +40,7 @@ namespace morph::filters::OnRanks
 namespace
 {
 using morph::distributed::DistributedMesh;
-using morph::distributed::Method;
+using morph::distributed::RankCommunicator;
 
 /// A copy with zeros where another process owns the node. A set's points may be such nodes, which
 /// have no values here.
@@ -63,13 +61,6 @@ vtkSmartPointer<vtkDataArray> ofOwned(vtkDataArray* gradient, const DistributedM
     }
   }
   return copy;
-}
-
-bool isInversionFree(const Method& method)
-{
-  const auto* onPieces = dynamic_cast<const morph::distributed::PolyhedralMethod*>(&method);
-  return dynamic_cast<const morph::distributed::InversionFree*>(
-    onPieces ? &onPieces->method() : &method);
 }
 
 /// The motion of the nodes that do not hang, which move the others by their ties.
@@ -96,8 +87,7 @@ void warnOfDropped(const DistributedMesh& mesh, const morph::BoundaryTargets& ma
   ids.erase(
     std::remove_if(ids.begin(), ids.end(), [&](morph::Index node) { return !mesh.owns(node); }),
     ids.end());
-  ids = mesh.ranks().gather(mesh.idsOfNodes(ids));
-  std::sort(ids.begin(), ids.end());
+  ids = mesh.ranks().gatherSorted(mesh.idsOfNodes(ids));
   if (!ids.empty() && mesh.ranks().rank() == 0)
   {
     monitor.warn(morph::noteOfDropped(ids));
@@ -136,20 +126,20 @@ private:
     const MotionOptions& options, std::vector<RankMatch::Follower>* followers,
     morph::Monitor& monitor) const;
   /// Prepares the method for the undeformed mesh, unless it is prepared.
-  Method& Prepare(
+  morph::Morpher& Prepare(
     const morph::NodePartition& partition, const MotionOptions& options, morph::Monitor& monitor);
   /// `from`: null for the undeformed mesh.
   morph::StepResult Step(const DistributedMesh* from, const morph::BoundaryTargets& match,
     const MotionOptions& options, morph::Monitor& monitor);
   std::shared_ptr<const morph::StepResult> MorphSeries(
     const Motion& motion, const MotionOptions& options, morph::Monitor& monitor);
-  std::unique_ptr<Method> Make(const MotionOptions& options) const;
+  std::unique_ptr<morph::Morpher> Make(const MotionOptions& options) const;
   morph::NodePartition PartitionOf(
     const std::vector<morph::Index>& prescribed, morph::Monitor& monitor) const;
   /// The last step until `number` that all ranks keep.
   std::pair<int, morph::Series::Step> LastUntil(int number) const;
 
-  std::unique_ptr<Method> Prepared;
+  std::unique_ptr<morph::Morpher> Prepared;
   std::vector<morph::Index> PreparedFor; ///< the prescribed nodes of Prepared
   std::unique_ptr<const morph::Morpher> PreparedLike;
 };
@@ -163,7 +153,8 @@ std::unique_ptr<Morphing> MakeMorphing(Results& results)
 void RankMorphing::Take(
   vtkUnstructuredGrid* grid, const MotionOptions& options, morph::Monitor& monitor)
 {
-  const std::unique_ptr<Method> sample = morph::distributed::makeMethod(options.createMorpher());
+  const std::unique_ptr<morph::Morpher> sample =
+    morph::distributed::makeMethod(options.createMorpher());
   if (!sample)
   {
     throw morph::Error(options.method +
@@ -176,15 +167,20 @@ void RankMorphing::Take(
     this->Steps.clear();
   }
   this->Mesh.RequireVolumeCells();
-  const auto& ranks = this->Mesh.Ranks();
-  const morph::Index mirrored = this->Mesh.Whole().mirroredBodies();
-  this->Results.SetInteger("MirroredBodies", mirrored);
-  if (mirrored > 0 && ranks.rank() == 0)
+  const DistributedMesh& whole = this->Mesh.Whole();
+  this->Results.SetInteger("MirroredBodies", whole.mirroredBodies());
+  morph::Index first = std::numeric_limits<morph::Index>::max();
+  for (morph::Index c = 0; c < whole.pieceCells(); ++c)
   {
-    monitor.warn("The mesh has mirrored bodies (" + std::to_string(mirrored) +
-                 "): in VTK's order of nodes all their cells of a "
-                 "type are inverted. They are morphed and measured as if they were not. Reverse "
-                 "their order of nodes if a solver expects VTK's.");
+    if (whole.isGhost()[c] == 0 && whole.orientation()[c] < 0)
+    {
+      first = std::min<morph::Index>(first, whole.cellId(c));
+    }
+  }
+  first = whole.ranks().minimum(first);
+  if (whole.ranks().rank() == 0)
+  {
+    morph::warnOfMirrored(whole.mirroredBodies(), first, monitor);
   }
 }
 
@@ -206,15 +202,10 @@ morph::BoundaryTargets RankMorphing::Match(vtkDataObject* boundary, double fract
   return match;
 }
 
-std::unique_ptr<Method> RankMorphing::Make(const MotionOptions& options) const
+std::unique_ptr<morph::Morpher> RankMorphing::Make(const MotionOptions& options) const
 {
-  std::unique_ptr<Method> method =
-    morph::distributed::makeMethod(options.settings(this->Mesh.NeedsPieces()));
-  if (this->Mesh.NeedsPieces())
-  {
-    method = std::make_unique<morph::distributed::PolyhedralMethod>(std::move(method));
-  }
-  return method;
+  const bool onPieces = this->Mesh.NeedsPieces();
+  return morph::distributed::makeMethod(options.settings(onPieces), onPieces);
 }
 
 morph::NodePartition RankMorphing::PartitionOf(
@@ -231,7 +222,7 @@ morph::NodePartition RankMorphing::PartitionOf(
   return partition;
 }
 
-Method& RankMorphing::Prepare(
+morph::Morpher& RankMorphing::Prepare(
   const morph::NodePartition& partition, const MotionOptions& options, morph::Monitor& monitor)
 {
   const auto& ranks = this->Mesh.Ranks();
@@ -243,8 +234,9 @@ Method& RankMorphing::Prepare(
   {
     const morph::Stopwatch watch;
     this->Prepared.reset();
-    std::unique_ptr<Method> method = this->Make(options);
-    method->prepare(this->Mesh.Whole(), partition, monitor);
+    std::unique_ptr<morph::Morpher> method = this->Make(options);
+    method->prepare(this->Mesh.Whole().mesh(), partition, monitor,
+      std::make_shared<RankCommunicator>(this->Mesh.Whole()));
     this->Prepared = std::move(method);
     this->PreparedFor = partition.prescribed;
     this->Results.SetInteger("PrepareCount", this->Results.Integer("PrepareCount") + 1);
@@ -273,22 +265,23 @@ morph::StepResult RankMorphing::Step(const DistributedMesh* from,
 
   morph::ProgressRange preparing(monitor, 0.05, 0.5), evaluating(monitor, 0.5, 0.8),
     checking(monitor, 0.8, 1);
-  std::unique_ptr<Method> ofStep;
+  std::unique_ptr<morph::Morpher> ofStep;
   if (from)
   {
     ofStep = this->Make(options);
     ofStep->setReference(this->Mesh.Whole().mesh().points);
     const morph::Stopwatch watch;
-    ofStep->prepare(whole, partition, preparing);
+    ofStep->prepare(whole.mesh(), partition, preparing, std::make_shared<RankCommunicator>(whole));
     this->Results.SetInteger("PrepareCount", this->Results.Integer("PrepareCount") + 1);
     this->Results.SetNumber("PrepareSeconds", ranks.maximum(watch.seconds()));
   }
-  const Method& method = from ? *ofStep : this->Prepare(partition, options, preparing);
+  const morph::Morpher& method = from ? *ofStep : this->Prepare(partition, options, preparing);
   const morph::Stopwatch watch;
   const morph::EvaluateReport report = method.evaluate(match.targets, result.moved, evaluating);
   const morph::Index followers =
     ranks.sum(static_cast<morph::Index>(partition.higherOrderNodes.size()));
-  if (isInversionFree(method) && (followers > 0 || this->Mesh.NeedsPieces()))
+  if (dynamic_cast<morph::InversionFree*>(options.createMorpher().get()) &&
+      (followers > 0 || this->Mesh.NeedsPieces()))
   {
     // The method has moved corners of cells or pieces; nodes between them have followed.
     RankPolyhedra::Repair(whole, this->Mesh.Whole().mesh().points, partition,
@@ -440,8 +433,8 @@ std::string RankMorphing::Run(
   this->Mesh.WarnOfShared(monitor);
   if (options.measureAll)
   {
-    const std::string note = morph::Validity::note(options.validity,
-      RankQuality::GatherIds(this->Mesh.Whole(), this->Mesh.Before(monitor).cells()));
+    const std::string note = morph::Validity::note(
+      options.validity, this->Mesh.Whole().gatherCells(this->Mesh.Before(monitor).cells()));
     if (!note.empty() && isFirst)
     {
       monitor.warn(note);
@@ -489,7 +482,14 @@ void RankMorphing::Transpose(vtkUnstructuredGrid* rest, vtkDataObject* boundary,
   const morph::NodePartition partition =
     this->PartitionOf(whole.hanging().without(match.ids), monitor);
   morph::ProgressRange preparing(monitor, 0.05, 0.5), applying(monitor, 0.5, 1);
-  const Method& method = this->Prepare(partition, options, preparing);
+  const auto* linear =
+    dynamic_cast<const morph::LinearMorpher*>(&this->Prepare(partition, options, preparing));
+  if (!linear || !dynamic_cast<const morph::LinearMorpher*>(this->PreparedLike.get()))
+  {
+    throw morph::Error(options.method +
+                       " is not a linear method, so it has no adjoint that is the same for all "
+                       "motions. Use one that is, FEMWARP for instance.");
+  }
   const std::string& status = this->Results.Text("MorphStatus");
   if ((options.postSmooth || status == "SubStepped" || status == "Repaired" ||
         status == "Partial") &&
@@ -501,7 +501,7 @@ void RankMorphing::Transpose(vtkUnstructuredGrid* rest, vtkDataObject* boundary,
   morph::Points prescribed;
   morph::distributed::attachedNodes(whole, partition).applyTranspose(nodes);
   whole.halo().add(ranks, nodes);
-  method.applyTranspose(nodes, prescribed, applying);
+  linear->applyTranspose(nodes, prescribed, applying);
   morph::Points all = morph::Points::Zero(nodes.rows(), 3); // what hangs moves by its ties
   all(partition.prescribed, morph::allColumns) = options.Matching.scaleFactor * prescribed;
   RankMatch::SendBack(ranks, match.ids, all(match.ids, morph::allColumns), followers,

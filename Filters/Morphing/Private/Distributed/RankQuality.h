@@ -27,11 +27,6 @@ struct Measured
 Measured Measure(const morph::distributed::DistributedMesh& mesh, const morph::Points& points,
   const morph::InvertedBefore& before, morph::Monitor& monitor);
 
-/// The global ids of this process's cells in `cells`, of all processes, ascending. `cells`: local;
-/// ghosts are left out.
-std::vector<morph::Index> GatherIds(
-  const morph::distributed::DistributedMesh& mesh, const std::vector<morph::Index>& cells);
-
 /// "N cells are inverted or degenerate ...", and the worst of them by global ids, a line each; of
 /// those that count.
 std::string Found(const morph::distributed::DistributedMesh& mesh, const Measured& measured,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Private/Distributed/RankValidity.h"
 
+#include "Distributed/RankCommunicator.h"
 #include "Morpher/IncrementalMorph.h"
 #include "Private/Distributed/RankPolyhedra.h"
 #include "Private/Distributed/RankQuality.h"
@@ -14,8 +15,6 @@
 
 namespace morph::filters
 {
-using morph::distributed::Method;
-
 /// The cells, by global ids, that the targets invert.
 std::vector<morph::Index> RankValidity::DeterminedBy(const morph::Points& targets) const
 {
@@ -28,7 +27,7 @@ std::vector<morph::Index> RankValidity::DeterminedBy(const morph::Points& target
       cells = morph::boundaryDeterminedInversions(
         this->Mesh.mesh(), this->Partition, this->Mesh.orientation(), points);
     });
-  return RankQuality::GatherIds(this->Mesh, this->Before.without(cells));
+  return this->Mesh.gatherCells(this->Before.without(cells));
 }
 
 /// These, and the cells around nodes that the targets leave no place.
@@ -87,8 +86,8 @@ morph::Validity::Outcome RankValidity::SubStep(morph::Points& moved, morph::Moni
   const morph::Points& rest = this->Mesh.mesh().points;
   const auto inverted = [&](const morph::Points& points)
   {
-    return RankQuality::GatherIds(
-      this->Mesh, RankQuality::Measure(this->Mesh, points, this->Before, monitor).Added);
+    return this->Mesh.gatherCells(
+      RankQuality::Measure(this->Mesh, points, this->Before, monitor).Added);
   };
   const std::vector<morph::Index> atRest = inverted(rest);
   if (!atRest.empty())
@@ -112,9 +111,10 @@ morph::Validity::Outcome RankValidity::SubStep(morph::Points& moved, morph::Moni
   {
     morph::ProgressRange first(part, 0, 0.5), second(part, 0.5, 1);
     const morph::distributed::DistributedMesh valid = this->Mesh.at(from);
-    const std::unique_ptr<Method> method = this->Make();
+    const std::unique_ptr<morph::Morpher> method = this->Make();
     method->setReference(this->Reference);
-    method->prepare(valid, this->Partition, first);
+    method->prepare(valid.mesh(), this->Partition, first,
+      std::make_shared<morph::distributed::RankCommunicator>(valid));
     morph::SubStepAttempt made;
     made.report = method->evaluate(path(time), made.moved, second);
     if (repairs)

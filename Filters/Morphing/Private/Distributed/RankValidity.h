@@ -2,7 +2,6 @@
 #pragma once
 
 #include "Distributed/DistributedMesh.h"
-#include "Distributed/Method.h"
 #include "Mesh/NodePartition.h"
 #include "Session/Session.h"
 
@@ -23,7 +22,7 @@ public:
   const morph::Points& Targets;                    ///< #prescribed x 3
   bool NeedsPieces;                                ///< on any process
   /// Makes a method with its options, not prepared yet.
-  std::function<std::unique_ptr<morph::distributed::Method>()> Make;
+  std::function<std::unique_ptr<morph::Morpher>()> Make;
 
   /// Returns the number of cells that the targets themselves invert. Throws Validity::Infeasible on
   /// all processes where there are some and Options ask for a valid mesh.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Private/Distributed/WholeVolume.h"
 
+#include "Distributed/RankCommunicator.h"
 #include "Distributed/SlidingWarp.h"
 #include "Distributed/SystemMethod.h"
 #include "Distributed/WallLayers.h"
@@ -195,7 +196,8 @@ InnerPieces::Moved WholeVolume::warp(
   morph::Points places;
   const std::vector<Index> prescribed = this->Place(given, places);
   morph::distributed::FemWarp method;
-  method.prepare(mesh, partitionOf(mesh, prescribed), monitor);
+  method.prepare(mesh.mesh(), partitionOf(mesh, prescribed), monitor,
+    std::make_shared<morph::distributed::RankCommunicator>(mesh));
   morph::Points moved;
   method.evaluate(places(prescribed, morph::allColumns), moved, monitor);
   std::vector<Record> records;
@@ -246,7 +248,8 @@ std::vector<morph::NodeSliding::Round> WholeVolume::slide(const Prescribed& give
     nodes.push_back(node);
   }
   morph::distributed::SlidingWarp method;
-  method.prepare(mesh, partitionOf(mesh, prescribed), monitor);
+  method.prepare(mesh.mesh(), partitionOf(mesh, prescribed), monitor,
+    std::make_shared<morph::distributed::RankCommunicator>(mesh));
   const morph::NodeSliding::Surfaces ofLocal = { [&](Index i, const morph::NodeSliding::Row& x)
     { return surfaces.directions(local[i].second, x); },
     [&](Index i, const morph::NodeSliding::Row& x)
