@@ -24,6 +24,7 @@
 #include <QTimer>
 
 #include <algorithm>
+#include <cmath>
 
 namespace
 {
@@ -184,6 +185,12 @@ void ControlPointDrag::showPoints()
       sphere->SetRenderer(camera->GetRenderer());
       sphere->PlaceWidget(camera->GetRenderer()->ComputeVisiblePropBounds());
       this->Widgets.push_back(widget);
+      if (i == 0)
+      {
+        const float first = 1;
+        this->Events->Connect(camera->GetInteractor(), vtkCommand::LeftButtonPressEvent, this,
+          SLOT(pick()), nullptr, first);
+      }
       this->Events->Connect(
         widget, vtkCommand::StartInteractionEvent, this, SLOT(begin(vtkObject*)));
       this->Events->Connect(widget, vtkCommand::InteractionEvent, this, SLOT(follow(vtkObject*)));
@@ -200,6 +207,36 @@ void ControlPointDrag::showPoints()
     this->Widgets[i]->On();
   }
   view->render();
+}
+
+void ControlPointDrag::pick()
+{
+  if (this->Widgets.empty())
+  {
+    return;
+  }
+  const int* const mouse = this->Widgets.front()->GetInteractor()->GetEventPosition();
+  vtkRenderer* const renderer = this->Widgets.front()->GetCurrentRenderer();
+  vtkHandleWidget* nearest = nullptr;
+  double depth = 2;
+  for (vtkHandleWidget* const widget : this->Widgets)
+  {
+    widget->ProcessEventsOn();
+    double place[3];
+    vtkHandleRepresentation::SafeDownCast(widget->GetRepresentation())->GetWorldPosition(place);
+    renderer->SetWorldPoint(place[0], place[1], place[2], 1);
+    renderer->WorldToDisplay();
+    const double* const shown = renderer->GetDisplayPoint();
+    if (std::hypot(shown[0] - mouse[0], shown[1] - mouse[1]) <= Pixels && shown[2] < depth)
+    {
+      depth = shown[2];
+      nearest = widget;
+    }
+  }
+  for (vtkHandleWidget* const widget : this->Widgets)
+  {
+    widget->SetProcessEvents(!nearest || widget == nearest ? 1 : 0);
+  }
 }
 
 void ControlPointDrag::begin(vtkObject*)

@@ -44,6 +44,8 @@ public:
 
 private Q_SLOTS:
   void showLater();
+  /// Of several points at one place of the screen, lets the mouse have the nearest.
+  void pick();
   void begin(vtkObject* widget);
   void follow(vtkObject* widget);
   void end();

@@ -5,8 +5,8 @@
 #include <QObject>
 
 /// Takes Solver File Reader where ParaView asks for a reader: it is in the list only if the file's
-/// content is that of a solver. ParaView would select the first by the alphabet, which for an Abaqus
-/// file is AVS UCD, and shows an empty mesh.
+/// content is that of a solver. ParaView would select the first by the alphabet. For a file of
+/// Abaqus that is AVS UCD, which shows an empty mesh.
 class FirstReader : public QObject
 {
   Q_OBJECT

@@ -14,9 +14,9 @@ class pqPropertyWidget;
 class pqView;
 class vtkSMProxy;
 
-/// What the last execution of a filter had to say (vtkMorphMesh::GetMessages()), in the words of the
-/// panel. A message stands below the field of the property that it names first, or here if none of
-/// its fields is shown. Its remedies are buttons: the value of a property that it proposes, or a
+/// What the last execution of a filter had to say (vtkMorphMesh::GetMessages()), in the words of
+/// the panel. A message stands below the field of the property that it names first, or here if none
+/// of its fields is shown. Its remedies are buttons: the value of a property that it proposes, or a
 /// cell that it names with its place.
 class MessageList : public QWidget
 {

@@ -52,6 +52,7 @@ class Keyboard:
 
     def write(self, text):
         for letter in text:
-            name = {".": "period", "-": "minus", "/": "slash", "_": "underscore"}.get(letter, letter)
+            names = {".": "period", "-": "minus", "/": "slash", "_": "underscore"}
+            name = names.get(letter, letter)
             shift = ("Shift_L",) if letter == "_" or letter.isupper() else ()
             self.press(*shift, name)

@@ -39,8 +39,8 @@ struct LatticeMotion
   /// Of the control points, those of the first direction first: #points x 3.
   Points controlDisplacements;
 
-  /// Makes the box the bounding box of `places`, #places x 3, at least one. `along`: their principal
-  /// axes, the longest first; else those of the coordinates. Cost: a pass over them.
+  /// Makes the box the bounding box of `places`, #places x 3, at least one. `along`: their
+  /// principal axes, the longest first; else those of the coordinates. Cost: a pass over them.
   void surround(const Points& places, bool along);
   /// The undeformed control points, in the order of their displacements.
   Points controlPoints() const;
