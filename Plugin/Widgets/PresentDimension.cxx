@@ -4,16 +4,17 @@
 #include "BelowField.h"
 #include "PanelWords.h"
 #include "SurfaceHighlight.h"
+#include "TickedNames.h"
 
 #include <pqCoreUtilities.h>
 #include <pqPropertyWidget.h>
 #include <vtkCommand.h>
 #include <vtkSMPropertyHelper.h>
 #include <vtkSMSourceProxy.h>
-#include <vtkSMUncheckedPropertyHelper.h>
 
 #include <QEvent>
 #include <QLabel>
+#include <QStringList>
 #include <QTimer>
 
 PresentDimension::PresentDimension(vtkPVXMLElement* hint, pqPropertyWidget* widget)
@@ -62,18 +63,13 @@ void PresentDimension::showDimension()
   {
     this->Source = SurfaceHighlight::SourceOf(filter);
   }
-  // Pairs of a name and its status.
-  const vtkSMUncheckedPropertyHelper ticked(filter, "Surfaces");
+  const QStringList ticked = tickedNames(filter->GetProperty("Surfaces"));
   vtkSMPropertyHelper names(this->Source, "Surfaces");
-  unsigned int count = 0;
-  for (unsigned int i = 0; i + 1 < ticked.GetNumberOfElements(); i += 2)
+  names.SetNumberOfElements(static_cast<unsigned int>(ticked.size()));
+  for (int i = 0; i < ticked.size(); ++i)
   {
-    if (QString(ticked.GetAsString(i + 1)).toInt() != 0)
-    {
-      names.Set(count++, ticked.GetAsString(i));
-    }
+    names.Set(static_cast<unsigned int>(i), ticked[i].toUtf8().data());
   }
-  names.SetNumberOfElements(count);
   this->Source->UpdateVTKObjects();
   this->Source->UpdatePropertyInformation(this->Source->GetProperty("Dimension"));
   this->Text->setText(inPanelWords(vtkSMPropertyHelper(this->Source, "Dimension").GetAsString()));

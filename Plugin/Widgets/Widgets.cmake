@@ -88,7 +88,8 @@ if (PARAVIEW_USE_QT)
     Widgets/QualityBar.cxx Widgets/QualityBar.h
     Widgets/SavedShape.cxx Widgets/SavedShape.h
     Widgets/SurfaceColors.cxx Widgets/SurfaceColors.h
-    Widgets/SurfaceHighlight.cxx Widgets/SurfaceHighlight.h)
+    Widgets/SurfaceHighlight.cxx Widgets/SurfaceHighlight.h
+    Widgets/TickedNames.cxx Widgets/TickedNames.h)
   set(widget_resources Widgets/MeshMorphing.qrc)
   set(widget_libraries ParaView::pqApplicationComponents VTK::InteractionWidgets)
 endif ()

@@ -13,6 +13,9 @@ import time
 from pathlib import Path
 
 
+ROW = 22  # pixels, of a pipeline browser
+
+
 class Hands:
     """`folder`: for ParaView's settings and the questions. Raises OSError as Keyboard does."""
 
@@ -83,6 +86,12 @@ class Hands:
     def row(self, widget, text, **where):
         self.press_at(self.find(f"row\t{widget}\t{text}"), **where)
 
+    def browser_row(self, row, browser="pipelineBrowser"):
+        """Of a pipeline browser, which is none of Qt's lists: rows have one height."""
+        place = self.find(f"widget\t{browser}")
+        self.keyboard.click(place["x"] + 90, place["y"] + ROW * (row + 0.5) + 2)
+        self.count += 1
+
     def tick(self, widget, text):
         """The box at the left of a row."""
         self.row(widget, text, x=12)
@@ -104,7 +113,7 @@ class Hands:
 
     def fill(self, widget, text):
         """A field, behind what it has: zero."""
-        self.press(widget, x=0.9)
+        self.press(widget, x=0.3)
         self.type(text)
 
     def key(self, *names):

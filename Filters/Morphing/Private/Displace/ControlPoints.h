@@ -34,8 +34,8 @@ std::vector<Handle> Handles(vtkDataObject* given, const std::vector<std::array<d
 morph::Points Lattice(vtkDataObject* given, const std::vector<std::array<double, 6>>& listed,
   const std::array<int, 3>& size);
 
-/// Makes `output` the points of handles, or of a lattice where it takes them, with the lines between
-/// them: points that Handles() and Lattice() read.
+/// Makes `output` the points of handles, or of a lattice where it takes them, with the lines
+/// between them: points that Handles() and Lattice() read.
 void Write(const std::vector<Handle>& handles, vtkPolyData* output);
 void Write(const LatticeMotion& lattice, vtkPolyData* output);
 
