@@ -20,7 +20,6 @@
 #include <vtkSMVectorProperty.h>
 
 #include <QStringList>
-#include <QVariant>
 
 #include <cmath>
 

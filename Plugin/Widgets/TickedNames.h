@@ -5,8 +5,8 @@
 class QStringList;
 class vtkSMProperty;
 
-/// The names that are ticked in a list in the panel, applied or not. `list`: pairs of a name and its
-/// status. ParaView's adaptor would warn of each name that the list does not have yet.
+/// The names that are ticked in a list in the panel, applied or not. `list`: pairs of a name and
+/// its status. ParaView's adaptor would warn of each name that the list does not have yet.
 QStringList tickedNames(vtkSMProperty* list);
 
 #endif

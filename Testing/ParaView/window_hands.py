@@ -13,7 +13,8 @@ import time
 from pathlib import Path
 
 
-ROW = 22  # pixels, of a pipeline browser
+ROW = 22    # pixels, of a pipeline browser
+DOCK = 420  # of the panel
 
 
 class Hands:
@@ -160,6 +161,6 @@ if "MORPH_ASKED" in os.environ:
     from paraview import simple
     simple.LoadPlugin(os.environ["MESHMORPHING_PLUGIN"], remote=False)
     ctypes.CDLL(os.environ["MESHMORPHING_PANEL_ROWS"]).serve_places(
-        os.environ["MORPH_ASKED"].encode())
+        os.environ["MORPH_ASKED"].encode(), DOCK)
 elif __name__ == "__main__":
     sys.exit("window_twelve_tasks.py uses it")

@@ -7,11 +7,13 @@
 #include <QApplication>
 #include <QCheckBox>
 #include <QComboBox>
+#include <QDockWidget>
 #include <QFile>
 #include <QJsonDocument>
 #include <QJsonObject>
 #include <QLabel>
 #include <QLineEdit>
+#include <QMainWindow>
 #include <QMenu>
 #include <QScrollArea>
 #include <QScrollBar>
@@ -196,14 +198,21 @@ QJsonObject answer(const QString& question)
 }
 
 /// Answers questions in the file `path`, one at a time, from the event loop: the answer comes in a
-/// file with ".answer" added, once the window is idle.
-extern "C" Q_DECL_EXPORT void serve_places(const char* path)
+/// file with ".answer" added, once the window is idle. The dock of the panel gets a width of `dock`
+/// pixels: ParaView's own rows do not fit into its first one.
+extern "C" Q_DECL_EXPORT void serve_places(const char* path, int dock)
 {
   const QString asked = path;
   auto* const timer = new QTimer(qApp);
   QObject::connect(timer, &QTimer::timeout, timer,
-    [asked]
+    [asked, dock]
     {
+      auto* const panel = qobject_cast<QDockWidget*>(widgetAt("propertiesDock"));
+      auto* const window = panel ? qobject_cast<QMainWindow*>(panel->parentWidget()) : nullptr;
+      if (window && panel->width() != dock)
+      {
+        window->resizeDocks({ panel }, { dock }, Qt::Horizontal);
+      }
       QFile question(asked);
       if (!question.open(QIODevice::ReadOnly))
       {
