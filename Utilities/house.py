@@ -34,9 +34,9 @@ TYPE = re.compile(r"\b(?:class|struct|union|enum(?: class)?)\s+(?:alignas\(\w+\)
 
 # The properties of vtkMorphAlgorithm, vtkDisplacementAlgorithm and vtkMorphMesh.
 PROPERTIES = """
-    AlignTarget AutoCenter AutoLattice BoundaryIdArray Center Certify CoincidentPoints CornerAngle
+    AlignTarget AutoCenter BoundaryIdArray Center Certify CoincidentPoints CornerAngle
     Displacement DisplacementArray Distance FalloffRadius FeatureAngle FeatureLines HandleRadius
-    FixUnnamedBoundary KeepLayers LatticeBasis LatticeBounds LatticeSize LayersArray Live
+    FixUnnamedBoundary KeepLayers LatticeBasis LatticeBox LatticeSize LayersArray Live
     MatchTolerance MaximumSubSteps Method Moving MovingArray NumberOfSteps NumberOfThreads
     OutputPointsPrecision PostSmooth PostSmoothIterations Quality RadiusChange RestTime Rotation
     Scale ScaleFactor SelectedHandles SlideRounds SoftStiffness StepMemoryLimit Stepping Stiffness

@@ -25,10 +25,14 @@ set(morph_label_NewInvertedCells "Inverted by the morph")
 set(morph_label_BoundaryInvertedCells "Cells that the boundary inverts")
 set(morph_label_PrepareSeconds "Seconds to prepare")
 set(morph_label_EvaluateSeconds "Seconds to move the nodes")
+set(morph_label_PresentDimension "Dimension before")
 set(morph_label_MaxTargetDistanceBefore "Largest distance before")
 set(morph_label_MeanTargetDistanceBefore "Mean distance before")
 set(morph_label_MaxTargetDistance "Largest distance after")
 set(morph_label_MeanTargetDistance "Mean distance after")
+
+# A class of Plugin/Widgets that adds to a result in the panel.
+set(morph_decorator_BestMethod "TakeBest")
 
 # What the title of a closed group says of a result, %1 being its value (Plugin/Widgets/Fold.h).
 set(morph_told_MorphStatus "%1")
@@ -122,6 +126,10 @@ function (morph_result_xml name kind none panel documentation)
   if (morph_label_${name})
     set(hints
       "          <PropertyWidgetDecorator type=\"PanelLabel\" text=\"${morph_label_${name}}\"/>\n")
+  endif ()
+  if (morph_decorator_${name})
+    string(APPEND hints
+      "          <PropertyWidgetDecorator type=\"${morph_decorator_${name}}\"/>\n")
   endif ()
   if (morph_told_${name})
     string(APPEND hints "          <Told text=\"${morph_told_${name}}\"/>\n")

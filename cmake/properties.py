@@ -422,11 +422,13 @@ def property_xml(row, find, more=""):
         hints.append("<OmitFromLoadAllVariables/>")
     if row.kind == "zones":
         hints.append('<ZoneList sizes="ZoneSizes" columns="Cells Nodes"/>')
-    if row["shown"] and row.has_widget:
+    if row["shown"] and row.has_widget and not row["function"]:
         hints.append(condition(row["shown"], find))
     if row["unit"] or row.kind == "zones":  # these lists have no label of their own
         label = row.words + (f' ({row["unit"]})' if row["unit"] else "")
         hints.append(f'<PropertyWidgetDecorator type="PanelLabel" text="{label}"/>')
+    if row["decorator"]:
+        hints.append(f'<PropertyWidgetDecorator type="{row["decorator"]}"/>')
     if row["told"]:
         hints.append(f'<Told text="{row["told"]}"/>')
     hint = f"<Hints>{''.join(hints)}</Hints>" if hints else ""
@@ -450,16 +452,21 @@ def make_xml(folder):
         opened, own = panel_order(own)
         made = "".join(own_xml(row, classes, find) if row.kind == "own" else property_xml(row, find)
                        for row in own)
-        groups = {}
+        groups, hints = {}, {}
         for row in own:
             name = f'        <Property name="{row.name}"/>\n'
-            if row["panel"] == "table":
+            if row["function"]:
+                label = row["group"] + '" panel_widget="InteractiveBox'
+                name = name.replace("/>", f' function="{row["function"]}"/>')
+                groups[label] = groups.get(label, "") + name
+                hints[label] = f"<Hints>{condition(row['shown'], find)}</Hints>\n"
+            elif row["panel"] == "table":
                 label = 'Surfaces" panel_widget="SurfaceTable'
                 groups[label] = groups.get(label, "") + name
             elif row["group"] not in opened and row.has_widget:
                 groups[row["group"]] = groups.get(row["group"], "") + name
-        grouped = "".join(f'      <PropertyGroup label="{label}">\n{names}      </PropertyGroup>\n'
-                          for label, names in groups.items())
+        grouped = "".join(f'      <PropertyGroup label="{label}">\n{names}{hints.get(label, "")}'
+                          "      </PropertyGroup>\n" for label, names in groups.items())
         text = text.replace("@Properties@", made.rstrip("\n"))
         text = text.replace("@Groups@", grouped.rstrip("\n"))
         fold = '<Hints><PropertyWidgetDecorator type="Fold" title="{0}"/></Hints>'

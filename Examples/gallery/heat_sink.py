@@ -25,8 +25,8 @@ def example(n=8):
     width = points[:, 0].max()
 
     before = mesh(points, hexahedra(cells))
-    after = MorphMesh(Input=before, Displacement="Lattice", LatticeSize=[2, 2, 2], AutoLattice=0,
-                      LatticeBounds=[0, width, 0, DEEP, BASE, BASE + HIGH],
+    after = MorphMesh(Input=before, Displacement="Lattice", LatticeSize=[2, 2, 2], LatticeBox="Own",
+                      LatticePosition=[0, 0, BASE], LatticeLength=[width, DEEP, HIGH],
                       Method="Simplex-natural neighbor")
     # The four upper control points: i, j, k and their displacements.
     after.LatticeDisplacements = [number for i in (0, 1) for j in (0, 1)

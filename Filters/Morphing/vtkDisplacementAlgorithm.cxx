@@ -159,12 +159,24 @@ void vtkDisplacementAlgorithm::CopyMovedSurfaces(
   const vtkInternals& own = *this->Internals;
   const int how = motion->Options->Displacement;
   const bool isCheap = how <= DISPLACEMENT_ALONG_NORMALS ||
-                       how == DISPLACEMENT_TRANSLATE_ROTATE_SCALE || how == DISPLACEMENT_RADIUS;
+                       how == DISPLACEMENT_TRANSLATE_ROTATE_SCALE || how == DISPLACEMENT_RADIUS ||
+                       how == DISPLACEMENT_DIMENSION;
   if (isCheap && own.Model.Surface() && (!own.Whole || filters::Ranks::IsFirst()))
   {
     filters::Preview::Write(
       own.Model, names, { *motion->Options, motion->Internals->Transform }, output);
   }
+}
+
+std::string vtkDisplacementAlgorithm::DescribeDimension(vtkDataArraySelection* names)
+{
+  const vtkInternals& own = *this->Internals;
+  return own.Model.Surface() ? filters::Pick::DimensionOf(own.Model, names) : std::string();
+}
+
+double vtkDisplacementAlgorithm::GetPresentDimension() const
+{
+  return this->Internals->PresentDimension;
 }
 
 void vtkDisplacementAlgorithm::SetPick(vtkAlgorithm* selection)
@@ -203,6 +215,11 @@ vtkStringArray* vtkDisplacementAlgorithm::GetSurfaceShapes()
 vtkDoubleArray* vtkDisplacementAlgorithm::GetSurfaceBounds()
 {
   return this->Internals->SurfaceBounds;
+}
+
+vtkDoubleArray* vtkDisplacementAlgorithm::GetLatticePoints()
+{
+  return this->Internals->LatticePoints;
 }
 
 vtkDataArraySelection* vtkDisplacementAlgorithm::GetZoneList()

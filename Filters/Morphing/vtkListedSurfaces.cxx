@@ -63,6 +63,13 @@ void vtkListedSurfaces::RemoveAllSurfaces()
   }
 }
 
+const char* vtkListedSurfaces::GetDimension()
+{
+  auto* displacement = vtkDisplacementAlgorithm::SafeDownCast(this->Filter);
+  this->Dimension = displacement ? displacement->DescribeDimension(this->Names) : "";
+  return this->Dimension.c_str();
+}
+
 vtkMTimeType vtkListedSurfaces::GetMTime()
 {
   vtkMTimeType time = this->Superclass::GetMTime();

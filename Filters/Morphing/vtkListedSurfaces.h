@@ -23,6 +23,8 @@
 #include <vtkPolyDataAlgorithm.h>
 #include <vtkSmartPointer.h> // for vtkSmartPointer
 
+#include <string> // for std::string
+
 class vtkDataArraySelection;
 
 class VTKMESHMORPHINGFILTERSMORPHING_EXPORT vtkListedSurfaces : public vtkPolyDataAlgorithm
@@ -55,6 +57,11 @@ public:
   void RemoveAllSurfaces();
   ///@}
 
+  /**
+   * The dimension of these surfaces; see vtkDisplacementAlgorithm::DescribeDimension().
+   */
+  const char* GetDimension();
+
 protected:
   vtkListedSurfaces();
   ~vtkListedSurfaces() override;
@@ -68,6 +75,7 @@ private:
 
   vtkSmartPointer<vtkAlgorithm> Filter, Motion;
   vtkNew<vtkDataArraySelection> Names;
+  std::string Dimension; ///< as GetDimension() has returned it
 };
 
 #endif

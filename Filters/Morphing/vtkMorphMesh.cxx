@@ -36,6 +36,7 @@
 #include <vtkPolyData.h>
 #include <vtkSelection.h>
 #include <vtkStreamingDemandDrivenPipeline.h>
+#include <vtkStringArray.h>
 #include <vtkUnstructuredGrid.h>
 
 #include <algorithm>
@@ -86,6 +87,8 @@ public:
   using Inputs = vtkInternals::Inputs;
 
   filters::Results Results{ filters::ResultTables::vtkMorphMesh() };
+  vtkNew<vtkStringArray> Messages;
+  bool IsQuiet = false;
   filters::GridMorpher Morpher;
   filters::GridMorpher::Motion Motion;
   vtkSmartPointer<vtkMorphAlgorithm> Method;
@@ -108,6 +111,11 @@ public:
   /// Returns an error that comes with a result, or nothing.
   std::string Morph(const filters::Input::Mesh& mesh, const Inputs& inputs,
     const filters::GridMorpher::Outputs& outputs, morph::Monitor& monitor);
+  void Say(const char* kind, const std::string& message)
+  {
+    this->Messages->InsertNextValue(kind);
+    this->Messages->InsertNextValue(message);
+  }
 
 private:
   vtkMorphMesh* Filter;
@@ -144,7 +152,7 @@ vtkMorphMesh::vtkMorphMesh()
   : Morphing(new vtkMorphing(this))
   , MeshOptions(std::make_unique<morph::MorphMeshOptions>())
 {
-  this->SetNumberOfOutputPorts(3);
+  this->SetNumberOfOutputPorts(4);
   this->Morphing->Results.Reset();
 }
 
@@ -252,6 +260,7 @@ int vtkMorphMesh::RequestData(
   vtkSmartPointer<vtkDataObject> input = vtkDataObject::GetData(inputVector[0]);
   const filters::GridMorpher::Outputs outputs = { blocks.Output(outputVector),
     vtkUnstructuredGrid::GetData(outputVector, 1), vtkPolyData::GetData(outputVector, 2) };
+  vtkPolyData* control = vtkPolyData::GetData(outputVector, 3);
   filters::CrewMonitor monitor(this, this->Options->NumberOfThreads);
   std::string partial;
   own.Results.Reset();
@@ -280,6 +289,10 @@ int vtkMorphMesh::RequestData(
     {
       morph::ProgressRange morphing(monitor, 0.3, 1);
       partial = own.Morph(mesh, inputs, outputs, morphing);
+      if (this->Internals->IsTeller())
+      {
+        control->ShallowCopy(this->Internals->ControlPoints);
+      }
     }
   };
   const auto clear = [&]
@@ -287,13 +300,24 @@ int vtkMorphMesh::RequestData(
     outputs.Mesh->Initialize();
     outputs.BadCells->Initialize();
     outputs.Surface->Initialize();
+    control->Initialize();
     own.Results.Reset();
   };
+  own.Messages->Initialize();
+  const auto fail = [&](const std::string& problem)
+  {
+    own.Say("Error", problem);
+    if (!own.IsQuiet)
+    {
+      vtkErrorMacro(<< problem);
+    }
+  };
   const filters::Execution::Outcome outcome =
-    filters::Execution::Run(this, "morph this mesh", work, clear);
+    filters::Execution::Run(this, "morph this mesh", work, clear, fail);
   for (const std::string& warning : monitor.TakeWarnings())
   {
-    if (!this->MeshOptions->Live) // they would come with every step of a drag
+    own.Say("Warning", warning);
+    if (!this->MeshOptions->Live && !own.IsQuiet) // they would come with every step of a drag
     {
       vtkWarningMacro(<< warning);
     }
@@ -307,7 +331,7 @@ int vtkMorphMesh::RequestData(
   own.Motion.Steps.WriteTime(own.Motion.Step, outputVector);
   if (!partial.empty())
   {
-    vtkErrorMacro(<< partial);
+    fail(partial);
   }
   return 1;
 }
@@ -515,6 +539,7 @@ std::string vtkMorphMesh::vtkMorphing::Morph(const filters::Input::Mesh& mesh, c
   }
   this->Results.SetText("SlideReport", this->Mover().SlideReport);
   this->Results.SetText("ContactReport", this->Mover().ContactReport);
+  this->Results.SetNumber("PresentDimension", this->Mover().PresentDimension);
   this->WriteDistances(grid, outputs.Mesh);
   return partial;
 }
@@ -586,6 +611,21 @@ void vtkMorphMesh::vtkMorphing::SummarizeOnRanks(const std::vector<morph::Index>
 const char* vtkMorphMesh::GetMorphStatus() const
 {
   return this->Morphing->Results.Text("MorphStatus").c_str();
+}
+
+vtkStringArray* vtkMorphMesh::GetMessages()
+{
+  return this->Morphing->Messages;
+}
+
+void vtkMorphMesh::SetQuiet(bool quiet)
+{
+  this->Morphing->IsQuiet = quiet;
+}
+
+bool vtkMorphMesh::GetQuiet() const
+{
+  return this->Morphing->IsQuiet;
 }
 
 const char* vtkMorphMesh::GetAdvice() const

@@ -2,8 +2,10 @@
 #include "FirstReader.h"
 
 #include <QApplication>
+#include <QDialog>
 #include <QEvent>
 #include <QListWidget>
+#include <QTimer>
 
 void FirstReader::startup()
 {
@@ -20,9 +22,8 @@ bool FirstReader::eventFilter(QObject* watched, QEvent* event)
         readers->findItems(QStringLiteral("Solver File Reader"), Qt::MatchExactly);
       if (!own.isEmpty())
       {
-        readers->setSortingEnabled(false);
-        readers->insertItem(0, readers->takeItem(readers->row(own[0])));
-        readers->setCurrentRow(0);
+        readers->setCurrentItem(own[0]);
+        QTimer::singleShot(0, watched, [watched] { static_cast<QDialog*>(watched)->accept(); });
       }
     }
   }

@@ -4,9 +4,9 @@
 
 #include <QObject>
 
-/// Makes Solver File Reader the first one, and selected, where ParaView asks for a reader: it is in
-/// the list only if the file's content is that of a solver. ParaView would select the first by the
-/// alphabet, which for an Abaqus file is AVS UCD, and shows an empty mesh.
+/// Takes Solver File Reader where ParaView asks for a reader: it is in the list only if the file's
+/// content is that of a solver. ParaView would select the first by the alphabet. For a file of
+/// Abaqus that is AVS UCD, which shows an empty mesh.
 class FirstReader : public QObject
 {
   Q_OBJECT

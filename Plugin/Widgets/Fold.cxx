@@ -2,10 +2,10 @@
 #include "Fold.h"
 
 #include "Folds.h"
+#include "TickedNames.h"
 
 #include <pqCoreUtilities.h>
 #include <pqPropertyWidget.h>
-#include <pqSMAdaptor.h>
 #include <vtkCommand.h>
 #include <vtkPVXMLElement.h>
 #include <vtkSMArraySelectionDomain.h>
@@ -20,26 +20,11 @@
 #include <vtkSMVectorProperty.h>
 
 #include <QStringList>
-#include <QVariant>
 
 #include <cmath>
 
 namespace
 {
-QStringList ticked(vtkSMProperty* list)
-{
-  QStringList names;
-  for (const QList<QVariant>& tick :
-    pqSMAdaptor::getSelectionProperty(list, pqSMAdaptor::UNCHECKED))
-  {
-    if (tick.size() == 2 && tick[1].toInt() != 0)
-    {
-      names << tick[0].toString();
-    }
-  }
-  return names;
-}
-
 bool isList(vtkSMProperty* property)
 {
   return property->FindDomain<vtkSMArraySelectionDomain>() != nullptr;
@@ -50,7 +35,7 @@ QStringList valuesOf(vtkSMProperty* property)
 {
   if (isList(property))
   {
-    return ticked(property);
+    return tickedNames(property);
   }
   QStringList values;
   if (vtkSMVectorProperty::SafeDownCast(property))

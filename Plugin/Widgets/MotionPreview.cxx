@@ -13,7 +13,8 @@ namespace
 {
 /// Of a motion that the server can show.
 constexpr const char* Names[] = { "Displacement", "Vector", "Distance", "Translation", "Rotation",
-  "Scale", "AutoCenter", "Center", "TransformAboutCenter", "RadiusChange", "ScaleFactor" };
+  "Scale", "AutoCenter", "Center", "TransformAboutCenter", "RadiusChange", "Dimension",
+  "DimensionSide", "ScaleFactor" };
 
 /// A filter of no pipeline, which is never executed.
 vtkSmartPointer<vtkSMProxy> motionFor(vtkSMProxy* filter)

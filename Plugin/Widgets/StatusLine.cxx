@@ -2,6 +2,7 @@
 #include "StatusLine.h"
 
 #include "BadCells.h"
+#include "MessageList.h"
 #include "QualityBar.h"
 #include "SavedShape.h"
 
@@ -26,7 +27,7 @@ namespace
 {
 constexpr const char* Results[] = { "MorphStatus", "MinScaledJacobian", "InvertedCells",
   "DegenerateCells", "InvertedBefore", "CrossingFaces", "LargestValidStep", "PrepareSeconds",
-  "EvaluateSeconds" };
+  "EvaluateSeconds", "Messages" };
 
 const QString Green = "#2e7d32", Orange = "#b35900", Red = "#b71c1c", Gray = "#616161";
 }
@@ -38,6 +39,7 @@ StatusLine::StatusLine(vtkSMProxy* filter, vtkSMProperty* advice, QWidget* paren
   , Text(new QLabel(this))
   , Minimum(new QualityBar(filter, this))
   , Bad(new BadCells(filter, this))
+  , Messages(new MessageList(this))
 {
   this->setShowLabel(false);
   this->setProperty(advice);
@@ -74,6 +76,7 @@ StatusLine::StatusLine(vtkSMProxy* filter, vtkSMProperty* advice, QWidget* paren
     buttons->addWidget(save);
   }
   layout->addLayout(buttons);
+  layout->addWidget(this->Messages);
   pqCoreUtilities::connect(advice, vtkCommand::ModifiedEvent, this, SLOT(showLater()));
   for (const char* const name : Results)
   {
@@ -185,5 +188,6 @@ void StatusLine::showStatus()
                : 0);
 
   this->Text->setText(advice == "None" ? QString() : advice);
+  this->Messages->showMessages();
   this->Text->setVisible(advice != "None" && !advice.isEmpty());
 }

@@ -6,14 +6,16 @@
 
 class BadCells;
 class QLabel;
+class MessageList;
 class QualityBar;
 class QWidget;
 
 /// How the last execution ended, on a ground of its color: green where the mesh is valid, orange
 /// where it has made a part of the motion, red where it is not valid or there is none. Below it the
 /// color map with the minimum, the inverted cells before and after, a link to the bad cells, and
-/// the seconds. Before anything moves it has the advice what to do instead. A filter with the hint
-/// <SavesShapes/> has a button that saves its result as a shape (SavedShape.h).
+/// the seconds. What the execution had to say follows (MessageList.h). Before anything moves it has
+/// the advice what to do instead. A filter with the hint <SavesShapes/> has a button that saves its
+/// result as a shape (SavedShape.h).
 ///
 /// It is the widget of the property with the advice (panel_widget="StatusLine"). The filter's
 /// results of vtkMorphAlgorithm have their usual names.
@@ -46,6 +48,7 @@ private:
   QLabel* Text;
   QualityBar* Minimum;
   BadCells* Bad;
+  MessageList* Messages;
   bool IsDue = false; ///< showStatus()
 };
 

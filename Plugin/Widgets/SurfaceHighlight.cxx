@@ -28,25 +28,33 @@ SurfaceHighlight::~SurfaceHighlight()
   this->hide();
 }
 
-void SurfaceHighlight::create()
+vtkSmartPointer<vtkSMSourceProxy> SurfaceHighlight::SourceOf(vtkSMProxy* filter)
 {
-  vtkSMSessionProxyManager* proxies = this->Filter->GetSessionProxyManager();
-  this->Source = vtkSmartPointer<vtkSMSourceProxy>::Take(
-    vtkSMSourceProxy::SafeDownCast(proxies->NewProxy("internal_filters", "MorphListedSurfaces")));
-  this->Representation = vtkSmartPointer<vtkSMProxy>::Take(
-    proxies->NewProxy("representations", "GeometryRepresentation"));
-  this->Source->UpdateVTKObjects();
+  auto source = vtkSmartPointer<vtkSMSourceProxy>::Take(vtkSMSourceProxy::SafeDownCast(
+    filter->GetSessionProxyManager()->NewProxy("internal_filters", "MorphListedSurfaces")));
+  source->UpdateVTKObjects();
   // As a property, the filter would be a producer of the source, and be marked as up to date with
   // it, without an execution.
   vtkClientServerStream stream;
-  stream << vtkClientServerStream::Invoke << VTKOBJECT(this->Source.Get()) << "SetFilter"
-         << VTKOBJECT(this->Filter) << vtkClientServerStream::End;
+  stream << vtkClientServerStream::Invoke << VTKOBJECT(source.Get()) << "SetFilter"
+         << VTKOBJECT(filter) << vtkClientServerStream::End;
+  filter->GetSession()->ExecuteStream(source->GetLocation(), stream);
+  return source;
+}
+
+void SurfaceHighlight::create()
+{
+  vtkSMSessionProxyManager* proxies = this->Filter->GetSessionProxyManager();
+  this->Source = SourceOf(this->Filter);
+  this->Representation = vtkSmartPointer<vtkSMProxy>::Take(
+    proxies->NewProxy("representations", "GeometryRepresentation"));
   if (this->Motion)
   {
+    vtkClientServerStream stream;
     stream << vtkClientServerStream::Invoke << VTKOBJECT(this->Source.Get()) << "SetMotion"
            << VTKOBJECT(this->Motion.Get()) << vtkClientServerStream::End;
+    this->Filter->GetSession()->ExecuteStream(this->Source->GetLocation(), stream);
   }
-  this->Filter->GetSession()->ExecuteStream(this->Source->GetLocation(), stream);
   vtkNew<vtkSMParaViewPipelineController> controller;
   controller->PreInitializeProxy(this->Representation);
   vtkSMPropertyHelper(this->Representation, "Input").Set(this->Source);

@@ -27,6 +27,9 @@ public:
   void show(pqView* view, const QStringList& names);
   void hide();
 
+  /// A vtkListedSurfaces of the filter's list.
+  static vtkSmartPointer<vtkSMSourceProxy> SourceOf(vtkSMProxy* filter);
+
 private:
   SurfaceHighlight(const SurfaceHighlight&) = delete;
   void operator=(const SurfaceHighlight&) = delete;

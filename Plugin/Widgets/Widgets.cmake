@@ -51,6 +51,7 @@ if (PARAVIEW_USE_QT)
   morph_auto_start(FirstColumns)
   morph_auto_start(FirstHit)
   morph_auto_start(FirstReader)
+  morph_auto_start(QuietFilters)
   morph_auto_start(SeriesColors)
   morph_auto_start(SurfaceMenu)
   morph_action_group(SaveCoordinates "MenuBar/File")
@@ -61,26 +62,34 @@ if (PARAVIEW_USE_QT)
   morph_property_widget(PanelLabel PanelLabel WIDGET_DECORATOR)
   morph_property_widget(Beside Beside WIDGET_DECORATOR)
   morph_property_widget(Fold Fold WIDGET_DECORATOR)
+  morph_property_widget(ControlPointDrag ControlPointDrag WIDGET_DECORATOR)
   morph_property_widget(CopiedSelection CopiedSelection WIDGET_DECORATOR)
   morph_property_widget(StretchedColumns StretchedColumns WIDGET_DECORATOR)
+  morph_property_widget(TakeBest TakeBest WIDGET_DECORATOR)
   morph_property_widget(TakeSelection TakeSelection WIDGET_DECORATOR)
   morph_property_widget(BoxDragDecorator BoxDrag WIDGET_DECORATOR)
+  morph_property_widget(OnlySurface OnlySurface WIDGET_DECORATOR)
+  morph_property_widget(PresentDimension PresentDimension WIDGET_DECORATOR)
   morph_property_widget(ShapeSliders ShapeSliders WIDGET)
   if (separate_help)
     morph_auto_start(MorphHelp)
   endif ()
   list(APPEND widget_sources
     Widgets/BadCells.cxx Widgets/BadCells.h
+    Widgets/BelowField.cxx Widgets/BelowField.h
     Widgets/BoxAboutCenter.cxx Widgets/BoxAboutCenter.h
     Widgets/FoldTitle.cxx Widgets/FoldTitle.h
     Widgets/Folds.cxx Widgets/Folds.h
     Widgets/HintedResults.cxx Widgets/HintedResults.h
     Widgets/LiveDrag.cxx Widgets/LiveDrag.h
+    Widgets/MessageList.cxx Widgets/MessageList.h
     Widgets/MotionPreview.cxx Widgets/MotionPreview.h
+    Widgets/PanelWords.cxx Widgets/PanelWords.h
     Widgets/QualityBar.cxx Widgets/QualityBar.h
     Widgets/SavedShape.cxx Widgets/SavedShape.h
     Widgets/SurfaceColors.cxx Widgets/SurfaceColors.h
-    Widgets/SurfaceHighlight.cxx Widgets/SurfaceHighlight.h)
+    Widgets/SurfaceHighlight.cxx Widgets/SurfaceHighlight.h
+    Widgets/TickedNames.cxx Widgets/TickedNames.h)
   set(widget_resources Widgets/MeshMorphing.qrc)
   set(widget_libraries ParaView::pqApplicationComponents VTK::InteractionWidgets)
 endif ()

@@ -238,8 +238,9 @@ TEST(Lattice, TakesTablesAndListsAndLeavesWhatIsOutside)
   auto grid = grids::hexes();
   auto filter = displaced::make(grid);
   filter->SetDisplacementToLattice();
-  filter->AutoLatticeOff();
-  filter->SetLatticeBounds(-1, 2, -1, 2, -1, 2);
+  filter->SetLatticeBoxToOwn();
+  filter->SetLatticePosition(-1, -1, -1);
+  filter->SetLatticeLength(3, 3, 3);
   filter->SetLatticeSize(3, 3, 3);
   filter->AddLatticeDisplacement(1, 1, 1, 0.5, 0, 0);
   const Moved listed = run(filter);

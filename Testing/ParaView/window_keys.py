@@ -33,9 +33,26 @@ class Keyboard:
         self.x11.XFlush(self.display)
         time.sleep(PAUSE)
 
-    def click(self, x, y):
-        self.xtst.XTestFakeMotionEvent(self.display, -1, x, y, 0)
-        for down in (1, 0):
-            self.xtst.XTestFakeButtonEvent(self.display, 1, down, 0)
+    def click(self, x, y, button=1):
+        self.drag([(x, y)], button)
+
+    def drag(self, places, button=1):
+        """Pressed at the first place, released at the last."""
+        for i, (x, y) in enumerate(places):
+            self.xtst.XTestFakeMotionEvent(self.display, -1, int(x), int(y), 0)
+            if i == 0:
+                self.x11.XFlush(self.display)
+                time.sleep(PAUSE)
+                self.xtst.XTestFakeButtonEvent(self.display, button, 1, 0)
+            self.x11.XFlush(self.display)
+            time.sleep(PAUSE / 4)
+        self.xtst.XTestFakeButtonEvent(self.display, button, 0, 0)
         self.x11.XFlush(self.display)
         time.sleep(PAUSE)
+
+    def write(self, text):
+        for letter in text:
+            names = {".": "period", "-": "minus", "/": "slash", "_": "underscore"}
+            name = names.get(letter, letter)
+            shift = ("Shift_L",) if letter == "_" or letter.isupper() else ()
+            self.press(*shift, name)

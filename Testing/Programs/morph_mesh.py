@@ -364,7 +364,8 @@ class MorphMesh(unittest.TestCase):
             encoding="utf-8")
         for options in (("--handles", handles), ("--lattice", lattice, "--lattice-size", "2,2,2"),
                         ("--lattice", lattice, "--lattice-size=2,2,2", "--lattice-basis=b-spline",
-                         "--lattice-bounds=-99,99,-99,99,-99,99")):
+                         "--lattice-position=-99,-99,-99", "--lattice-length=198,198,198",
+                         "--lattice-rotation=9,9,9")):
             with self.subTest(options=options):  # everything is translated
                 result = run(*options, BORE, moved)
                 self.assertEqual((result.returncode, result.stderr), (0, ""))

@@ -3,13 +3,16 @@
 
 #include "Mesh/Extent.h"
 #include "Support/Error.h"
+#include "Support/Parallel.h"
 
 #include <Eigen/LU>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <map>
 #include <string>
+#include <utility>
 
 namespace morph
 {
@@ -18,16 +21,20 @@ namespace
 constexpr double SamePlace = 1e-10; // of the handles' extent
 constexpr double LargestResidual = 1e-9;
 
-void require(const std::vector<Handle>& handles)
+void require(const std::vector<Handle>& handles, bool areSmoothed)
 {
   if (handles.empty())
   {
     throw Error("There is no handle: give at least one.");
   }
-  if (static_cast<Index>(handles.size()) > HandleMotion::MostHandles)
+  const Index most = areSmoothed ? HandleMotion::MostSmoothed : HandleMotion::MostHandles;
+  if (static_cast<Index>(handles.size()) > most)
   {
     throw Error("There are " + std::to_string(handles.size()) + " handles, and at most " +
-                std::to_string(HandleMotion::MostHandles) + " are possible.");
+                std::to_string(most) + " are possible" +
+                (areSmoothed ? "."
+                             : "; with `HandleSmoothing`, which approximates them, " +
+                                 std::to_string(HandleMotion::MostSmoothed) + "."));
   }
   std::vector<Index> bad;
   for (std::size_t i = 0; i < handles.size(); ++i)
@@ -109,17 +116,70 @@ Points rows(const Points& of, const std::vector<Index>& ids)
 }
 }
 
-HandleMotion::HandleMotion(const std::vector<Handle>& handles)
+HandleMotion::HandleMotion(const std::vector<Handle>& handles, double smoothing)
 {
-  require(handles);
+  require(handles, smoothing > 0);
   const auto n = static_cast<Index>(handles.size());
   Points places(n, 3), values(n, 3);
-  double widest = 0;
-  std::map<double, std::vector<Index>> ofRadius; // 0 comes first
   for (Index i = 0; i < n; ++i)
   {
     places.row(i) = handles[i].place;
     values.row(i) = handles[i].displacement;
+  }
+  if (smoothing == 0)
+  {
+    this->interpolate(handles, places, values);
+    return;
+  }
+  if (std::any_of(handles.begin(), handles.end(), [](const Handle& one) { return one.radius > 0; }))
+  {
+    throw Error(
+      "`HandleSmoothing` approximates handles that have no radius, and some have one. Set "
+      "their radius to 0, or the smoothing.");
+  }
+  this->smooth(places, values, smoothing);
+}
+
+void HandleMotion::smooth(const Points& places, Points values, double length)
+{
+  this->trend_ = AffineLeastSquares(places).fit(values);
+  for (Index i = 0; i < places.rows(); ++i)
+  {
+    values.row(i) -= this->trend_.displacement(places.row(i));
+  }
+  this->length_ = length;
+  this->places_ = places;
+  this->residuals_ = std::move(values);
+  this->handles_ = std::make_unique<NearestNodes>(places);
+}
+
+Eigen::RowVector3d HandleMotion::residual(const Eigen::RowVector3d& place) const
+{
+  RadialKernel kernel;
+  kernel.kind = RadialKernel::Kind::WendlandC2;
+  kernel.radius = this->length_ + this->handles_->distance(place);
+  std::vector<std::int32_t> near;
+  this->handles_->within(place, kernel.radius, near);
+  Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
+  double weights = 0;
+  for (const std::int32_t i : near)
+  {
+    const double weight = kernel((place - this->places_.row(i)).squaredNorm());
+    sum += weight * this->residuals_.row(i);
+    weights += weight;
+  }
+  return weights > 0 ? Eigen::RowVector3d(sum / weights) : sum;
+}
+
+void HandleMotion::interpolate(
+  const std::vector<Handle>& handles, const Points& given, Points values)
+{
+  const Index n = given.rows();
+  Points places = given;
+  double widest = 0;
+  std::map<double, std::vector<Index>> ofRadius; // 0 comes first
+  for (Index i = 0; i < n; ++i)
+  {
     widest = std::max(widest, handles[i].radius);
     ofRadius[handles[i].radius].push_back(i);
   }
@@ -204,8 +264,17 @@ HandleMotion::HandleMotion(const std::vector<Handle>& handles)
 
 Points HandleMotion::displacements(const Points& places, Monitor& monitor) const
 {
-  const Points scaled = (places.rowwise() - this->center_) / this->size_;
   Points result = Points::Zero(places.rows(), 3), sums;
+  if (this->handles_)
+  {
+    constexpr Index Grain = 64;
+    parallel(places.rows(), Grain, monitor,
+      [&](Index i) {
+        result.row(i) = this->trend_.displacement(places.row(i)) + this->residual(places.row(i));
+      });
+    return result;
+  }
+  const Points scaled = (places.rowwise() - this->center_) / this->size_;
   for (const Group& group : this->groups_)
   {
     kernelSums(group.kernel, scaled, group.centers, group.strengths, sums, monitor);

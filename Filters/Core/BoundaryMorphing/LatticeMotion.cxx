@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "BoundaryMorphing/LatticeMotion.h"
 
+#include "Geometry/AffineFit.h"
 #include "Support/Parallel.h"
+
+#include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>
@@ -67,6 +70,31 @@ int LatticeMotion::degree(int direction) const
   return this->basis == Basis::Bernstein ? most : std::min(3, most);
 }
 
+void LatticeMotion::surround(const Points& places, bool along)
+{
+  this->axes.setIdentity();
+  this->origin.setZero();
+  if (along)
+  {
+    this->origin = places.colwise().mean();
+    const Points arms = places.rowwise() - this->origin;
+    const PrincipalDirections directions(
+      arms.transpose() * arms, static_cast<double>(places.rows()));
+    this->axes = directions.axes().rowwise().reverse();
+    // Either way is a principal axis: the one whose largest component is positive.
+    for (int d = 0; d < 2; ++d)
+    {
+      Index largest = 0;
+      this->axes.col(d).cwiseAbs().maxCoeff(&largest);
+      this->axes.col(d) *= this->axes(largest, d) < 0 ? -1 : 1;
+    }
+    this->axes.col(2) = this->axes.col(0).cross(this->axes.col(1));
+  }
+  const Points inside = (places.rowwise() - this->origin) * this->axes;
+  this->low = inside.colwise().minCoeff();
+  this->high = inside.colwise().maxCoeff();
+}
+
 Points LatticeMotion::controlPoints() const
 {
   std::array<std::vector<double>, 3> along;
@@ -91,7 +119,7 @@ Points LatticeMotion::controlPoints() const
     {
       for (const double x : along[0])
       {
-        result.row(row++) << x, y, z;
+        result.row(row++) = this->origin + Eigen::RowVector3d(x, y, z) * this->axes.transpose();
       }
     }
   }
@@ -104,10 +132,11 @@ Points LatticeMotion::displacements(const Points& places, Monitor& monitor) cons
   const double tolerance = Outside * (this->high - this->low).norm();
   const auto move = [&](Index node)
   {
+    const Eigen::RowVector3d place = (places.row(node) - this->origin) * this->axes;
     double t[3];
     for (int d = 0; d < 3; ++d)
     {
-      t[d] = parameter(places(node, d), this->low[d], this->high[d], tolerance);
+      t[d] = parameter(place[d], this->low[d], this->high[d], tolerance);
       if (t[d] < 0)
       {
         return;

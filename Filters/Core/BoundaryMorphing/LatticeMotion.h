@@ -30,10 +30,18 @@ struct LatticeMotion
 
   Basis basis = Basis::Bernstein;
   std::array<int, 3> size = { 3, 3, 3 }; ///< control points a direction, each in [2, 30]
+  /// The box is [low, high] along its own axes, unit vectors as columns, from an origin.
+  ///@{
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
+  Eigen::RowVector3d origin = Eigen::RowVector3d::Zero();
   Eigen::RowVector3d low = Eigen::RowVector3d::Zero(), high = Eigen::RowVector3d::Ones();
+  ///@}
   /// Of the control points, those of the first direction first: #points x 3.
   Points controlDisplacements;
 
+  /// Makes the box the bounding box of `places`, #places x 3, at least one. `along`: their
+  /// principal axes, the longest first; else those of the coordinates. Cost: a pass over them.
+  void surround(const Points& places, bool along);
   /// The undeformed control points, in the order of their displacements.
   Points controlPoints() const;
   /// The displacements at `places`, #places x 3. In a direction in which the box is flat, places

@@ -4,10 +4,36 @@
 #include "Support/ProgressRange.h"
 
 #include <functional>
+#include <string>
 #include <utility>
+#include <vector>
 
 namespace morph
 {
+namespace
+{
+/// Passes on the warnings of the last spread alone: one that is repeated, with more that moves,
+/// stands in place of those before.
+class OfLastSpread : public ProgressRange
+{
+public:
+  using ProgressRange::ProgressRange;
+
+  void warn(const std::string& message) override { this->warnings_.push_back(message); }
+  std::vector<std::string> take() { return std::exchange(this->warnings_, {}); }
+  void tell()
+  {
+    for (const std::string& warning : this->take())
+    {
+      ProgressRange::warn(warning);
+    }
+  }
+
+private:
+  std::vector<std::string> warnings_;
+};
+}
+
 const Surroundings::Result& BoundaryMover::move(const BoundaryModel& model, const Choice& choice,
   const Points& targets, const Options& options, const InnerPieces* pieces, Monitor& monitor)
 {
@@ -24,7 +50,7 @@ const Surroundings::Result& BoundaryMover::move(const BoundaryModel& model, cons
   {
     this->inner_.take(model, options.fixedZones, options.rigidZones, pieces);
   }
-  ProgressRange spreading(monitor, 0, options.slide.rounds > 0 ? 0.8 : 1);
+  OfLastSpread spreading(monitor, 0, options.slide.rounds > 0 ? 0.8 : 1);
   alike(
     [&]
     {
@@ -41,6 +67,7 @@ const Surroundings::Result& BoundaryMover::move(const BoundaryModel& model, cons
         this->contact_.find(model, options.contact);
         while (this->contact_.follow(model, result, chosen, places))
         {
+          spreading.take();
           result = this->surroundings_.spread(
             model, chosen, places, options.rest, spreading, std::move(result));
         }
@@ -50,8 +77,18 @@ const Surroundings::Result& BoundaryMover::move(const BoundaryModel& model, cons
   {
     result.motionVersion = -1; // inner nodes move, too
     this->inner_.place(model, chosen, options.inner, result, monitor);
-    alike([&] { this->inner_.spreadAround(model, chosen, places, options.rest, result, monitor); });
+    const std::vector<std::string> before = spreading.take();
+    bool isAgain = false;
+    alike(
+      [&] {
+        isAgain = this->inner_.spreadAround(model, chosen, places, options.rest, result, spreading);
+      });
+    for (const std::string& warning : isAgain ? std::vector<std::string>() : before)
+    {
+      spreading.warn(warning);
+    }
   }
+  spreading.tell();
   this->rounds_.clear();
   if (options.slide.rounds > 0)
   {

@@ -13,9 +13,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <map>
 #include <numeric>
+#include <sstream>
+#include <string>
 #include <utility>
 
 namespace morph
@@ -371,6 +374,31 @@ Eigen::RowVector3d TargetRim::along(Index node, const Row& direction) const
   return along.norm() > 1e-6 ? Row(along.normalized()) : direction;
 }
 
+namespace
+{
+/// The remedy for nodes that are farther from the target than its reach; empty where none is. Of
+/// the boundary's size, two digits, rounded up.
+std::string reachFor(
+  const Target& target, const BoundaryModel& model, const std::vector<Index>& nodes)
+{
+  constexpr double Most = 10, Anywhere = std::numeric_limits<double>::infinity();
+  double farthest = 0;
+  for (const Index node : nodes)
+  {
+    const Row x = model.points().row(node);
+    farthest = std::max(farthest, (target.tree().nearest(x, Anywhere).place - x).norm());
+  }
+  const double reach = std::ceil(100 * farthest / model.size) / 100;
+  if (farthest <= target.options().reach || reach > Most)
+  {
+    return "";
+  }
+  std::ostringstream text;
+  text << " set `TargetReach` to " << reach << ".";
+  return text.str();
+}
+}
+
 Points fittedTo(Target& target, const BoundaryModel& model, const Choice& choice,
   const std::vector<Index>& sliding, const FitOptions& options, Surroundings& surroundings,
   Monitor& monitor)
@@ -418,20 +446,20 @@ Points fittedTo(Target& target, const BoundaryModel& model, const Choice& choice
   }
   std::sort(missed.begin(), missed.end());
   const std::string along = isAlong ? " along the direction" : "";
+  const std::string needed = isAlong ? "" : reachFor(target, model, missed);
   if (missed.size() == choice.moving.size())
   {
     throw Error("No node that moves reaches the target: it has no place within "
-                "TargetReach" +
-                along +
-                " whose normal is within `TargetAngle`. Align the target, or raise "
-                "TargetReach.");
+                "`TargetReach`" +
+                along + " whose normal is within `TargetAngle`. Align the target" +
+                (needed.empty() ? "." : ", or" + needed));
   }
   if (!missed.empty())
   {
-    monitor.warn("Nodes do not reach the target, since it has no place within `TargetReach`" +
-                 along +
-                 " whose normal is within `TargetAngle`, or faces would fold there: point ids " +
-                 listIds(missed) + " of the input.");
+    monitor.warn(
+      "Nodes do not reach the target, since it has no place within `TargetReach`" + along +
+      " whose normal is within `TargetAngle`, or faces would fold there: point ids " +
+      listIds(missed) + " of the input." + (needed.empty() ? "" : " To let them," + needed));
   }
   return motion.moved()(choice.moving, allColumns);
 }

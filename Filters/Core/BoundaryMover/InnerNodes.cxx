@@ -255,13 +255,13 @@ void InnerNodes::place(const BoundaryModel& model, const Choice& choice, const O
   this->hasMovedOuter_ = before != result.moved(outer, allColumns);
 }
 
-void InnerNodes::spreadAround(const BoundaryModel& model, const Choice& choice,
+bool InnerNodes::spreadAround(const BoundaryModel& model, const Choice& choice,
   const Points& targets, const Surroundings::Options& options, Surroundings::Result& result,
   Monitor& monitor)
 {
   if (!this->hasMovedOuter_)
   {
-    return;
+    return false;
   }
   const auto isPlaced = [&result](Index node)
   {
@@ -278,7 +278,7 @@ void InnerNodes::spreadAround(const BoundaryModel& model, const Choice& choice,
   }
   if (moving.empty())
   {
-    return;
+    return false;
   }
   for (const auto& [node, to] : targetsOf(choice, targets))
   {
@@ -296,6 +296,7 @@ void InnerNodes::spreadAround(const BoundaryModel& model, const Choice& choice,
       result.roles[node] = around.roles[node];
     }
   }
+  return true;
 }
 
 void InnerNodes::keepLayers(const BoundaryModel& model, const Choice& choice,

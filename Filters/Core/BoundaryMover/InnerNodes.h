@@ -59,8 +59,9 @@ public:
     Surroundings::Result& result, Monitor& monitor);
   /// Moves the rest of the boundary again where place() has put outer nodes elsewhere than the
   /// first time: surfaces around layers and zones follow them, too. After place(), which made
-  /// `result`. `targets`: of choice.moving. Cost: nothing where no outer node was put elsewhere.
-  void spreadAround(const BoundaryModel& model, const Choice& choice, const Points& targets,
+  /// `result`. `targets`: of choice.moving. Returns whether it has: the warnings of the first time
+  /// then count no more. Cost: nothing where no outer node was put elsewhere.
+  bool spreadAround(const BoundaryModel& model, const Choice& choice, const Points& targets,
     const Surroundings::Options& options, Surroundings::Result& result, Monitor& monitor);
   /// The nodes of zones and layers inside, ascending, and the points of each: nodes of the mesh, or
   /// of this process's piece.

@@ -2,6 +2,7 @@
 #include "BoundaryMover/PrescribedMotion.h"
 
 #include "Boundary/FaceAreas.h"
+#include "BoundaryMover/Dimension.h"
 #include "BoundaryMover/Patches.h"
 #include "BoundaryMover/SurfaceShape.h"
 #include "Support/Error.h"
@@ -53,16 +54,11 @@ Points movedByRadius(const BoundaryModel& model, const Choice& choice, double ch
   }
   Points to = positions(model, choice);
   std::vector<std::uint8_t> isDone(choice.moving.size(), 0);
-  for (std::size_t s = 0; s < model.geometry.surfaces.size(); ++s)
+  for (const Index s : movingSurfaces(model, choice))
   {
     const GeometrySurface& surface = model.geometry.surfaces[s];
-    if (std::none_of(surface.faces.begin(), surface.faces.end(),
-          [&](Index face) { return choice.isMovingFace[face] != 0; }))
-    {
-      continue;
-    }
     const SurfaceShape shape(model.points(), model.faces, surface);
-    const std::string name = surfaceName(model.geometry, static_cast<Index>(s));
+    const std::string name = surfaceName(model.geometry, s);
     if (!shape.isRound())
     {
       throw Error("`RadiusChange` needs cylinders or spheres, and " + name +

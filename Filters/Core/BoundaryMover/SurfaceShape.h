@@ -43,6 +43,8 @@ public:
   Kind kind() const { return this->kind_; }
   bool isRound() const { return this->kind_ == Kind::Cylinder || this->kind_ == Kind::Sphere; }
   double radius() const { return this->radius_; } ///< of a cylinder or a sphere
+  const Row& center() const { return this->center_; }
+  const Row& direction() const { return this->direction_; }
   /// The unit vector away from a cylinder's axis or a sphere's center, zero there.
   Row outwards(const Row& x) const;
   /// The nearest point of the shape. Planes and cylinders have no end.
@@ -68,7 +70,7 @@ private:
   void takeFacets(const Points& points, const BoundaryFaces& faces, const GeometrySurface& surface);
 
   Kind kind_ = Kind::Facets;
-  Row center_ = Row::Zero();    ///< a point of the plane or of the axis, or a sphere's center
+  Row center_ = Row::Zero();    ///< the middle of a plane's nodes, of the axis, or of a sphere
   Row direction_ = Row::Zero(); ///< the plane's normal, or the axis
   double radius_ = 0;
   std::unique_ptr<TriangleTree> facets_;

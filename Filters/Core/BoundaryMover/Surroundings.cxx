@@ -258,7 +258,7 @@ std::vector<Index> Surroundings::ableToSlide(const BoundaryModel& model,
 {
   const double largest = largestDisplacement(model, result);
   std::vector<Index> able;
-  std::ostringstream off;
+  std::ostringstream off, names;
   off.precision(3);
   for (const Index s : surfaces)
   {
@@ -280,15 +280,16 @@ std::vector<Index> Surroundings::ableToSlide(const BoundaryModel& model,
     }
     else
     {
+      names << (off.tellp() > 0 ? ", " : "") << "'Surface " << model.geometry.surfaces[s].id << "'";
       off << (off.tellp() > 0 ? ", " : "") << "Surface " << model.geometry.surfaces[s].id << " by "
           << all << " (" << 100 * all / largest << " % of the largest displacement)";
     }
   }
   if (off.tellp() > 0)
   {
-    monitor.warn(
-      "What moves pulls surfaces off their own shape, which follow it: " + off.str() +
-      ". Let them stay (`FixedSurfaces`), or set `Surroundings` to Stay, if that is not meant.");
+    monitor.warn("What moves pulls surfaces off their own shape, which follow it: " + off.str() +
+                 ". If that is not meant, set `FixedSurfaces` to " + names.str() +
+                 ", or set `Surroundings` to Stay.");
   }
   return able;
 }

@@ -4,6 +4,7 @@
 #include "Mesh/Extent.h"
 #include "Support/Error.h"
 
+#include <vtkCellArray.h>
 #include <vtkDataArray.h>
 #include <vtkDataSetAttributes.h>
 #include <vtkDoubleArray.h>
@@ -218,6 +219,39 @@ Points Lattice(vtkDataObject* given, const std::vector<std::array<double, 6>>& l
                 morph::listIds(bad) + ", those of the first direction counted first.");
   }
   return result;
+}
+
+void Write(const std::vector<Handle>& handles, vtkPolyData* output)
+{
+  output->ShallowCopy(asPoints(handles));
+}
+
+void Write(const LatticeMotion& lattice, vtkPolyData* output)
+{
+  std::vector<Handle> points;
+  const Points rest = lattice.controlPoints();
+  for (Index i = 0; i < rest.rows(); ++i)
+  {
+    const Eigen::RowVector3d by = lattice.controlDisplacements.row(i);
+    points.push_back({ rest.row(i) + by, by, 0 });
+  }
+  output->ShallowCopy(asPoints(points));
+  output->GetPointData()->RemoveArray("Radius");
+  vtkNew<vtkCellArray> lines;
+  Index step = 1;
+  for (const int count : lattice.size)
+  {
+    for (Index i = 0; i < rest.rows(); ++i)
+    {
+      if (i / step % count + 1 < count)
+      {
+        const vtkIdType ends[] = { static_cast<vtkIdType>(i), static_cast<vtkIdType>(i + step) };
+        lines->InsertNextCell(2, ends);
+      }
+    }
+    step *= count;
+  }
+  output->SetLines(lines);
 }
 
 vtkSmartPointer<vtkPolyData> AsHandles(vtkDataObject* given, const std::string& whose)

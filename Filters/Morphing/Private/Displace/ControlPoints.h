@@ -2,6 +2,7 @@
 #pragma once
 
 #include "BoundaryMorphing/HandleMotion.h"
+#include "BoundaryMorphing/LatticeMotion.h"
 #include "Support/Types.h"
 
 #include <vtkSmartPointer.h>
@@ -32,6 +33,11 @@ std::vector<Handle> Handles(vtkDataObject* given, const std::vector<std::array<d
 /// another number of points than the lattice has, and displacements that are not finite.
 morph::Points Lattice(vtkDataObject* given, const std::vector<std::array<double, 6>>& listed,
   const std::array<int, 3>& size);
+
+/// Makes `output` the points of handles, or of a lattice where it takes them, with the lines
+/// between them: points that Handles() and Lattice() read.
+void Write(const std::vector<Handle>& handles, vtkPolyData* output);
+void Write(const LatticeMotion& lattice, vtkPolyData* output);
 
 /// What Handles() or Lattice() read of `given`, as points that they read again: to be gathered from
 /// MPI processes. Empty for null. `whose`: as Whose.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Private/Displace/Internals.h"
 
+#include "BoundaryMover/Dimension.h"
 #include "BoundaryMover/FitToTarget.h"
 #include "BoundaryMover/Patches.h"
 #include "Private/Data/AffineArrays.h"
@@ -24,6 +25,7 @@
 #include <algorithm>
 #include <array>
 #include <functional>
+#include <limits>
 #include <utility>
 
 namespace filters = morph::filters;
@@ -103,6 +105,10 @@ void vtkDisplacementAlgorithm::vtkInternals::ResetResults()
 {
   this->Count.fill(0);
   this->SlideReport = this->ContactReport = "None";
+  this->PresentDimension = std::numeric_limits<double>::quiet_NaN();
+  this->ControlPoints->Initialize();
+  this->LatticePoints->Initialize();
+  this->LatticePoints->SetNumberOfComponents(3);
 }
 
 void vtkDisplacementAlgorithm::vtkInternals::ClearList()
@@ -371,6 +377,10 @@ void vtkDisplacementAlgorithm::vtkInternals::Prepare(const Options& options, vtk
     moves.Given = this->Model.points()(moves.Choice.moving, morph::allColumns) + by;
   }
   monitor.check();
+  if (movesAny && options.Displacement == DISPLACEMENT_DIMENSION)
+  {
+    this->PresentDimension = morph::dimensionOf(this->Model, moves.Choice).value;
+  }
   moves.Targets = filters::Motion::Targets(this->Model, moves.Choice, motion);
   if (motion.Displacement == DISPLACEMENT_ALONG_NORMALS)
   {

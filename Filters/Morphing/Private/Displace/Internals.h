@@ -66,13 +66,19 @@ struct vtkDisplacementAlgorithm::vtkInternals
   morph::BoundaryMover Mover;
   /// The boundary of a mesh on several MPI processes, of which Model is then; else null.
   std::unique_ptr<morph::filters::WholeSurface> Whole;
+  /// Handles, or the lattice, of the last motion, and the undeformed points of the lattice.
+  ///@{
+  vtkNew<vtkPolyData> ControlPoints;
+  vtkNew<vtkDoubleArray> LatticePoints;
+  ///@}
   vtkNew<vtkPolyData> Displaced; ///< the whole boundary, as the last execution has displaced it
 
   /// Results of the last execution: the points of each Surroundings::Role, and a text.
   ///@{
   std::array<vtkIdType, morph::Surroundings::IsLayer + 1> Count = {};
   std::string SlideReport, ContactReport;
-  int ChooseCount = 0; ///< of all executions
+  double PresentDimension = 0; ///< of DISPLACEMENT_DIMENSION, else NaN
+  int ChooseCount = 0;         ///< of all executions
   ///@}
 
   /// Solutions while something is dragged need be no finer than a picture.
@@ -162,6 +168,8 @@ private:
   /// The positions of what moves, by handles or by a lattice.
   morph::Points ByControlPoints(const Options& options, vtkPointSet* input, vtkSelection* selection,
     vtkDataObject* points, morph::Monitor& monitor);
+  /// The lattice about `from`, what moves.
+  static morph::LatticeMotion LatticeOf(const Options& options, const morph::Points& from);
   /// The displacements of what moves by DISPLACEMENT_FIELD; NaN for none. With Whole, collective.
   morph::Points ByField(const Options& options, vtkDataObject* field, morph::Monitor& monitor);
   std::vector<morph::Handle> SelectedHandles(

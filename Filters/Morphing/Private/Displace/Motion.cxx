@@ -2,6 +2,7 @@
 #include "Private/Displace/Motion.h"
 #include "Private/Pipeline/Input.h"
 
+#include "BoundaryMover/Dimension.h"
 #include "Mesh/Extent.h"
 #include "Private/Data/DataCheck.h"
 #include "Support/Error.h"
@@ -168,6 +169,9 @@ Points wholeMotion(const BoundaryModel& model, const Choice& choice, const Motio
     }
     case vtkDisplacementAlgorithm::DISPLACEMENT_RADIUS:
       return morph::movedByRadius(model, choice, options.RadiusChange);
+    case vtkDisplacementAlgorithm::DISPLACEMENT_DIMENSION:
+      return morph::movedToDimension(
+        model, choice, options.Dimension, static_cast<morph::DimensionSide>(options.DimensionSide));
     case vtkDisplacementAlgorithm::DISPLACEMENT_ARRAY:
     case vtkDisplacementAlgorithm::DISPLACEMENT_FIELD:
     case vtkDisplacementAlgorithm::DISPLACEMENT_TARGET:
@@ -215,7 +219,7 @@ Points Targets(const BoundaryModel& model, const Choice& choice, const Options& 
   }
   Points targets = wholeMotion(model, choice, options, from);
   const char* names[] = { "Transform", "Vector", "Distance", "DisplacementArray", "Scale",
-    "RadiusChange", "Target", "Handles", "Lattice", "FieldArray" };
+    "RadiusChange", "Target", "Handles", "Lattice", "FieldArray", "Dimension" };
   requireModerate(targets, choice.moving, names[options.Displacement]);
   if (options.ScaleFactor == 0)
   {

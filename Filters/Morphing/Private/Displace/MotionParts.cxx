@@ -2,6 +2,7 @@
 // Where what moves goes: onto a target, by control points, or by a field.
 #include "BoundaryMorphing/LatticeMotion.h"
 #include "BoundaryMover/FitToTarget.h"
+#include "BoundaryMover/PrescribedMotion.h"
 #include "Private/Displace/FieldDisplacement.h"
 #include "Private/Displace/Internals.h"
 #include "Support/Error.h"
@@ -98,30 +99,40 @@ morph::Points vtkDisplacementAlgorithm::vtkInternals::ByControlPoints(const Opti
       const std::vector<morph::Handle> more = this->SelectedHandles(options, input, selection);
       handles.insert(handles.end(), more.begin(), more.end());
     }
-    return from + morph::HandleMotion(handles).displacements(from, monitor);
+    filters::ControlPoints::Write(handles, this->ControlPoints);
+    return from +
+           morph::HandleMotion(handles, options.HandleSmoothing).displacements(from, monitor);
   }
+  morph::LatticeMotion lattice = LatticeOf(options, from);
+  lattice.controlDisplacements =
+    filters::ControlPoints::Lattice(points, this->LatticeDisplacements, lattice.size);
+  const morph::Points rest = lattice.controlPoints();
+  this->LatticePoints->SetNumberOfTuples(static_cast<vtkIdType>(rest.rows()));
+  for (morph::Index i = 0; i < rest.rows(); ++i)
+  {
+    this->LatticePoints->SetTuple(static_cast<vtkIdType>(i), rest.row(i).data());
+  }
+  filters::ControlPoints::Write(lattice, this->ControlPoints);
+  return from + lattice.displacements(from, monitor);
+}
+
+morph::LatticeMotion vtkDisplacementAlgorithm::vtkInternals::LatticeOf(
+  const Options& options, const morph::Points& from)
+{
   morph::LatticeMotion lattice;
   lattice.basis = static_cast<morph::LatticeMotion::Basis>(options.LatticeBasis);
   lattice.size = options.LatticeSize;
-  if (options.AutoLattice && from.rows() > 0)
+  if (options.LatticeBox != LATTICE_BOX_OWN)
   {
-    lattice.low = from.colwise().minCoeff();
-    lattice.high = from.colwise().maxCoeff();
+    lattice.surround(from, options.LatticeBox == LATTICE_BOX_ALONG);
+    return lattice;
   }
-  else
-  {
-    const auto& b = options.LatticeBounds;
-    lattice.low << b[0], b[2], b[4];
-    lattice.high << b[1], b[3], b[5];
-    if ((lattice.high.array() < lattice.low.array()).any())
-    {
-      throw morph::Error("`LatticeBounds` have a minimum above its maximum. Give xmin, xmax, ymin, "
-                         "ymax, zmin, zmax.");
-    }
-  }
-  lattice.controlDisplacements =
-    filters::ControlPoints::Lattice(points, this->LatticeDisplacements, lattice.size);
-  return from + lattice.displacements(from, monitor);
+  const morph::AffineMotion turn =
+    morph::affineMotion({ { 0, 0, 0 }, options.LatticeRotation, { 1, 1, 1 } });
+  lattice.axes += turn.rightCols<3>();
+  lattice.origin = Eigen::RowVector3d::Map(options.LatticePosition.data());
+  lattice.high = Eigen::RowVector3d::Map(options.LatticeLength.data());
+  return lattice;
 }
 
 morph::Points vtkDisplacementAlgorithm::vtkInternals::ByField(

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Private/Displace/Pick.h"
 
+#include "BoundaryMover/Dimension.h"
 #include "BoundaryMover/Patches.h"
 #include "Mesh/FacesOfCells.h"
 #include "Private/Data/Surface.h"
@@ -344,6 +345,32 @@ void Find(vtkDataObject* shown, vtkSelection* selection, vtkExtractSelection* ex
   }
 }
 
+std::set<std::string> Enabled(const InputBoundary& model, vtkDataArraySelection* names)
+{
+  std::set<std::string> enabled;
+  for (const std::string& name : morph::patchNames(model))
+  {
+    if (names->ArrayExists(name.c_str()) && names->ArrayIsEnabled(name.c_str()))
+    {
+      enabled.insert(name);
+    }
+  }
+  return enabled;
+}
+
+std::string DimensionOf(const InputBoundary& model, vtkDataArraySelection* names)
+{
+  try
+  {
+    const morph::Choice choice = morph::choosePatches(model, Enabled(model, names), {});
+    return morph::dimensionOf(model, choice).text(model);
+  }
+  catch (const morph::Error& error)
+  {
+    return error.what();
+  }
+}
+
 void Write(const InputBoundary& model, vtkDataArraySelection* names, vtkPolyData* positions,
   vtkPolyData* output)
 {
@@ -353,14 +380,7 @@ void Write(const InputBoundary& model, vtkDataArraySelection* names, vtkPolyData
   {
     return;
   }
-  std::set<std::string> enabled;
-  for (const std::string& name : morph::patchNames(model))
-  {
-    if (names->ArrayExists(name.c_str()) && names->ArrayIsEnabled(name.c_str()))
-    {
-      enabled.insert(name);
-    }
-  }
+  std::set<std::string> enabled = Enabled(model, names);
   const bool isMoved = positions && positions->GetNumberOfPoints() == surface->GetNumberOfPoints();
   output->SetPoints((isMoved ? positions : surface)->GetPoints());
   output->GetPointData()->AddArray(surface->GetPointData()->GetArray(Surface::IdName));

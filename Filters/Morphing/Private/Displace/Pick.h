@@ -10,6 +10,8 @@
 #include <vtkSelection.h>
 #include <vtkSmartPointer.h>
 
+#include <set>
+#include <string>
 #include <vector>
 
 class vtkDataSet;
@@ -73,6 +75,12 @@ std::vector<morph::Index> Surfaces(vtkDataSet* shown, vtkSelection* selection,
 /// model is empty.
 void Find(vtkDataObject* shown, vtkSelection* selection, vtkExtractSelection* extractor,
   const Blocks& blocks, const InputBoundary& model, vtkDataArraySelection* names);
+
+/// See vtkDisplacementAlgorithm::DescribeDimension().
+std::string DimensionOf(const InputBoundary& model, vtkDataArraySelection* names);
+
+/// The names of patches that are enabled.
+std::set<std::string> Enabled(const InputBoundary& model, vtkDataArraySelection* names);
 
 /// Makes `output` the polygons of the surfaces and the lines of the curves that `names` enables;
 /// unknown names are left out. Its points are those of model.Surface(), at `positions` if that has

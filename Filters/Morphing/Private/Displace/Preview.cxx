@@ -8,7 +8,6 @@
 
 #include <vtkCellArray.h>
 #include <vtkDataArray.h>
-#include <vtkDataArraySelection.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
@@ -17,8 +16,6 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
-#include <set>
-#include <string>
 #include <vector>
 
 namespace morph::filters
@@ -96,17 +93,9 @@ void Preview::Write(const InputBoundary& model, vtkDataArraySelection* names,
   const Motion::Options& motion, vtkPolyData* output)
 {
   output->Initialize();
-  std::set<std::string> enabled;
-  for (int i = 0; i < names->GetNumberOfArrays(); ++i)
-  {
-    if (names->GetArraySetting(i) != 0)
-    {
-      enabled.insert(names->GetArrayName(i));
-    }
-  }
   try
   {
-    const morph::Choice choice = morph::choosePatches(model, enabled, {});
+    const morph::Choice choice = morph::choosePatches(model, Pick::Enabled(model, names), {});
     const Points from = model.points()(choice.moving, morph::allColumns);
     const Points targets = Motion::Targets(model, choice, motion);
     if (from.rows() == 0 || targets == from)

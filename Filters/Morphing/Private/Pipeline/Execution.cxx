@@ -15,7 +15,7 @@ namespace morph::filters
 namespace Execution
 {
 Outcome Run(vtkAlgorithm* filter, const char* task, const std::function<void()>& work,
-  const std::function<void()>& clear)
+  const std::function<void()>& clear, const std::function<void(const std::string&)>& report)
 {
   bool cancelled = false;
   std::string problem;
@@ -42,7 +42,11 @@ Outcome Run(vtkAlgorithm* filter, const char* task, const std::function<void()>&
   {
     clear();
   }
-  if (outcome == Ranks::Outcome::Report)
+  if (outcome == Ranks::Outcome::Report && report)
+  {
+    report(problem);
+  }
+  else if (outcome == Ranks::Outcome::Report)
   {
     vtkErrorWithObjectMacro(filter, << problem);
   }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <string>
 
 class vtkAlgorithm;
 
@@ -16,10 +17,11 @@ enum class Outcome
 };
 
 /// Calls `work` on each MPI process. If it throws on any of them, all of them call `clear`, and one
-/// reports the error as one of `filter`'s. If it was cancelled, `clear` is called without a
-/// message: whoever cancelled knows. RequestData has to return 1 in any case: after a 0 the
-/// executive adds ten lines of its own. `task`: the words after "not enough memory to" ("morph this
-/// mesh").
+/// reports the error as one of `filter`'s, or by `report` where that is given. If it was cancelled,
+/// `clear` is called without a message: whoever cancelled knows. RequestData has to return 1 in any
+/// case: after a 0 the executive adds ten lines of its own. `task`: the words after "not enough
+/// memory to" ("morph this mesh").
 Outcome Run(vtkAlgorithm* filter, const char* task, const std::function<void()>& work,
-  const std::function<void()>& clear);
+  const std::function<void()>& clear,
+  const std::function<void(const std::string& problem)>& report = {});
 }

@@ -53,7 +53,7 @@ int Ports::FillInformation(int port, vtkInformation* info)
 
 int Ports::FillOutputInformation(int port, vtkInformation* info)
 {
-  const char* types[] = { "vtkDataObject", "vtkUnstructuredGrid", "vtkPolyData" };
+  const char* types[] = { "vtkDataObject", "vtkUnstructuredGrid", "vtkPolyData", "vtkPolyData" };
   info->Set(vtkDataObject::DATA_TYPE_NAME(), types[port]);
   return 1;
 }

@@ -32,7 +32,8 @@ public:
   }
 
   static int FillInformation(int port, vtkInformation* info);
-  /// The mesh, of the input's type, its bad cells, and its surface, which is polygonal data.
+  /// The mesh, of the input's type, its bad cells, its surface, and control points, which are
+  /// polygonal data.
   static int FillOutputInformation(int port, vtkInformation* info);
   /// For ProcessRequest of a filter whose output 0 is of that type: answers REQUEST_DATA_OBJECT.
   /// Returns whether `request` is that.
