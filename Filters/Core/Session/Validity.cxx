@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Session/Validity.h"
 
-#include "Mesh/PlaneLayer.h"
 #include "Mesh/Polyhedra.h"
+#include "Mesh/ShellLayer.h"
 #include "Morpher/IncrementalMorph.h"
 #include "Morpher/PolyhedralMorpher.h"
 #include "Quality/BoundaryDetermined.h"
@@ -27,6 +27,7 @@ Mesh withoutCells(const Mesh& mesh, const InvertedBefore& left)
 {
   Mesh rest;
   rest.points = mesh.points;
+  rest.layer = mesh.layer;
   rest.offsets = { 0 };
   for (Index c = 0; c < mesh.numberOfCells(); ++c)
   {
@@ -108,9 +109,10 @@ std::string Validity::describe(
   std::ostringstream text;
   for (Index cell : worst)
   {
-    // Of a plane mesh's cell: that of its front.
-    Eigen::RowVector3d center = -thickness(this->mesh) / 2 * this->mesh.layer.normal;
-    const Index corners = cornerCount(this->mesh, cell, *cellShape(this->mesh.types[cell]));
+    Eigen::RowVector3d center = Eigen::RowVector3d::Zero();
+    const bool isPrism = this->mesh.layer.nodes > 0; // of whose front it is
+    const Index corners =
+      cornerCount(this->mesh, cell, *cellShape(this->mesh.types[cell])) / (isPrism ? 2 : 1);
     for (Index k = 0; k < corners; ++k)
     {
       center += points.row(this->mesh.cell(cell)[k]) / static_cast<double>(corners);
@@ -188,6 +190,7 @@ bool Validity::repair(Points& moved, Monitor& monitor) const
       seesOthers ? others : this->mesh, seesOthers ? ofOthers : this->partition, first);
     Points repaired = moved;
     repair.repair(repaired, second);
+    placeImages(this->mesh, repaired);
     const std::size_t left = bad(repaired).size();
     if (left < least)
     {

@@ -31,6 +31,7 @@ void InversionFree::doPrepare(const Mesh& rest, Monitor& monitor)
   this->orientation_ = cellSigns(this->referenceMesh_, connectedComponents(rest, monitor), monitor);
   this->scale_ = unitEdgeScale(this->referenceMesh_);
   this->referenceMesh_.points *= this->scale_;
+  this->referenceMesh_.layer.thickness *= this->scale_;
   const Points atRest = rest.points * this->scale_;
   this->minimumAtRest_ =
     measureCorners(this->referenceMesh_, atRest, this->orientation_, {}, monitor).minimum;
