@@ -21,6 +21,8 @@ namespace
 constexpr double Flatness = 1e-6;  // of the mesh's size: what single precision leaves
 constexpr double Thin = 0.1;       // of a curved layer, so that its back does not fold in a bend
 constexpr double Cancelled = 1e-6; // of the areas around a node, their sum
+constexpr int Rings = 3;           // of cells, whose normals tell which way a node's is
+constexpr double Alike = 0.5;      // cosine of normals that agree
 
 bool isFace(const Mesh& mesh, Index cell)
 {
@@ -202,46 +204,65 @@ std::vector<std::int8_t> windingsOf(const Mesh& shell, const Points& points)
   return windings;
 }
 
-/// The unit normal at each node of the front: the sum of the areas around it, which inside the
-/// surface does not depend on the node's own place. Zero where there is none. `cancelled`: becomes
-/// the nodes whose areas cancel.
-Points normalsOf(const Mesh& layer, const Points& points, const std::vector<std::int8_t>& windings,
-  std::vector<Index>& cancelled)
+/// The corners of a prism's front, and the nodes on its edges if it is quadratic.
+std::vector<Index> frontNodes(const Mesh& layer, Index cell)
 {
-  const Index count = layer.layer.nodes;
-  Points sums = Points::Zero(count, 3);
-  std::vector<double> sizes(count, 0);
+  std::vector<Index> nodes = frontOf(layer, cell);
+  const Index half = static_cast<Index>(nodes.size());
+  const Index* middles = layer.cell(cell) + 2 * half; // behind the corners of the prism
+  nodes.insert(nodes.end(), middles, middles + (layer.cellSize(cell) > 2 * half ? half : 0));
+  return nodes;
+}
+
+/// Adds, at each node of the front, what its cells have: `of(cell, its nodes)`, a row.
+template <typename Of>
+Points sumsAround(const Mesh& layer, const Of& of)
+{
+  Points sums = Points::Zero(layer.layer.nodes, 3);
   for (Index c = 0; c < layer.numberOfCells(); ++c)
   {
-    std::vector<Index> nodes = frontOf(layer, c);
-    if (nodes.empty())
-    {
-      continue;
-    }
-    const Eigen::RowVector3d area = areaOf(points, nodes);
-    // Behind the corners of a quadratic prism are the nodes on the edges of its front.
-    const Index half = static_cast<Index>(nodes.size());
-    const Index* middles = layer.cell(c) + 2 * half;
-    nodes.insert(nodes.end(), middles, middles + (layer.cellSize(c) > 2 * half ? half : 0));
+    const std::vector<Index> nodes = frontNodes(layer, c);
+    const Eigen::RowVector3d value =
+      nodes.empty() ? Eigen::RowVector3d(0, 0, 0) : Eigen::RowVector3d(of(c, nodes));
     for (const Index node : nodes)
     {
-      sums.row(node) += windings[c] * area;
-      sizes[node] += area.stableNorm();
-    }
-  }
-  for (Index node = 0; node < count; ++node)
-  {
-    const double length = sums.row(node).stableNorm();
-    if (!(length > Cancelled * sizes[node]) && sizes[node] > 0)
-    {
-      cancelled.push_back(node);
-    }
-    if (length > 0)
-    {
-      sums.row(node) /= length;
+      sums.row(node) += value;
     }
   }
   return sums;
+}
+
+/// The sum of the areas around each node of the front, which inside the surface does not depend on
+/// the node's own place.
+Points areasAround(
+  const Mesh& layer, const Points& points, const std::vector<std::int8_t>& windings)
+{
+  return sumsAround(layer,
+    [&](Index c, const std::vector<Index>&) -> Eigen::RowVector3d
+    { return windings[c] * areaOf(points, frontOf(layer, c)); });
+}
+
+/// The mean over the neighborhood of each node, cell by cell.
+Points widened(const Mesh& layer, Points areas)
+{
+  for (int ring = 0; ring < Rings; ++ring)
+  {
+    areas = sumsAround(layer,
+      [&](Index, const std::vector<Index>& nodes) -> Eigen::RowVector3d
+      { return areas(nodes, allColumns).colwise().mean(); });
+  }
+  return areas;
+}
+
+/// The unit normals at each node: of the areas around it, or zero where they have none.
+Points normalized(Points areas)
+{
+  for (Index node = 0; node < areas.rows(); ++node)
+  {
+    const double length = areas.row(node).stableNorm();
+    areas.row(node) /= length > 0 ? length : 1;
+  }
+  return areas;
 }
 
 /// Appends the cells of a layer to a mesh.
@@ -372,13 +393,24 @@ Mesh thicken(const Mesh& shell)
   Points across = mesh.layer.normal.replicate(count, 1);
   if (mesh.layer.isCurved())
   {
+    const std::vector<std::int8_t> windings = windingsOf(mesh, shell.points);
+    const Points sizes = sumsAround(mesh, [&](Index c, const std::vector<Index>&)
+      { return Eigen::RowVector3d(areaOf(shell.points, frontOf(mesh, c)).stableNorm(), 0, 0); });
+    across = areasAround(mesh, shell.points, windings);
     std::vector<Index> cancelled;
-    across = normalsOf(mesh, shell.points, windingsOf(mesh, shell.points), cancelled);
+    for (Index node = 0; node < count; ++node)
+    {
+      if (sizes(node, 0) > 0 && !(across.row(node).stableNorm() > Cancelled * sizes(node, 0)))
+      {
+        cancelled.push_back(node);
+      }
+    }
     if (!cancelled.empty())
     {
       throw Error("The shell turns back on itself, so that it has no normal at node ids " +
                   listIds(cancelled) + ". Separate its sheets there, or widen the fold.");
     }
+    across = normalized(std::move(across));
   }
   across *= mesh.layer.thickness;
   mesh.points.resize(2 * count + middles, 3);
@@ -437,8 +469,25 @@ void placeImages(const Mesh& rest, Points& moved)
       areaOf(rest.points, corners).dot(before(corners, allColumns).colwise().sum()) < 0;
     windings[c] = isAgainst ? -1 : 1;
   }
-  std::vector<Index> cancelled; // whose cells are measured as they lie
-  const Points normals = normalsOf(rest, moved, windings, cancelled);
+  // Where cells around a node are folded over, their sum is no normal, and the wider neighborhood
+  // tells it. At a sharp bend of the undeformed shell the two differ without a fold.
+  const auto bothAt = [&](const Points& points)
+  {
+    Points areas = areasAround(rest, points, windings);
+    Points wide = normalized(widened(rest, areas));
+    return std::make_pair(normalized(std::move(areas)), std::move(wide));
+  };
+  const auto atRest = bothAt(rest.points);
+  auto [normals, wide] = bothAt(moved);
+  for (Index node = 0; node < count; ++node)
+  {
+    const bool isFolded = normals.row(node).dot(wide.row(node)) < Alike &&
+                          atRest.first.row(node).dot(atRest.second.row(node)) >= Alike;
+    if (isFolded)
+    {
+      normals.row(node) = wide.row(node);
+    }
+  }
   moved.middleRows(count, count) = moved.topRows(count) + rest.layer.thickness * normals;
   for (Index c = 0; c < rest.numberOfCells() && rest.numberOfNodes() > 2 * count; ++c)
   {

@@ -37,7 +37,8 @@ void requireRegion(const Mesh& mesh);
 /// Puts the images of the nodes of a curved layer, and the nodes between, behind the front on the
 /// normals that the surface has where it has moved. `moved`: #nodes x 3, of which the front is read.
 /// So a cell that is folded over lies against the normals around it, as these turn along with the
-/// surface. Other meshes stay. Cost: two passes over the cells.
+/// surface. Where folded cells leave a node no normal of its own, it has that of three rings of
+/// cells. Other meshes stay. Cost: some passes over the cells.
 void placeImages(const Mesh& rest, Points& moved);
 
 /// copyCorners() of a cell as geometry reads it: one of a curved layer stands upright on its own
