@@ -552,6 +552,67 @@ TEST_P(CurvedShell, TangledShellsAreUntangledNearTheirSurface)
   EXPECT_LT((shell.front(moved) - on).col(2).cwiseAbs().maxCoeff(), 0.1);
 }
 
+TEST_P(CurvedShell, SmoothingMovesNodesNearTheSurfaceAndNothingWithoutAMotion)
+{
+  Shell shell = openShell(GetParam());
+  morph::Smoothing smoothing;
+  morph::SmoothingOptions options;
+  options.target = morph::SmoothingTarget::Initial;
+  smoothing.setOptions(options);
+  EXPECT_EQ(
+    shell.front(shell.moved(smoothing, [](const Row& x) { return x; })), shell.faces.points);
+  const motions::Map lift = [](const Row& x)
+  { return Row(x[0] + 0.2 * x[1] * x[1], x[1], x[2] + 0.2 * x[0] * x[1]); };
+  const Points moved = shell.moved(smoothing, lift);
+  EXPECT_EQ(shell.quality(moved).inverted, 0);
+  morph::FemWarp warp;
+  EXPECT_LT(motions::difference(shell.front(moved), shell.front(shell.moved(warp, lift))), 0.1);
+}
+
+TEST_P(CurvedShell, APatchOfAClosedShellMovesAndTheRestFollows)
+{
+  Shell shell = closedShell(GetParam());
+  morph::FemWarp warp;
+  const Points moved = shell.front(
+    shell.moved(warp, [](const Row& x) { return Row(x[0], x[1], x[2] + 0.4 * (x[2] > 0.6)); }));
+  const Points motion = moved - shell.faces.points;
+  EXPECT_LT(motion.leftCols(2).cwiseAbs().maxCoeff(), 0.02);
+  EXPECT_GT(motion.col(2).minCoeff(), -0.02);
+  EXPECT_LT(motion.col(2).maxCoeff(), 0.42);
+  for (Index n = 0; n < motion.rows(); ++n)
+  {
+    const double z = shell.faces.points(n, 2);
+    EXPECT_TRUE(z > 0.6 ? std::abs(motion(n, 2) - 0.4) < 1e-14 : z > -0.8 || motion(n, 2) == 0);
+  }
+}
+
+TEST(CurvedShell, AFeatureLineOfAPanelMovesAndItsEdgesStay)
+{
+  // A door: a panel with the crease x = 0.5, which rises in its middle.
+  Mesh mesh = square("quads");
+  for (Index i = 0; i <= Boxes; ++i)
+  {
+    mesh.points(Boxes / 2 * (Boxes + 1) + i, 0) = 0.5;
+  }
+  const auto door = [](const Row& x) { return Row(x[0], x[1], 0.3 - 0.3 * std::abs(x[0] - 0.5)); };
+  mesh.points = motions::mapped(mesh.points, door);
+  Shell shell(std::move(mesh),
+    [](const Row& x) { return x[0] == 0 || x[0] == 1 || x[0] == 0.5 || x[1] == 0 || x[1] == 1; });
+  const motions::Map rise = [](const Row& x)
+  { return Row(x[0], x[1], x[2] + (x[0] == 0.5 ? 0.2 * std::sin(EIGEN_PI * x[1]) : 0.)); };
+  morph::FemWarp warp;
+  const Points moved = shell.moved(warp, rise);
+  EXPECT_EQ(shell.quality(moved).inverted, 0);
+  for (const Index n : shell.partition.prescribed)
+  {
+    const Index node = n % shell.faces.numberOfNodes();
+    EXPECT_EQ(Row(moved.row(node)), rise(shell.faces.points.row(node))) << node;
+  }
+  const Eigen::VectorXd height = (shell.front(moved) - shell.faces.points).col(2);
+  EXPECT_GT(height.minCoeff(), -0.02);
+  EXPECT_LT(height.maxCoeff(), 0.21);
+}
+
 TEST(CurvedShell, ShellsWithOneSideOrNoNormalAreRefused)
 {
   std::string message;
