@@ -380,29 +380,102 @@ TEST(PlaneMeshes, StepsZonesAndLayersAreAsForSolids)
   }
 }
 
-TEST(PlaneMeshes, WhatLeavesThePlaneIsRefused)
+TEST(PlaneMeshes, ABoundaryThatLeavesThePlaneTakesTheMeshAlong)
 {
+  const auto roll = [](const Row& x) -> Row
+  {
+    const Row flat = x * Turn;
+    return Row(3 * std::sin(flat[0] / 3), flat[1], 3 - 3 * std::cos(flat[0] / 3)) *
+           Turn.transpose();
+  };
   auto grid = plate();
-  vtkNew<vtkFEMWarpMorph> filter;
+  vtkNew<vtkMorphMesh> filter;
   filter->SetInputData(grid);
-  filter->SetBoundaryData(grids::boundary(
-    grid, [](const Row& x) -> Row { return x + 0.1 * Row(0, 0, 1) * Turn.transpose(); }));
+  filter->SetMovingToEverything();
+  filter->SetDisplacement(vtkMorphMesh::DISPLACEMENT_ARRAY);
+  filter->SetDisplacementArray("Motion");
+  const Points rest = grids::points(grid);
+  grids::addVectors(grid, "Motion", grids::mapped(rest, roll) - rest);
   grids::Listener listener(filter);
   filter->Update();
-  EXPECT_NE(firstError(listener).find("leaves its plane, at node ids 0, 1,"), std::string::npos)
-    << firstError(listener);
-  EXPECT_EQ(grids::points(filter->GetOutput()), grids::points(grid));
+  ASSERT_EQ(firstError(listener), "");
+  const Points moved = grids::points(filter->GetOutput());
+  EXPECT_LT((moved - grids::mapped(rest, roll)).cwiseAbs().maxCoeff(), 0.1);
+  EXPECT_LT((moved - grids::mapped(rest, roll)).topRows(Around).cwiseAbs().maxCoeff(), 1e-14);
+  EXPECT_EQ(filter->GetInvertedCells(), 0);
+}
 
-  auto shell = plate();
-  for (vtkIdType n = 0; n < Around; ++n)
+namespace
+{
+/// The plate as a bowl: z = 0.2 r^2 in the turned frame.
+vtkSmartPointer<vtkUnstructuredGrid> bowl(bool quadratic = false)
+{
+  auto grid = plate(quadratic);
+  for (vtkIdType n = 0; n < grid->GetNumberOfPoints(); ++n)
   {
-    double x[3];
-    shell->GetPoint(n, x);
-    shell->GetPoints()->SetPoint(n, x[0], x[1], x[2] + 0.2);
+    Row x;
+    grid->GetPoint(n, x.data());
+    x += 0.2 * x.squaredNorm() * Row(0, 0, 1) * Turn.transpose();
+    grid->GetPoints()->SetPoint(n, x.data());
   }
-  vtkNew<vtkMorphMesh> mesh;
-  mesh->SetInputData(shell);
-  grids::Listener other(mesh);
-  mesh->Update();
-  EXPECT_NE(firstError(other).find("curved shell"), std::string::npos) << firstError(other);
+  return grid;
+}
+
+class CurvedShells : public testing::TestWithParam<grids::MorphFilter>
+{
+};
+INSTANTIATE_TEST_SUITE_P(Methods, CurvedShells, testing::ValuesIn(grids::morphFilters()),
+  [](const auto& info) { return info.param.name; });
+}
+
+TEST_P(CurvedShells, AffineMotionsAreExactOrTheMethodIsRefused)
+{
+  const grids::Map affine = [](const Row& x)
+  { return Row(1.2 * x[0] + 0.3 * x[1] + 1, 0.9 * x[1] - 2 + 0.1 * x[2], x[2] - 0.2 * x[0]); };
+  for (const bool quadratic : { false, true })
+  {
+    auto grid = bowl(quadratic);
+    auto filter = GetParam().make();
+    filter->SetInputData(grid);
+    filter->SetBoundaryData(grids::boundary(grid, affine));
+    grids::Listener listener(filter);
+    filter->Update();
+    if (GetParam().name.find("Simplex") != std::string::npos)
+    {
+      EXPECT_NE(firstError(listener).find("curved shell encloses none"), std::string::npos);
+      continue;
+    }
+    ASSERT_EQ(firstError(listener), "");
+    const Points moved = used(filter->GetOutput()), rest = used(grid);
+    for (Index n = 0; n < rest.rows(); ++n)
+    {
+      EXPECT_TRUE(rest.row(n).isZero(0) || (moved.row(n) - affine(rest.row(n))).norm() < 1e-12)
+        << n;
+    }
+    EXPECT_EQ(filter->GetInvertedCells(), 0);
+    EXPECT_EQ(filter->GetOutput()->GetCellType(0), grid->GetCellType(0));
+  }
+}
+
+TEST(CurvedShells, EveryFilterTakesThem)
+{
+  const grids::Map turn = [](const Row& x) { return turnedBy(x, 0.02); };
+  auto grid = bowl();
+  grids::addVectors(grid, "Gradient", Points::Ones(grid->GetNumberOfPoints(), 3));
+  for (const grids::AnyFilter& filter : grids::allFilters())
+  {
+    if (filter.name.find("Simplex") != std::string::npos)
+    {
+      continue;
+    }
+    auto made = filter.connected(grid, grids::boundary(grid, turn));
+    grids::Listener listener(made);
+    made->Update();
+    EXPECT_EQ(firstError(listener), "") << filter.name;
+    if (auto* output = vtkUnstructuredGrid::SafeDownCast(made->GetOutputDataObject(0)))
+    {
+      EXPECT_EQ(output->GetNumberOfPoints(), grid->GetNumberOfPoints()) << filter.name;
+      EXPECT_EQ(output->GetCellType(0), VTK_QUAD) << filter.name;
+    }
+  }
 }

@@ -100,7 +100,7 @@ class WrongInputs(unittest.TestCase):
     def test_inputs_of_other_types(self):
         self.assertRefused(["The input is a vtkPolyData", "Append Datasets"], Input=Line(),
                            Boundary=self.boundary)
-        self.assertRefused(["The input is a curved shell"], Input=Cone(), Boundary=self.boundary)
+        self.assertRefused(["has a polygon, cell 0"], Input=Cone(), Boundary=self.boundary)
         self.assertRefused(["The input is a vtkImageData", "Append Datasets"], Input=Wavelet(),
                            Boundary=self.boundary)
         self.assertRefused(["The boundary is a vtkImageData", "polygonal data"], Input=self.grid,

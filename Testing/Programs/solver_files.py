@@ -701,9 +701,6 @@ class SolverFiles(unittest.TestCase):
             ("m.bdf", grids + "GRID           5\t\t1.0\n" + tetra, "line 6: .*tabs"),
             ("m.bdf", grids + "GRID*                  5\n" + tetra, "line 6: .*continuation line"),
             ("m.bdf", "BEGIN BULK\nINCLUDE 'none.bdf'\n", "none.bdf: there is no such file"),
-            ("m.inp", nodes.replace("3, 0., 1., 0.", "3, 0., 1., .5") +
-             brick.replace("C3D8", "S4").replace(", 5, 6, 8, 7", ""),
-             "m.inp: The input is a curved shell"),
             ("m.k", dyna.replace("1.,0.,0.", "1.,x,0."), "line 4: 'x' is no number"),
             ("m.k", dyna.replace("4,4,4,4", "44,44,44,44"), "element 1 has the node 44"),
             ("m.k", dyna.replace("4,4,4,4", ""), "line 8: element 1 has 3 nodes"),

@@ -2,7 +2,7 @@
 #include "BoundaryMover/Choice.h"
 
 #include "BoundaryMover/Patches.h"
-#include "Mesh/PlaneLayer.h"
+#include "Mesh/ShellLayer.h"
 
 #include <algorithm>
 #include <utility>

@@ -5,8 +5,8 @@
 #include "Geometry/AffineFit.h"
 #include "Geometry/RigidFit.h"
 #include "LinearMethods/FemWarp.h"
-#include "Mesh/PlaneLayer.h"
 #include "Mesh/Polyhedra.h"
+#include "Mesh/ShellLayer.h"
 #include "Morpher/PolyhedralMorpher.h"
 #include "Support/Error.h"
 

@@ -4,7 +4,7 @@
 #include "Boundary/FaceAreas.h"
 #include "BoundaryMover/SurfaceShape.h"
 #include "Mesh/FacesOfCells.h"
-#include "Mesh/PlaneLayer.h"
+#include "Mesh/ShellLayer.h"
 #include "Support/Error.h"
 
 #include <algorithm>
@@ -101,6 +101,22 @@ std::vector<Index> wholeSurfaces(
   }
   return numbers;
 }
+
+/// The area of each face, or the length of the edge that a layer's face is of: in the front.
+Eigen::VectorXd faceMeasures(
+  const Points& points, const BoundaryFaces& faces, const ShellLayer& layer)
+{
+  Eigen::VectorXd measures = faceAreas(points, faces).rowwise().norm();
+  for (Index f = 0; layer.nodes > 0 && f < measures.size(); ++f)
+  {
+    std::vector<Index> ends;
+    std::copy_if(faces.connectivity.begin() + faces.offsets[f],
+      faces.connectivity.begin() + faces.offsets[f + 1], std::back_inserter(ends),
+      [&](Index node) { return node < layer.nodes; });
+    measures[f] = (points.row(ends.back()) - points.row(ends.front())).norm();
+  }
+  return measures;
+}
 }
 
 std::vector<std::string> patchNames(const BoundaryModel& model)
@@ -131,10 +147,8 @@ std::vector<PatchSize> patchSizes(const BoundaryModel& model)
 {
   const Classification& geometry = model.geometry;
   const Points& points = model.rest();
-  const Points areas = faceAreas(points, model.faces);
-  // The sides of a layer are the edges of a plane mesh.
-  const PlaneLayer& layer = model.mesh.layer;
-  const double perArea = 1 / thickness(model.mesh);
+  const ShellLayer& layer = model.mesh.layer;
+  const Eigen::VectorXd measures = faceMeasures(points, model.faces, layer);
   const auto addNodes = [&](const std::vector<Index>& nodes, PatchSize& size)
   {
     for (const Index node : nodes)
@@ -151,7 +165,7 @@ std::vector<PatchSize> patchSizes(const BoundaryModel& model)
     size.count += static_cast<Index>(faces.size());
     for (const Index face : faces)
     {
-      size.measure += perArea * areas.row(face).norm();
+      size.measure += measures[face];
     }
   };
   std::map<std::string, PatchSize> sizes;
@@ -166,7 +180,7 @@ std::vector<PatchSize> patchSizes(const BoundaryModel& model)
     PatchSize size;
     size.isInner = true;
     size.count = static_cast<Index>(surface.places.size());
-    size.measure = perArea * faceAreas(points, faces).rowwise().norm().sum();
+    size.measure = faceMeasures(points, faces, layer).sum();
     addNodes(faces.nodes, size);
     sizes[surface.name] = size;
   }

@@ -23,7 +23,7 @@ struct PatchSize
 {
   std::string name;
   Index count = 0;      ///< of faces; of a curve: of edges
-  double measure = 0;   ///< area; of a curve, or of edges of a plane mesh: length
+  double measure = 0;   ///< area; of a curve, or of edges of a mesh of faces: length
   bool isInner = false; ///< all faces lie inside of the mesh
   Eigen::AlignedBox3d box;
 };

@@ -3,6 +3,7 @@
 
 #include "Energies/BatchReductions.h"
 #include "Energies/CellBatchKernel.h"
+#include "Mesh/ShellLayer.h"
 #include "Mesh/UnknownOrdering.h"
 
 #include <algorithm>
@@ -91,7 +92,7 @@ MeshEnergy::MeshEnergy(
   : free_(unknownOrdering(mesh, free))
   , batches_(mesh, this->free_)
 {
-  this->share(communicator, this->free_, mesh.layer.normal);
+  this->share(communicator, this->free_, mesh.layer.normal, curvedImages(mesh.layer, this->free_));
 }
 
 EnergyState MeshEnergy::evaluate(const Points& points, Monitor& monitor) const

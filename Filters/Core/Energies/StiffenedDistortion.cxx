@@ -3,6 +3,7 @@
 
 #include "Energies/BatchReductions.h"
 #include "Energies/StiffenedKernel.h"
+#include "Mesh/ShellLayer.h"
 #include "Mesh/UnknownOrdering.h"
 
 #include <Eigen/Geometry>
@@ -279,7 +280,7 @@ StiffenedDistortion::StiffenedDistortion(const Mesh& mesh,
   : free_(unknownOrdering(mesh, free))
   , batches_(mesh, this->free_, cells)
 {
-  this->share(communicator, this->free_, mesh.layer.normal);
+  this->share(communicator, this->free_, mesh.layer.normal, curvedImages(mesh.layer, this->free_));
   for (Index batch = 0; batch < this->batches_.size(); ++batch)
   {
     const Shape shape = this->batches_.shape(batch);

@@ -3,6 +3,7 @@
 
 #include "Energies/BatchReductions.h"
 #include "Energies/CellBatchKernel.h"
+#include "Mesh/ShellLayer.h"
 #include "Mesh/UnknownOrdering.h"
 
 #include <Eigen/LU>
@@ -124,7 +125,7 @@ UntangleEnergy::UntangleEnergy(const Mesh& mesh, const std::vector<Index>& free,
   , batches_(mesh, this->free_)
   , tetrahedra_(tetrahedraOf(this->batches_, targets, margin))
 {
-  this->share(communicator, this->free_, mesh.layer.normal);
+  this->share(communicator, this->free_, mesh.layer.normal, curvedImages(mesh.layer, this->free_));
   this->tetrahedra_.count = std::max<Index>(1, communicator.sum(this->tetrahedra_.count));
 }
 

@@ -3,6 +3,7 @@
 
 #include "LinearMethods/ElementStiffness.h"
 #include "Mesh/CellShape.h"
+#include "Mesh/ShellLayer.h"
 #include "Mesh/SimplicialDecomposition.h"
 #include "Quality/ScaledJacobian.h"
 #include "Support/Parallel.h"
@@ -75,7 +76,7 @@ void CellMatrix::compute(Index c, double* K)
 {
   const CellShape& shape = *cellShape(this->mesh_, c);
   double corners[8][3];
-  copyCorners(this->mesh_, c, shape, this->mesh_.points, corners[0]);
+  copyStanding(this->mesh_, c, shape, this->mesh_.points, corners[0]);
   const int sign = elementStiffness(shape.shape, corners, K);
   this->sign_[c] = static_cast<std::int8_t>(sign);
   if (!this->factors_.empty())

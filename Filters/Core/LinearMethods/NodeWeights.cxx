@@ -4,6 +4,7 @@
 #include "Geometry/ThinSvd3.h"
 #include "LinearMethods/ElementStiffness.h"
 #include "Mesh/CellShape.h"
+#include "Mesh/ShellLayer.h"
 
 #include <algorithm>
 #include <cmath>
@@ -64,12 +65,36 @@ void NodeWeights::widen()
 
 void NodeWeights::takeOffsets(Index node)
 {
+  if (this->mesh_->layer.isCurved())
+  {
+    return this->takeTangents(node);
+  }
   const double* origin = this->mesh_->points.data() + 3 * node;
   this->offsets_.resize(this->columns_.size());
   for (std::size_t i = 0; i < this->columns_.size(); ++i)
   {
     const double* point = this->mesh_->points.data() + 3 * this->numbers_->nodes[this->columns_[i]];
     this->offsets_[i] = { point[0] - origin[0], point[1] - origin[1], point[2] - origin[2] };
+  }
+}
+
+/// Of a curved layer: its neighbors as they lie in the tangent plane of their node, each front or
+/// back with its own.
+void NodeWeights::takeTangents(Index node)
+{
+  const Points& points = this->mesh_->points;
+  const Index count = this->mesh_->layer.nodes, front = this->mesh_->layer.frontOf(node);
+  const Eigen::RowVector3d across = points.row(front + count) - points.row(front);
+  const Eigen::RowVector3d normal = across.stableNormalized();
+  this->offsets_.resize(this->columns_.size());
+  for (std::size_t i = 0; i < this->columns_.size(); ++i)
+  {
+    const Index other = this->numbers_->nodes[this->columns_[i]];
+    const Eigen::RowVector3d arm =
+      points.row(this->mesh_->layer.frontOf(other)) - points.row(front);
+    const double sides = (other >= count) - (node >= count);
+    const Eigen::RowVector3d offset = arm - arm.dot(normal) * normal + sides * across;
+    this->offsets_[i] = { offset[0], offset[1], offset[2] };
   }
 }
 
@@ -129,7 +154,7 @@ bool NodeWeights::stiffness(Index node)
     {
       column[a] = this->numbers_->ofNode[this->mesh_->cell(*cell)[shape.cornerNode[a]]];
     }
-    copyCorners(*this->mesh_, *cell, shape, this->mesh_->points, corners[0]);
+    copyStanding(*this->mesh_, *cell, shape, this->mesh_->points, corners[0]);
     elementStiffness(shape.shape, corners, K);
     for (int a = 0; a < n; ++a)
     {

@@ -53,6 +53,7 @@ private:
   void gather(Index node);
   void widen();
   void takeOffsets(Index node);
+  void takeTangents(Index node);
   bool logBarrier();
   bool leastNormAffine();
   bool stiffness(Index node);

@@ -9,13 +9,17 @@
 
 namespace morph
 {
-/// Of a plane mesh as a solid one layer thick, see thicken(). Node n < `nodes` of the front has its
-/// image n + `nodes` behind it. The faces of front and back are no boundary, and nodes move in the
-/// plane, both images of one alike.
-struct PlaneLayer
+/// Of a mesh of faces as a solid one layer thick, see thicken(). Node n < `nodes` of the front has
+/// its image n + `nodes` behind it. The faces of front and back are no boundary, and both images of
+/// a node move alike: in the plane, or in a curved shell by what the front does.
+struct ShellLayer
 {
-  Index nodes = 0;                                        ///< of the front; 0: no layer
-  Eigen::RowVector3d normal = Eigen::RowVector3d::Zero(); ///< of length 1, from front to back
+  Index nodes = 0;      ///< of the front; 0: no layer
+  double thickness = 1; ///< from front to back
+  /// Of a plane, of length 1, from front to back. Zero: the shell is curved, or there is none.
+  Eigen::RowVector3d normal = Eigen::RowVector3d::Zero();
+
+  bool isCurved() const { return this->nodes > 0 && this->normal.isZero(0); }
 
   /// The node of the front that a node, of front or back, is an image of.
   Index frontOf(Index node) const
@@ -35,7 +39,7 @@ struct Mesh
   std::vector<Index> faceOffsets;
   /// each face of a polyhedron: its number of nodes, then their ids, outward (see Polyhedra.h)
   std::vector<Index> faces;
-  PlaneLayer layer;
+  ShellLayer layer;
 
   Index numberOfNodes() const { return static_cast<Index>(this->points.rows()); }
   Index numberOfCells() const { return static_cast<Index>(this->types.size()); }

@@ -25,7 +25,10 @@ SubMesh::SubMesh(const Mesh& whole, const std::vector<Index>& cells)
     }
   }
   this->mesh.points = whole.points(this->nodes, allColumns);
-  this->mesh.layer.normal = whole.layer.normal;
+  this->mesh.layer = whole.layer; // cells have both images of their nodes, and fronts come first
+  this->mesh.layer.nodes =
+    std::lower_bound(this->nodes.begin(), this->nodes.end(), whole.layer.nodes) -
+    this->nodes.begin();
   for (const Index c : cells)
   {
     this->mesh.types.push_back(whole.types[c]);

@@ -2,7 +2,7 @@
 #include "Morpher/Morpher.h"
 
 #include "Mesh/IndexLimits.h"
-#include "Mesh/PlaneLayer.h"
+#include "Mesh/ShellLayer.h"
 #include "Support/Error.h"
 #include "Support/Parallel.h"
 #include "Support/ProgressRange.h"
@@ -150,6 +150,9 @@ void Morpher::prepareFor(const Mesh& rest, std::shared_ptr<const Points> points,
   this->higherOrderNodes_.prepare(rest, this->partition());
   this->normal_ = rest.layer.normal;
   this->images_ = imagesAmong(rest.layer, this->partition().free);
+  this->shell_ = rest.layer.isCurved() ? std::make_shared<Mesh>(rest) : nullptr;
+  this->prescribedImages_ = curvedImages(rest.layer, this->partition().prescribed);
+  this->fits_ = ShellFits(rest, this->partition());
   monitor.check();
   this->isComplete_ =
     processes.all(this->higherOrderNodes_.empty() && this->copies_->countedElsewhere().empty());
@@ -210,7 +213,24 @@ Points Morpher::displacementOf(const ConstPoints& prescribed, Monitor& monitor) 
     throw Error("Prescribed positions that are not finite (NaN or infinite) at node ids " +
                 listIds(this->processes().idsOf(notFinite(displacement, ids))) + ".");
   }
+  for (const auto& [front, back] : this->prescribedImages_)
+  {
+    displacement.row(back) = displacement.row(front);
+  }
   return displacement;
+}
+
+EvaluateReport Morpher::displaceRest(const Points& prescribed, Points& free, Monitor& monitor) const
+{
+  if (this->fits_.empty() || !dynamic_cast<const LinearMorpher*>(this))
+  {
+    return this->displace(prescribed, free, monitor);
+  }
+  Points rest = prescribed;
+  const std::vector<AffineFit> fits = this->fits_.takeOff(rest);
+  EvaluateReport report = this->displace(rest, free, monitor);
+  this->fits_.addTo(fits, free);
+  return report;
 }
 
 void Morpher::keepInPlane(Points& free) const
@@ -270,7 +290,7 @@ EvaluateReport Morpher::evaluateHere(
   if (this->hasFree_)
   {
     this->warnOf(displacement, monitor);
-    report = this->displace(displacement, freeDisplacement, whole);
+    report = this->displaceRest(displacement, freeDisplacement, whole);
     this->keepInPlane(freeDisplacement);
   }
   if (reproducibleSum(freeDisplacement.rows(), monitor, Index(0),
@@ -312,6 +332,10 @@ EvaluateReport Morpher::evaluateHere(
   // The undeformed position plus the displacement may differ from the given position in the last
   // bit.
   result(ids, allColumns) = prescribed;
+  if (this->shell_)
+  {
+    placeImages(*this->shell_, result);
+  }
   if (&result == &fresh)
   {
     moved.swap(fresh);
@@ -352,7 +376,17 @@ EvaluateReport LinearMorpher::transposeHere(
     ProgressRange whole(monitor, 0, 1);
     Points free = all(this->partition().free, allColumns);
     this->keepInPlane(free);
-    report = this->displaceTranspose(free, result, whole);
+    if (this->fits_.empty())
+    {
+      report = this->displaceTranspose(free, result, whole);
+    }
+    else
+    {
+      Points ofRest = Points::Zero(result.rows(), 3);
+      report = this->displaceTranspose(free, ofRest, whole);
+      this->fits_.transpose(free, ofRest);
+      result += ofRest;
+    }
   }
   monitor.check(); // a method whose product takes milliseconds need not ask
   if (!this->isComplete_)
@@ -376,7 +410,7 @@ Points LinearMorpher::mode(
   Points free(static_cast<Index>(partition.free.size()), 3);
   if (this->hasFree_)
   {
-    report = this->displace(displacement, free, monitor);
+    report = this->displaceRest(displacement, free, monitor);
     this->keepInPlane(free);
   }
   requireFound(free, partition, this->processes());
@@ -395,12 +429,12 @@ EvaluateReport LinearMorpher::displaceFields(
   EvaluateReport report;
   {
     ProgressRange part(monitor, 0, 0.5);
-    report = this->displace(given, three, part);
+    report = this->displaceRest(given, three, part);
   }
   given.setZero();
   given.col(0) = prescribed.col(3);
   ProgressRange part(monitor, 0.5, 1);
-  const EvaluateReport other = this->displace(given, fourth, part);
+  const EvaluateReport other = this->displaceRest(given, fourth, part);
   free << three, fourth.col(0);
   report.iterations = std::max(report.iterations, other.iterations);
   report.relativeResidual = std::max(report.relativeResidual, other.relativeResidual);
@@ -418,7 +452,8 @@ FourFields LinearMorpher::fields(
   if (this->hasFree_)
   {
     ProgressRange whole(monitor, 0, 1);
-    found = this->displaceFields(prescribed, free, whole);
+    found = this->fits_.empty() ? this->displaceFields(prescribed, free, whole)
+                                : this->LinearMorpher::displaceFields(prescribed, free, whole);
     for (const auto& [front, back] : this->images_)
     {
       free.row(front) = free.row(back) = ((free.row(front) + free.row(back)) / 2).eval();

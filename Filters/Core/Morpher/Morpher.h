@@ -4,6 +4,7 @@
 #include "Mesh/HigherOrderNodes.h"
 #include "Mesh/Mesh.h"
 #include "Mesh/NodePartition.h"
+#include "Morpher/ShellFits.h"
 #include "Support/Communicator.h"
 #include "Support/Monitor.h"
 
@@ -65,7 +66,7 @@ public:
 
   /// Moves the mesh. `prescribed`: #prescribed x 3 new positions, in the order of
   /// NodePartition::prescribed. `moved`: becomes #nodes x 3. Prescribed nodes are exactly as given;
-  /// nodes outside the partition stay. Without motion the undeformed positions are returned bit for
+  /// nodes outside the partition stay. Images of a curved layer are placed behind the front. Without motion the undeformed positions are returned bit for
   /// bit, except by smoothing towards ideal shapes. Throws Error, leaving `moved` untouched, for a
   /// wrong number of rows, for positions, given or computed, that are not finite, or unless the
   /// last prepare() succeeded.
@@ -146,6 +147,9 @@ private:
   template <typename Displacement>
   void place(Index node, const Displacement& displacement, Points& result) const;
 
+  /// displace() for the rest that the affine fits of a curved layer leave, and the fits.
+  EvaluateReport displaceRest(const Points& prescribed, Points& free, Monitor& monitor) const;
+
   bool prepared_ = false;
   std::shared_ptr<const Communicator> processes_; ///< null for one
   std::shared_ptr<const CopiedRows> copies_;      ///< of all nodes
@@ -156,6 +160,9 @@ private:
   std::vector<Index> outside_;
   Eigen::RowVector3d normal_;                   ///< of a layer, or zero
   std::vector<std::pair<Index, Index>> images_; ///< of a layer, among the free nodes
+  std::shared_ptr<const Mesh> shell_;           ///< null unless the mesh is a curved layer
+  std::vector<std::pair<Index, Index>> prescribedImages_; ///< of that, among the prescribed nodes
+  ShellFits fits_;
 };
 
 /// A method with a fixed matrix from prescribed to free displacements: u_free = M u_prescribed.

@@ -59,6 +59,11 @@ public:
   bool isOpenFor(const PatternId& id) const { return this->id_ == id.number(); }
 
   Index rows() const { return static_cast<Index>(this->pattern_.offsets.size()) - 1; }
+  /// The column of a row's block, counted from the diagonal.
+  Index column(Index row, Index block) const
+  {
+    return this->pattern_.columns[this->pattern_.offsets[row] + block];
+  }
   Index numberOfBlocks(Index row) const
   {
     return this->pattern_.offsets[row + 1] - this->pattern_.offsets[row];

@@ -362,7 +362,7 @@ Objective::Value limitedMemoryBfgs(const Objective& objective, Points& points,
   InverseHessian inverse(objective, FirstStep * diagonal(points, objective.communicator()));
   Points gradient, old, direction;
   Objective::Value value = objective.valueAndGradient(points, gradient, monitor);
-  objective.keepInPlane(gradient);
+  objective.keepTangent(points, gradient);
   inverse.begin(gradient, monitor);
   int settled = 0; // steps in a row
   for (int step = 0; step < limits.steps; ++step)
@@ -395,7 +395,7 @@ Objective::Value limitedMemoryBfgs(const Objective& objective, Points& points,
     }
     old.swap(gradient);
     search.gradient(points, gradient, monitor);
-    objective.keepInPlane(gradient);
+    objective.keepTangent(points, gradient);
     inverse.remember(gradient, old, direction, search.length(), monitor);
     // The length of a step along the gradient is arbitrary, so it proves nothing.
     settled = progress.settled(before, value.energy, norm) && isScaled ? settled + 1 : 0;

@@ -38,32 +38,60 @@ private:
 
 Objective::~Objective() = default;
 
-void Objective::keepInPlane(Points& gradient) const
+void Objective::moveAlike(Points& direction) const
 {
-  if (!this->normal_.isZero(0))
+  for (const auto& [front, back] : this->images_)
   {
-    gradient -= (gradient * this->normal_.transpose()).eval() * this->normal_;
+    direction.row(front) = direction.row(back) =
+      ((direction.row(front) + direction.row(back)) / 2).eval();
   }
 }
 
-void Objective::keepInPlane(BlockCsr3f& hessian) const
+template <typename Act>
+void Objective::forEachNormal(const Points& points, const Act& act) const
 {
-  if (this->normal_.isZero(0))
+  const std::vector<Index>& free = this->free();
+  for (const auto& [front, back] : this->images_)
+  {
+    const Eigen::RowVector3d across = points.row(free[back]) - points.row(free[front]);
+    act(front, across.stableNormalized());
+    act(back, across.stableNormalized());
+  }
+  for (std::size_t row = 0; !this->normal_.isZero(0) && row < free.size(); ++row)
+  {
+    act(static_cast<Index>(row), this->normal_);
+  }
+}
+
+void Objective::keepTangent(const Points& points, Points& gradient) const
+{
+  this->moveAlike(gradient);
+  this->forEachNormal(points, [&](Index row, const Eigen::RowVector3d& normal)
+    { gradient.row(row) -= gradient.row(row).dot(normal) * normal; });
+}
+
+void Objective::keepTangent(const Points& points, BlockCsr3f& hessian) const
+{
+  if (this->images_.empty() && this->normal_.isZero(0))
   {
     return;
   }
-  const Eigen::Matrix3f normal = (this->normal_.transpose() * this->normal_).cast<float>();
-  const Eigen::Matrix3f inPlane = Eigen::Matrix3f::Identity() - normal;
+  using Matrix = Eigen::Matrix3f;
+  std::vector<Matrix, Eigen::aligned_allocator<Matrix>> across(hessian.rows(), Matrix::Zero());
+  this->forEachNormal(points, [&](Index row, const Eigen::RowVector3d& normal)
+    { across[row] = (normal.transpose() * normal).cast<float>(); });
   for (Index row = 0; row < hessian.rows(); ++row)
   {
     for (Index k = 0; k < hessian.numberOfBlocks(row); ++k)
     {
-      Eigen::Map<Eigen::Matrix3f> block(hessian.blocks(row) + 9 * k);
+      Eigen::Map<Matrix> block(hessian.blocks(row) + 9 * k);
       const float mean = block.trace() / 3;
-      block = (inPlane * block * inPlane).eval();
+      const Index column = hessian.column(row, k);
+      block =
+        ((Matrix::Identity() - across[row]) * block * (Matrix::Identity() - across[column])).eval();
       if (k == 0) // of the diagonal
       {
-        block += mean * normal;
+        block += mean * across[row];
       }
     }
   }
@@ -93,18 +121,19 @@ Objective::Value newton(const SecondOrderObjective& objective, Points& points,
   {
     monitor.check();
     objective.gradient(points, gradient, monitor);
-    objective.keepInPlane(gradient);
+    objective.keepTangent(points, gradient);
     const double norm = std::sqrt(objective.rows().dot(gradient, gradient, monitor));
     if (!(norm > 0 && std::isfinite(norm)))
     {
       break;
     }
     objective.hessian(points, matrix, monitor);
-    objective.keepInPlane(matrix);
+    objective.keepTangent(points, matrix);
     // The diagonal blocks alone need the tolerance: looser steps miss what is smooth.
     effort.linearIterations += matrix.solve(gradient, direction, LinearTolerance,
       MostLinearIterations, monitor, objective.rows(), limits.preconditioner, forcing.next(norm));
     direction *= -1;
+    objective.moveAlike(direction); // the gradient's images are alike, so the slope is the same
     const double slope = objective.rows().dot(gradient, direction, monitor);
     const double before = value.energy;
     if (!search.run(direction, slope, points, value, effort, monitor))

@@ -7,6 +7,7 @@
 #include "Support/Types.h"
 
 #include <memory>
+#include <utility>
 #include <vector>
 
 namespace morph
@@ -35,31 +36,41 @@ public:
   /// the value is not finite.
   virtual Value valueAndGradient(const Points& points, Points& result, Monitor& monitor) const;
 
-  /// Lets the free nodes of a plane mesh move in their plane alone: takes the normal part from a
-  /// gradient, and from second derivatives, whose diagonal gets another one.
+  /// Lets the free nodes of a mesh that is a surface move in its plane, or in its tangent planes at
+  /// `points` (#nodes x 3), alone: takes the normal part from a gradient, and from second
+  /// derivatives, whose diagonal gets another one.
   ///@{
-  void keepInPlane(Points& gradient) const;
-  void keepInPlane(BlockCsr3f& hessian) const;
+  void keepTangent(const Points& points, Points& gradient) const;
+  void keepTangent(const Points& points, BlockCsr3f& hessian) const;
   ///@}
+  /// Gives both images of the nodes of a curved layer, in a direction or a gradient, their mean.
+  void moveAlike(Points& direction) const;
 
   /// The processes that have parts of the mesh, and the copies of the gradient's rows.
   const Communicator& communicator() const { return *this->communicator_; }
   const CopiedRows& rows() const { return *this->rows_; }
 
 protected:
-  /// Call it once free() is known. `communicator` has to outlive this object. `normal`: that of the
-  /// mesh's layer.
+  /// Call it once free() is known. `communicator` has to outlive this object. `normal`: that of a
+  /// plane mesh, or zero; `images`: rows of the gradient whose nodes are images of each other across
+  /// a curved one, front first.
   void share(const Communicator& communicator, const std::vector<Index>& free,
-    const Eigen::RowVector3d& normal)
+    const Eigen::RowVector3d& normal, std::vector<std::pair<Index, Index>> images)
   {
     this->normal_ = normal;
+    this->images_ = std::move(images);
     this->communicator_ = &communicator;
     this->rows_ = communicator.rows(free);
   }
 
 private:
   const Communicator* communicator_ = &Communicator::alone();
+  /// Calls act(row, normal of length 1) for rows that have one.
+  template <typename Act>
+  void forEachNormal(const Points& points, const Act& act) const;
+
   Eigen::RowVector3d normal_ = Eigen::RowVector3d::Zero();
+  std::vector<std::pair<Index, Index>> images_;
   std::shared_ptr<const CopiedRows> rows_ = std::make_shared<CopiedRows>();
 };
 

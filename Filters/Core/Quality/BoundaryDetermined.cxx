@@ -95,6 +95,10 @@ bool leavesNoPlace(const Mesh& mesh, const std::vector<std::int8_t>& orientation
 std::vector<Index> boundaryDeterminedInversions(const Mesh& mesh, const NodePartition& partition,
   const std::vector<std::int8_t>& orientation, const Points& points)
 {
+  if (mesh.layer.isCurved())
+  {
+    return {};
+  }
   const std::vector<char> prescribed = isPrescribed(mesh, partition);
   std::vector<Index> result;
   for (Index c = 0; c < mesh.numberOfCells(); ++c)
@@ -144,6 +148,10 @@ std::vector<Index> inversionsByBoundaryMotion(const Mesh& mesh, const NodePartit
 std::vector<NodeWithoutPlace> nodesWithoutPlace(const Mesh& mesh, const NodePartition& partition,
   const std::vector<std::int8_t>& orientation, const Points& points, Monitor& monitor)
 {
+  if (mesh.layer.isCurved())
+  {
+    return {};
+  }
   const std::vector<char> prescribed = isPrescribed(mesh, partition);
   const Adjacency around = nodeToCells(mesh);
   std::vector<NodeWithoutPlace> result;

@@ -3,6 +3,7 @@
 
 #include "Geometry/OrientationPredicate.h"
 #include "Mesh/CellShape.h"
+#include "Mesh/ShellLayer.h"
 #include "Mesh/SimplicialDecomposition.h"
 #include "Quality/CellMap.h"
 #include "Quality/PolyhedronQuality.h"
@@ -403,6 +404,11 @@ CertificateReport certify(const Mesh& mesh, const ConstPoints& points,
   const std::vector<std::int8_t>& orientation, const std::vector<std::uint8_t>& skip,
   Monitor& monitor)
 {
+  if (mesh.layer.nodes > 0)
+  {
+    const Mesh cells = standing(mesh, points);
+    return certify(cells, cells.points, orientation, skip, monitor);
+  }
   monitor.check();
   const Index cells = mesh.numberOfCells();
   CertificateReport report;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Quality/InvertedBefore.h"
 
+#include "Mesh/ShellLayer.h"
 #include "Quality/MeasuredPlaces.h"
 #include "Quality/PolyhedronQuality.h"
 
@@ -56,10 +57,7 @@ std::vector<bool> InvertedBefore::placesOf(
     return positive;
   }
   Vector x[8];
-  for (int k = 0; k < shape.numberOfCorners; ++k)
-  {
-    x[k] = points.row(nodes[shape.cornerNode[k]]).transpose();
-  }
+  copyStanding(*this->mesh_, cell, shape, points, x[0].data());
   forEachMeasuredPlace(shape.shape, x, add);
   return positive;
 }

@@ -2,6 +2,7 @@
 #include "Quality/MovableQuality.h"
 
 #include "Mesh/CellShape.h"
+#include "Mesh/ShellLayer.h"
 
 #include <algorithm>
 #include <bitset>
@@ -62,7 +63,7 @@ MovableQuality::MovableQuality(const Mesh& mesh, const std::vector<std::int8_t>&
 void MovableQuality::cornersOf(Index cell, const Points& points, double (*x)[3]) const
 {
   const CellShape& shape = *cellShape(this->mesh_, cell);
-  copyCorners(this->mesh_, cell, shape, points, x[0]);
+  copyStanding(this->mesh_, cell, shape, points, x[0]);
   for (int k = 0; k < shape.numberOfCorners; ++k)
   {
     x[k][2] *= this->orientation_[cell]; // a mirrored cell as its mirror image

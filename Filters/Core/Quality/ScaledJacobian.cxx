@@ -2,6 +2,7 @@
 #include "Quality/ScaledJacobian.h"
 
 #include "Mesh/CellShape.h"
+#include "Mesh/ShellLayer.h"
 #include "Quality/Certificate.h"
 #include "Quality/MeasuredPlaces.h"
 #include "Quality/PolyhedronQuality.h"
@@ -383,6 +384,11 @@ Quality measureCells(const Mesh& mesh, const ConstPoints& points,
   const std::vector<std::int8_t>& orientation, const std::vector<std::uint8_t>& skip,
   bool cornersOnly, Monitor& monitor)
 {
+  if (mesh.layer.nodes > 0)
+  {
+    const Mesh cells = standing(mesh, points);
+    return measureCells(cells, cells.points, orientation, skip, cornersOnly, monitor);
+  }
   monitor.check();
   const Index cells = mesh.numberOfCells();
   const int dimension = dimensionOf(mesh);

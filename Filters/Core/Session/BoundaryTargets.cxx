@@ -52,7 +52,7 @@ void verifyRestPositions(const NamedPoints& named, const Mesh& rest, double tole
 
 /// Makes a boundary of a layer that of the plane mesh: points stand for nodes of the front, and for
 /// their images. Nodes between them are in the middle of edges, and follow these.
-void nameImages(const PlaneLayer& layer, NamedPoints& named)
+void nameImages(const ShellLayer& layer, NamedPoints& named)
 {
   auto& pairs = named.pairs;
   pairs.erase(std::remove_if(pairs.begin(), pairs.end(),
@@ -65,37 +65,45 @@ void nameImages(const PlaneLayer& layer, NamedPoints& named)
   }
 }
 
-/// Keeps the targets of a layer's nodes in their plane. `targets`: of named.pairs, those of images
-/// being the front's.
-void keepInPlane(const NamedPoints& named, const Mesh& rest, double size,
-  const std::vector<std::int64_t>* globalIds, Points& targets)
+/// Keeps the targets of a plane layer's nodes in their plane, unless the boundary leaves it by more
+/// than 1e-6 of the size. Returns the nodes that do. `targets`: of named.pairs, those of images being
+/// the front's, which they follow.
+std::vector<Index> keepInPlane(
+  const NamedPoints& named, const Mesh& rest, double size, Points& targets)
 {
-  const Eigen::RowVector3d& normal = rest.layer.normal;
-  std::vector<Index> leaving;
-  for (std::size_t k = 0; k < named.pairs.size(); ++k)
+  const auto ofPair = [&](std::size_t k)
   {
     const Index node = named.pairs[k].second;
-    const Index front = rest.layer.frontOf(node);
-    auto to = targets.row(static_cast<Index>(k));
-    const double height = (to - rest.points.row(front)).dot(normal);
+    return std::make_pair(node, rest.layer.frontOf(node));
+  };
+  const Eigen::RowVector3d& normal = rest.layer.normal;
+  std::vector<Index> leaving;
+  Points inPlane = targets;
+  for (std::size_t k = 0; k < named.pairs.size(); ++k)
+  {
+    auto to = inPlane.row(static_cast<Index>(k));
+    const double height = (to - rest.points.row(ofPair(k).second)).dot(normal);
     if (std::abs(height) > 1e-6 * size)
     {
-      leaving.push_back(front);
+      leaving.push_back(ofPair(k).second);
     }
     to -= height * normal;
-    if (node != front)
+  }
+  if (leaving.empty())
+  {
+    targets.swap(inPlane);
+  }
+  for (std::size_t k = 0; k < named.pairs.size(); ++k)
+  {
+    if (const auto [node, front] = ofPair(k); node != front)
     {
+      auto to = targets.row(static_cast<Index>(k));
       to = rest.points.row(node) + (to - rest.points.row(front));
     }
   }
-  if (!leaving.empty())
-  {
-    std::sort(leaving.begin(), leaving.end());
-    leaving.erase(std::unique(leaving.begin(), leaving.end()), leaving.end());
-    throw Error("The boundary of a plane mesh leaves its plane, at node ids " +
-                listNodes(leaving, globalIds) +
-                ". Move it in the plane; surfaces in space are not morphed.");
-  }
+  std::sort(leaving.begin(), leaving.end());
+  leaving.erase(std::unique(leaving.begin(), leaving.end()), leaving.end());
+  return leaving;
 }
 
 /// The positions asked for, the scale factor not yet applied.
@@ -209,7 +217,7 @@ BoundaryTargets findTargets(NamedPoints named, const Mesh& rest, const BoundaryF
   Points targets = targetPositions(named, rest, globalIds);
   if (isLayer)
   {
-    keepInPlane(named, rest, size, globalIds, targets);
+    result.leaving = keepInPlane(named, rest, size, targets);
   }
   const auto& pairs = named.pairs;
 
@@ -332,6 +340,17 @@ void conclude(const TargetOptions& options, BoundaryTargets& result)
     result.warnings.push_back(
       ofPoints(result.unmatched) +
       " are not within `MatchTolerance` of a node of the grid and were left out.");
+  }
+}
+
+void requirePlane(const BoundaryTargets& result)
+{
+  if (!result.leaving.empty())
+  {
+    throw Error("The boundary of a plane mesh leaves its plane, at node ids " +
+                listIds(result.leaving) +
+                ". Shapes and derivatives of a plane mesh are those in the plane: morph it out of "
+                "the plane first, and give them the curved shell.");
   }
 }
 

@@ -20,6 +20,8 @@ struct BoundaryTargets
   std::vector<Index> ids = {};     ///< sorted, unique
   Points targets = {};             ///< #ids x 3, finite
   std::vector<Index> sources = {}; ///< #ids, the boundary point that a node follows, -1: held
+  /// Nodes of a plane layer that leave the plane, ascending. It is morphed as a curved one then.
+  std::vector<Index> leaving = {};
   std::vector<std::string> warnings = {};
 
   // Numbers that conclude() judges. On several processes they are summed first.
@@ -69,6 +71,9 @@ void countStaying(const Mesh& rest, const BoundaryFaces& outer,
   const std::function<bool(Index node)>& owns, BoundaryTargets& result);
 /// Adds warnings of the numbers in `result`. Throws Error where all points are free.
 void conclude(const TargetOptions& options, BoundaryTargets& result);
+/// Throws Error, naming the nodes, where a plane mesh's boundary leaves the plane. For what is
+/// linear in the motion: the methods for a surface in space are others than those in a plane.
+void requirePlane(const BoundaryTargets& result);
 /// Passes its warnings on, and warns where all prescribed nodes move, and others of the boundary
 /// are open: nothing holds the mesh then.
 void warnOf(const BoundaryTargets& result, Monitor& monitor);

@@ -2,7 +2,7 @@
 #include "Session/Session.h"
 
 #include "Mesh/Extent.h"
-#include "Mesh/PlaneLayer.h"
+#include "Mesh/ShellLayer.h"
 #include "Morpher/PolyhedralMorpher.h"
 #include "Quality/BoundaryDetermined.h"
 #include "Quality/ScaledJacobian.h"
@@ -184,7 +184,13 @@ std::shared_ptr<const StepResult> Session::morphSeries(int step,
 StepResult Session::morphStep(const Mesh& from, const BoundaryTargets& boundary,
   const AffineHandle* handle, const Options& options, Monitor& monitor)
 {
-  const Mesh& rest = this->mesh_->mesh();
+  if (!from.layer.isCurved() && (!boundary.leaving.empty() || leavesPlane(from)))
+  {
+    return this->morphStep(bent(from), boundary, handle, options, monitor);
+  }
+  const bool isBent = from.layer.isCurved() && !this->mesh_->mesh().layer.isCurved();
+  const Mesh ofBent = isBent ? bent(this->mesh_->mesh()) : Mesh();
+  const Mesh& rest = isBent ? ofBent : this->mesh_->mesh();
   const HangingNodes& hanging = this->mesh_->hanging();
   requireTargets(boundary);
   if (std::vector<Index> ids = this->mesh_->prescribedFor(boundary.ids); ids != boundary.ids)
@@ -218,6 +224,7 @@ StepResult Session::morphStep(const Mesh& from, const BoundaryTargets& boundary,
   const Stopwatch watch;
   StepResult result;
   const EvaluateReport report = this->evaluate(boundary.targets, handle, result.moved, evaluating);
+  placeImages(from, result.moved); // of a sum of modes
   if (validity.isInversionFree && needsPieces(from, hanging))
   {
     auto repairing = part(0.7, 0.75);
@@ -251,11 +258,13 @@ StepResult Session::morphStep(const Mesh& from, const BoundaryTargets& boundary,
   if (options.measureAll)
   {
     result.valid = validity.ensure(result.moved, checking);
-    if (!this->samples_)
+    if (!this->samples_ && !isBent)
     {
       this->samples_ = std::make_unique<MovableQuality>(rest, orientation, partition.free);
     }
-    const double minimum = this->samples_->fixedMinimum(result.moved);
+    const double minimum =
+      isBent ? MovableQuality(rest, orientation, partition.free).fixedMinimum(result.moved)
+             : this->samples_->fixedMinimum(result.moved);
     result.boundaryMinimum =
       std::isfinite(minimum) ? minimum : std::numeric_limits<double>::quiet_NaN();
   }
@@ -329,6 +338,7 @@ void Session::prepareFor(const Mesh& from, const Options& options, Monitor& moni
   const bool isOfMesh = &from == &rest;
   std::unique_ptr<Morpher> settings = options.settings(needsPieces(rest, this->mesh_->hanging()));
   if (this->method_ && this->settings_->preparesLike(*settings) &&
+      this->methodIsCurved_ == from.layer.isCurved() &&
       this->method_->partition().prescribed == this->partition_->prescribed &&
       ((isOfMesh && this->methodIsOfMesh_) || this->method_->restPoints() == from.points))
   {
@@ -353,6 +363,7 @@ void Session::prepareFor(const Mesh& from, const Options& options, Monitor& moni
   }
   this->method_ = std::move(morpher);
   this->methodIsOfMesh_ = isOfMesh;
+  this->methodIsCurved_ = from.layer.isCurved();
   this->settings_ = std::move(settings);
   ++this->effort.preparations;
   this->effort.prepareSeconds = watch.seconds();

@@ -136,6 +136,7 @@ private:
   std::unique_ptr<MovableQuality> samples_; ///< of the same, or null
   std::unique_ptr<Morpher> method_;         ///< prepared for mesh_ under settings_, or null
   bool methodIsOfMesh_ = false;             ///< not of a step's points
+  bool methodIsCurved_ = false; ///< of a curved layer, or a plane one that leaves its plane
   std::unique_ptr<const Morpher> settings_;
   AffineModes modes_; ///< of method_
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Session/Validity.h"
 
-#include "Mesh/PlaneLayer.h"
 #include "Mesh/Polyhedra.h"
+#include "Mesh/ShellLayer.h"
 #include "Morpher/IncrementalMorph.h"
 #include "Morpher/PolyhedralMorpher.h"
 #include "Quality/BoundaryDetermined.h"
@@ -27,6 +27,7 @@ Mesh withoutCells(const Mesh& mesh, const InvertedBefore& left)
 {
   Mesh rest;
   rest.points = mesh.points;
+  rest.layer = mesh.layer;
   rest.offsets = { 0 };
   for (Index c = 0; c < mesh.numberOfCells(); ++c)
   {
@@ -103,9 +104,10 @@ std::vector<Validity::BadCell> Validity::worst(const Mesh& mesh, const std::vect
   std::vector<BadCell> result;
   for (const Index cell : cells)
   {
-    // Of a plane mesh's cell: that of its front.
-    Eigen::RowVector3d center = -thickness(mesh) / 2 * mesh.layer.normal;
-    const Index corners = cornerCount(mesh, cell, *cellShape(mesh.types[cell]));
+    Eigen::RowVector3d center = Eigen::RowVector3d::Zero();
+    const bool isPrism = mesh.layer.nodes > 0; // of whose front it is
+    const Index corners =
+      cornerCount(mesh, cell, *cellShape(mesh.types[cell])) / (isPrism ? 2 : 1);
     for (Index k = 0; k < corners; ++k)
     {
       center += points.row(mesh.cell(cell)[k]) / static_cast<double>(corners);
@@ -206,6 +208,7 @@ bool Validity::repair(Points& moved, Monitor& monitor) const
       seesOthers ? others : this->mesh, seesOthers ? ofOthers : this->partition, first);
     Points repaired = moved;
     repair.repair(repaired, second);
+    placeImages(this->mesh, repaired);
     const std::size_t left = bad(repaired).size();
     if (left < least)
     {

@@ -38,6 +38,10 @@ std::vector<Index> crossingCells(const Mesh& mesh, const NodePartition& partitio
   const std::vector<std::int8_t>& orientation, const BoundaryFaces& faces, const Points& points,
   Monitor& monitor)
 {
+  if (mesh.layer.isCurved())
+  {
+    return {}; // edges cross no edges in space
+  }
   const auto isPrescribed = [&](Index node)
   { return std::binary_search(partition.prescribed.begin(), partition.prescribed.end(), node); };
   std::vector<std::pair<Index, int>> places;
@@ -79,6 +83,10 @@ BoundaryCheck::BoundaryCheck(const Mesh& mesh, const NodePartition& partition,
 ForbiddenCells BoundaryCheck::at(const Points& boundary) const
 {
   this->monitor_.check();
+  if (this->mesh_.layer.isCurved())
+  {
+    return {}; // which way a cell faces is told by its neighbors, not by prescribed nodes alone
+  }
   Points points = this->mesh_.points;
   for (Index i = 0; i < boundary.rows(); ++i)
   {

@@ -2,6 +2,7 @@
 #include "Untangling/InversionFree.h"
 
 #include "LinearMethods/GraphLaplace.h"
+#include "Mesh/ShellLayer.h"
 #include "Mesh/UnknownOrdering.h"
 #include "Quality/BoundaryDetermined.h"
 #include "Quality/ScaledJacobian.h"
@@ -12,6 +13,11 @@
 
 namespace morph
 {
+namespace
+{
+constexpr int Turns = 4; // of a curved shell's tangent planes
+}
+
 void InversionFree::takeEvaluateOptions(const Morpher& other)
 {
   const auto& settings = static_cast<const InversionFree&>(other);
@@ -31,6 +37,7 @@ void InversionFree::doPrepare(const Mesh& rest, Monitor& monitor)
   this->orientation_ = cellSigns(this->referenceMesh_, connectedComponents(rest, monitor), monitor);
   this->scale_ = unitEdgeScale(this->referenceMesh_);
   this->referenceMesh_.points *= this->scale_;
+  this->referenceMesh_.layer.thickness *= this->scale_;
   const Points atRest = rest.points * this->scale_;
   this->minimumAtRest_ =
     measureCorners(this->referenceMesh_, atRest, this->orientation_, {}, monitor).minimum;
@@ -109,6 +116,23 @@ MeshImprovement InversionFree::improvement(const std::vector<Index>& hopeless) c
     this->geometry_, hopeless, options };
 }
 
+MeshImprovement::Outcome InversionFree::run(const MeshImprovement& improvement, const Points& guide,
+  TargetConstruction target, bool isRepair, Points& points, Monitor& monitor) const
+{
+  MeshImprovement::Outcome outcome = improvement.run(guide, target, isRepair, points, monitor);
+  // A curved shell's tangent planes are those of the start. The result has others.
+  for (int turn = 0; turn < Turns && this->referenceMesh_.layer.isCurved(); ++turn)
+  {
+    placeImages(this->referenceMesh_, points);
+    if (improvement.quality().measure(points, monitor).inverted == 0)
+    {
+      break;
+    }
+    outcome = improvement.run(guide, target, isRepair, points, monitor);
+  }
+  return outcome;
+}
+
 TargetConstruction InversionFree::findStart(const Points& boundary, const MovableQuality& quality,
   Points& points, EvaluateReport& report, Monitor& monitor) const
 {
@@ -173,7 +197,8 @@ EvaluateReport InversionFree::displace(
   const TargetConstruction target =
     this->findStart(boundary, improvement.quality(), points, guesses, monitor);
   const Points guide = points;
-  const MeshImprovement::Outcome outcome = improvement.run(guide, target, false, points, monitor);
+  const MeshImprovement::Outcome outcome =
+    this->run(improvement, guide, target, false, points, monitor);
   if (!outcome.untangled && improvement.quality().measure(points, monitor) <
                               improvement.quality().measure(atRest, monitor))
   {
@@ -211,8 +236,8 @@ EvaluateReport InversionFree::repair(Points& moved, Monitor& whole) const
   const Points guide =
     this->hasFemWarp_ ? this->moved(this->femWarp_, boundary, guesses, first) : points;
   // A mesh that is valid again is enough: the rest of it stays as its method made it.
-  const MeshImprovement::Outcome outcome =
-    this->improvement(hopeless).run(guide, TargetConstruction::Stretched, true, points, monitor);
+  const MeshImprovement::Outcome outcome = this->run(
+    this->improvement(hopeless), guide, TargetConstruction::Stretched, true, points, monitor);
   if (this->nearOnly_ && !outcome.untangled)
   {
     MeshImprovement::Outcome failed;

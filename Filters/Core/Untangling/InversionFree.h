@@ -84,6 +84,10 @@ private:
     Points& points, EvaluateReport& report, Monitor& monitor) const;
   /// Of coordinates times scale_.
   MeshImprovement improvement(const std::vector<Index>& hopeless) const;
+  /// MeshImprovement::run(), again with the tangent planes of its result while a curved shell has
+  /// inverted cells.
+  MeshImprovement::Outcome run(const MeshImprovement& improvement, const Points& guide,
+    TargetConstruction target, bool isRepair, Points& points, Monitor& monitor) const;
   /// Returns the method's mesh in coordinates times scale_.
   Points moved(
     const Morpher& method, const Points& boundary, EvaluateReport& report, Monitor& monitor) const;

@@ -4,6 +4,8 @@
 #include "Energies/MeshEnergy.h"
 #include "Energies/SmoothingTargets.h"
 #include "LinearMethods/BodyMotion.h"
+#include "LinearMethods/FemWarp.h"
+#include "Morpher/ShellFits.h"
 #include "Quality/BoundaryDetermined.h"
 #include "Support/Error.h"
 #include "Untangling/KeepMinimum.h"
@@ -12,6 +14,11 @@
 
 namespace morph
 {
+namespace
+{
+constexpr double Affine = 1e-9; // of the motion
+}
+
 MotionSmoothing::MotionSmoothing(const Mesh& rest, const ConnectedComponents& bodies,
   const std::vector<std::int8_t>& orientation, const NodePartition& partition,
   const SharedHigherOrderNodes& followers, const SmoothingOptions& options,
@@ -60,6 +67,16 @@ Quality MotionSmoothing::measure(Points& points, Monitor& monitor) const
 
 bool MotionSmoothing::start(const Points& prescribed, Points& points, Monitor& monitor) const
 {
+  if (this->rest_.layer.isCurved())
+  {
+    // Nodes then move in tangent planes, so that the surface has to be where it belongs.
+    FemWarp membrane;
+    membrane.prepare(this->rest_, this->partition_, monitor);
+    membrane.evaluate(Points(points(this->partition_.prescribed, allColumns)), points, monitor);
+    Points left = prescribed;
+    ShellFits(this->rest_, this->partition_).takeOff(left);
+    return left.cwiseAbs().maxCoeff() <= Affine * prescribed.cwiseAbs().maxCoeff();
+  }
   Points followed = points;
   const bool isAffine = followAffinely(
     this->rest_, this->bodies_, this->partition_, prescribed, followed, this->communicator_);

@@ -364,6 +364,7 @@ SmoothingReport smoothMesh(const Mesh& rest, const std::vector<std::int8_t>& ori
   const double scale = unitScale(edgeLengths(rest, rest.points, communicator), communicator);
   Mesh mesh = rest;
   mesh.points *= scale;
+  mesh.layer.thickness *= scale;
   Points result = points * scale;
   Smoother smoother(mesh, orientation, partition.free, options, monitor, communicator);
   SmoothingReport report = smoother.run(result);

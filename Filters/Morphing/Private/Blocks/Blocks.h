@@ -2,7 +2,7 @@
 #pragma once
 
 #include "Private/Blocks/MergedBlocks.h"
-#include "Private/Blocks/PlaneGrid.h"
+#include "Private/Blocks/ShellGrid.h"
 #include "Private/Data/GridMesh.h"
 
 #include <vtkSmartPointer.h>
@@ -66,7 +66,7 @@ public:
   /// Warns, and returns the merged blocks.
   vtkDataObject* Tell(morph::Monitor& monitor) const;
   ///@}
-  /// What Gather() has returned or, if it is a plane mesh, the solid to morph; see PlaneGrid.
+  /// What Gather() has returned or, if it is a plane mesh, the solid to morph; see ShellGrid.
   vtkDataObject* Thicken(vtkDataObject* mesh) { return this->Plane.Thicken(mesh); }
 
   /// The blocks of the last input; null where it was not composite.
@@ -88,6 +88,6 @@ private:
   vtkSmartPointer<vtkUnstructuredGrid> Scratch;
   Key MadeFrom, Asked;
   MergedBlocks Kept;
-  PlaneGrid Plane;
+  ShellGrid Plane;
 };
 }

@@ -198,18 +198,18 @@ bool haveReplacedCells(vtkUnstructuredGrid* grid, const morph::Mesh& mesh)
          read.offsets == mesh.offsets && read.connectivity == mesh.connectivity;
 }
 
-constexpr const char* LayerName = "MorphPlaneLayer";
+constexpr const char* LayerName = "MorphShellLayer";
 
-morph::PlaneLayer layerOf(vtkUnstructuredGrid* grid)
+morph::ShellLayer layerOf(vtkUnstructuredGrid* grid)
 {
   vtkDataArray* mark = grid->GetFieldData()->GetArray(LayerName);
-  if (!mark || mark->GetNumberOfValues() != 4)
+  if (!mark || mark->GetNumberOfValues() != 5)
   {
     return {};
   }
   const auto nodes = static_cast<morph::Index>(mark->GetComponent(0, 0));
-  return { 2 * nodes <= grid->GetNumberOfPoints() ? nodes : 0,
-    { mark->GetComponent(1, 0), mark->GetComponent(2, 0), mark->GetComponent(3, 0) } };
+  return { 2 * nodes <= grid->GetNumberOfPoints() ? nodes : 0, mark->GetComponent(1, 0),
+    { mark->GetComponent(2, 0), mark->GetComponent(3, 0), mark->GetComponent(4, 0) } };
 }
 
 /// Unknown cells pass the core's checks as poly-vertices; their node ids are still checked.
@@ -261,7 +261,7 @@ morph::Mesh FromGrid(vtkUnstructuredGrid* grid, UnknownCells unknown, morph::Mon
   return mesh;
 }
 
-void MarkLayer(const morph::PlaneLayer& layer, vtkUnstructuredGrid* grid)
+void MarkLayer(const morph::ShellLayer& layer, vtkUnstructuredGrid* grid)
 {
   grid->GetFieldData()->RemoveArray(LayerName);
   if (layer.nodes > 0)
@@ -269,6 +269,7 @@ void MarkLayer(const morph::PlaneLayer& layer, vtkUnstructuredGrid* grid)
     vtkNew<vtkDoubleArray> mark;
     mark->SetName(LayerName);
     mark->InsertNextValue(static_cast<double>(layer.nodes));
+    mark->InsertNextValue(layer.thickness);
     for (const double component : layer.normal)
     {
       mark->InsertNextValue(component);

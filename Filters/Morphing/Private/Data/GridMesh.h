@@ -30,9 +30,9 @@ morph::Mesh FromGrid(vtkUnstructuredGrid* grid, UnknownCells unknown, morph::Mon
 morph::Mesh FromGrid(vtkUnstructuredGrid* grid, UnknownCells unknown = UnknownCells::Refuse);
 ///@}
 
-/// Marks a grid as that of a plane mesh's layer, in its field data, for FromGrid(). A layer without
+/// Marks a grid as that of a shell's or plane mesh's layer, in its field data, for FromGrid(). A layer without
 /// nodes: removes the mark.
-void MarkLayer(const morph::PlaneLayer& layer, vtkUnstructuredGrid* grid);
+void MarkLayer(const morph::ShellLayer& layer, vtkUnstructuredGrid* grid);
 
 /// Copies `points` as double, #points x 3. A null pointer gives 0 x 3.
 morph::Points FromPoints(vtkPoints* points);

@@ -263,6 +263,7 @@ void GridMorpher::Transpose(vtkUnstructuredGrid* rest, vtkDataObject* boundary, 
   this->Kept.Take(rest, monitor);
   this->Session.setMesh(this->Kept.Rest());
   const morph::BoundaryTargets match = this->Match(displaced, 1, options, monitor);
+  morph::requirePlane(match);
   const morph::Points prescribed =
     this->Session.transpose(match.ids, std::move(nodes), options, monitor);
   this->NoteEffort();

@@ -234,15 +234,16 @@ Mesh TakeMesh(vtkDataObject* input, Blocks& blocks, int coincidentPoints, Use us
       " MPI ranks, and this plugin was built without MPI or hypre: " + filter +
       " needs the mesh on one rank. Build with MESHMORPHING_USE_MPI, or run on one rank.");
   }
-  // Plane cells are measured as they are. A process may have only faces of another one's solid.
-  const bool isPlane = use != Use::ToMeasure && PlaneGrid::IsPlane(mesh.Data);
-  if (Ranks::Count(isPlane) > 0 && Ranks::Count(hasCells && !isPlane) == 0)
+  // Faces are measured as they are. A process may have only faces of another one's solid.
+  const bool isShell = use != Use::ToMeasure && ShellGrid::IsShell(mesh.Data);
+  if (Ranks::Count(isShell) > 0 && Ranks::Count(hasCells && !isShell) == 0)
   {
     if (ranks > 1)
     {
       throw morph::Error(
         "The mesh has triangles and quadrilaterals alone, and is distributed over " +
-        std::to_string(ranks) + " MPI ranks. Plane meshes are morphed on one: bring it there.");
+        std::to_string(ranks) +
+        " MPI ranks. Plane meshes and shells are morphed on one: bring it there.");
     }
     try
     {

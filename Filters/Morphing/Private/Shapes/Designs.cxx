@@ -2,6 +2,7 @@
 #include "Private/Shapes/Designs.h"
 
 #include "Mesh/CellShape.h"
+#include "Mesh/ShellLayer.h"
 #include "Morpher/Blend.h"
 #include "Private/Shapes/ShapeModes.h"
 #include "Quality/ScaledJacobian.h"
@@ -131,6 +132,7 @@ const std::vector<std::size_t>& Designs::Inverted(const ShapeModes& modes, morph
         monitor.check();
         monitor.progress(static_cast<double>(row) / static_cast<double>(bad.size()));
         morph::blend(mesh.points, modes.Weighted(this->Rows[row]), moved, monitor);
+        morph::placeImages(mesh, moved);
         const morph::Quality quality =
           morph::measureQuality(mesh, moved, modes.Orientation(), skip, monitor);
         bad[row] =

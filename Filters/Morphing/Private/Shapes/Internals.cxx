@@ -7,6 +7,7 @@
 #include "LinearMethods/SimplexLinear.h"
 #include "LinearMethods/SimplexNaturalNeighbor.h"
 #include "LinearMethods/WeightedResidual.h"
+#include "Mesh/ShellLayer.h"
 #include "Private/Pipeline/Input.h"
 #include "Private/Shapes/KeptModeSolver.h"
 #include "Session/UndeformedMesh.h"
@@ -218,6 +219,7 @@ void vtkMorphShapes::vtkInternals::Morph(vtkUnstructuredGrid* grid,
     [&] {
       morph::blend(this->Modes.Mesh().points, this->Modes.Weighted(weights), this->Moved, monitor);
     });
+  morph::placeImages(this->Modes.Mesh(), this->Moved);
   this->Modes.GetSolver()->Attached().apply(this->Moved);
   this->Results.SetNumber("EvaluateSeconds", group.Maximum(watch.seconds()));
   if (group.IsFirst())
@@ -256,7 +258,13 @@ void vtkMorphShapes::vtkInternals::Write(vtkUnstructuredGrid* grid,
   {
     monitor.warn(measured.Crossing.Warning);
   }
-  if (this->Filter->Options->FindValidRanges) // of a mesh that can be written
+  if (this->Filter->Options->FindValidRanges && this->Modes.Mesh().layer.isCurved())
+  {
+    monitor.warn("`FindValidRanges` finds none for a curved shell: its cells are judged by the "
+                 "normals around them, which turn with the shapes. See the number of inverted "
+                 "cells at each weight, or set it to 0.");
+  }
+  else if (this->Filter->Options->FindValidRanges) // of a mesh that can be written
   {
     this->FindRanges(weights, monitor);
   }

@@ -37,7 +37,10 @@ morph::BoundaryTargets KeptModeSolver::Match(
   vtkPointSet* boundary, const BoundaryMatch::Options& options) const
 {
   const morph::UndeformedMesh& rest = *this->Kept.Rest();
-  return BoundaryMatch::Match(boundary, rest.mesh(), rest.outerFaces(), rest.size(), options);
+  morph::BoundaryTargets match =
+    BoundaryMatch::Match(boundary, rest.mesh(), rest.outerFaces(), rest.size(), options);
+  morph::requirePlane(match);
+  return match;
 }
 
 void KeptModeSolver::Prepare(std::unique_ptr<morph::LinearMorpher> method,

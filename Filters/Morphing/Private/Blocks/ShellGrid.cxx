@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Private/Blocks/PlaneGrid.h"
+#include "Private/Blocks/ShellGrid.h"
 
 #include "Mesh/CellShape.h"
-#include "Mesh/PlaneLayer.h"
+#include "Mesh/ShellLayer.h"
 #include "Private/Blocks/BlockCells.h"
 #include "Private/Data/GridMesh.h"
 #include "Private/Data/SubGrid.h"
@@ -139,7 +139,7 @@ bool isExtracted(vtkPolyData* surface)
 }
 }
 
-bool PlaneGrid::IsPlane(vtkDataObject* input)
+bool ShellGrid::IsShell(vtkDataObject* input)
 {
   auto* surface = vtkPolyData::SafeDownCast(input);
   const bool isGrid = vtkUnstructuredGrid::SafeDownCast(input);
@@ -147,7 +147,7 @@ bool PlaneGrid::IsPlane(vtkDataObject* input)
          BlockCells::Dimension(vtkDataSet::SafeDownCast(input)) == 2;
 }
 
-vtkDataObject* PlaneGrid::Thicken(vtkDataObject* input)
+vtkDataObject* ShellGrid::Thicken(vtkDataObject* input)
 {
   auto* grid = vtkUnstructuredGrid::SafeDownCast(input);
   auto* surface = vtkPolyData::SafeDownCast(input);
@@ -158,8 +158,8 @@ vtkDataObject* PlaneGrid::Thicken(vtkDataObject* input)
   {
     return this->Thick;
   }
-  *this = PlaneGrid();
-  if (!IsPlane(input))
+  *this = ShellGrid();
+  if (!IsShell(input))
   {
     return input;
   }
@@ -180,7 +180,7 @@ vtkDataObject* PlaneGrid::Thicken(vtkDataObject* input)
   return this->Thick;
 }
 
-void PlaneGrid::Flatten(vtkUnstructuredGrid* output, bool withFaces) const
+void ShellGrid::Flatten(vtkUnstructuredGrid* output, bool withFaces) const
 {
   GridMesh::MarkLayer({}, output);
   const bool isOnSolid =
@@ -205,7 +205,7 @@ void PlaneGrid::Flatten(vtkUnstructuredGrid* output, bool withFaces) const
   output->ShallowCopy(flat);
 }
 
-void PlaneGrid::FlattenCells(vtkUnstructuredGrid* cells) const
+void ShellGrid::FlattenCells(vtkUnstructuredGrid* cells) const
 {
   vtkDataArray* nodes = cells ? cells->GetPointData()->GetArray("MorphPointId") : nullptr;
   vtkDataArray* ids = cells ? cells->GetCellData()->GetArray("MorphCellId") : nullptr;

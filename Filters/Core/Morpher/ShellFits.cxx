@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Morpher/ShellFits.h"
+
+#include "Mesh/Topology.h"
+
+namespace morph
+{
+ShellFits::ShellFits(const Mesh& rest, const NodePartition& partition)
+{
+  if (!rest.layer.isCurved())
+  {
+    return;
+  }
+  const ConnectedComponents bodies = connectedComponents(rest);
+  const std::vector<Index> bodyOf = bodyOfNodes(rest, bodies);
+  this->bodies_.resize(bodies.count);
+  const auto sort = [&](const std::vector<Index>& nodes, std::vector<Index> Body::*list)
+  {
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+    {
+      if (bodyOf[nodes[i]] >= 0)
+      {
+        (this->bodies_[bodyOf[nodes[i]]].*list).push_back(static_cast<Index>(i));
+      }
+    }
+  };
+  sort(partition.prescribed, &Body::prescribed);
+  sort(partition.free, &Body::free);
+  const auto placesOf = [&](const std::vector<Index>& nodes, const std::vector<Index>& rows)
+  {
+    Points places(static_cast<Index>(rows.size()), 3);
+    for (std::size_t i = 0; i < rows.size(); ++i)
+    {
+      places.row(static_cast<Index>(i)) = rest.points.row(rest.layer.frontOf(nodes[rows[i]]));
+    }
+    return places;
+  };
+  for (Body& body : this->bodies_)
+  {
+    body.prescribedPlaces = placesOf(partition.prescribed, body.prescribed);
+    body.freePlaces = placesOf(partition.free, body.free);
+    body.leastSquares = AffineLeastSquares(body.prescribedPlaces, body.freePlaces);
+  }
+}
+
+std::vector<AffineFit> ShellFits::takeOff(Points& prescribed) const
+{
+  std::vector<AffineFit> fits;
+  for (const Body& body : this->bodies_)
+  {
+    fits.push_back(body.leastSquares.fit(prescribed(body.prescribed, allColumns)));
+    for (std::size_t i = 0; i < body.prescribed.size(); ++i)
+    {
+      prescribed.row(body.prescribed[i]) -=
+        fits.back().displacement(body.prescribedPlaces.row(static_cast<Index>(i)));
+    }
+  }
+  return fits;
+}
+
+void ShellFits::addTo(const std::vector<AffineFit>& fits, Points& free) const
+{
+  for (std::size_t b = 0; b < fits.size(); ++b)
+  {
+    const Body& body = this->bodies_[b];
+    for (std::size_t i = 0; i < body.free.size(); ++i)
+    {
+      free.row(body.free[i]) += fits[b].displacement(body.freePlaces.row(static_cast<Index>(i)));
+    }
+  }
+}
+
+void ShellFits::transpose(const Points& free, Points& prescribed) const
+{
+  for (const Body& body : this->bodies_)
+  {
+    // u = F_x U + M (U - F_b U), hence the adjoint F_x^T g + (I - F_b^T) M^T g.
+    const Points ofRest = prescribed(body.prescribed, allColumns);
+    Points result = ofRest;
+    body.leastSquares.fitTranspose(body.freePlaces, free(body.free, allColumns), result);
+    body.leastSquares.fitTranspose(body.prescribedPlaces, -ofRest, result);
+    prescribed(body.prescribed, allColumns) = result;
+  }
+}
+}

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Geometry/AffineFit.h"
+#include "Mesh/Mesh.h"
+#include "Mesh/NodePartition.h"
+
+#include <vector>
+
+namespace morph
+{
+/// The affine part of the motion of a curved layer, of each body: the fit of its prescribed nodes.
+/// On a curved surface the Laplacian of the position is the curvature normal, so the equations of a
+/// membrane do not reproduce affine motions. The fit is taken off before they are solved for the
+/// rest, and added to what they find. Images count as at their nodes.
+class ShellFits
+{
+public:
+  ShellFits() = default;
+  /// Of another mesh there are none. Cost: passes over the mesh.
+  ShellFits(const Mesh& rest, const NodePartition& partition);
+
+  bool empty() const { return this->bodies_.empty(); }
+  /// Takes the fits off displacements of the prescribed nodes, #prescribed x 3, and returns them.
+  std::vector<AffineFit> takeOff(Points& prescribed) const;
+  /// Adds fits to displacements of the free nodes, #free x 3.
+  void addTo(const std::vector<AffineFit>& fits, Points& free) const;
+  /// The adjoint of both. `free`: the derivative by the displacements of free nodes. `prescribed`:
+  /// that by the rest, which becomes that by the prescribed displacements.
+  void transpose(const Points& free, Points& prescribed) const;
+
+private:
+  struct Body
+  {
+    std::vector<Index> prescribed, free; ///< places in the lists of the partition
+    Points prescribedPlaces, freePlaces;
+    AffineLeastSquares leastSquares;
+  };
+  std::vector<Body> bodies_;
+};
+}

@@ -1,0 +1,645 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Plane meshes and shells as solids one layer thick.
+#include "Geometry/AffineFit.h"
+#include "LinearMethods.h"
+#include "LinearMethods/FemWarp.h"
+#include "Mesh/ShellLayer.h"
+#include "Meshes.h"
+#include "Motions.h"
+#include "Quality/ScaledJacobian.h"
+#include "Session/Session.h"
+#include "Support/Error.h"
+#include "Untangling/InversionFree.h"
+#include "Untangling/Smoothing.h"
+
+#include <Eigen/Geometry>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace
+{
+using morph::Index;
+using morph::Mesh;
+using morph::Points;
+using motions::Row;
+
+constexpr int Boxes = 6;
+
+/// Turns the plane z = 0 into another one, away from the origin.
+const Eigen::Matrix3d Turn = Eigen::AngleAxisd(1, Eigen::Vector3d(1, 2, -3).normalized()).matrix();
+const Row Shift(3, -1, 2);
+
+Row turned(const Row& x)
+{
+  return x * Turn.transpose() + Shift;
+}
+
+Row turnedBack(const Row& x)
+{
+  return (x - Shift) * Turn;
+}
+
+/// [0, 1]^2 in the plane z = 0: quadrilaterals, triangles, or both.
+Mesh square(const std::string& cells)
+{
+  Mesh mesh;
+  mesh.offsets = { 0 };
+  mesh.points.resize((Boxes + 1) * (Boxes + 1), 3);
+  std::mt19937 random(meshes::seed());
+  std::uniform_real_distribution<double> jitter(-0.2, 0.2);
+  for (int i = 0; i <= Boxes; ++i)
+  {
+    for (int j = 0; j <= Boxes; ++j)
+    {
+      const bool inside = i > 0 && i < Boxes && j > 0 && j < Boxes;
+      mesh.points.row(i * (Boxes + 1) + j) =
+        Row(i + inside * jitter(random), j + inside * jitter(random), 0) / Boxes;
+    }
+  }
+  for (Index box = 0; box < Boxes * Boxes; ++box)
+  {
+    const Index a = box / Boxes * (Boxes + 1) + box % Boxes, b = a + Boxes + 1;
+    if (cells == "quads" || (cells == "mixed" && box % 2 == 0))
+    {
+      meshes::add(mesh, morph::Quad, { a, b, b + 1, a + 1 });
+      continue;
+    }
+    meshes::add(mesh, morph::Triangle, { a, b, b + 1 });
+    meshes::add(mesh, morph::Triangle, { a, b + 1, a + 1 });
+  }
+  return mesh;
+}
+
+/// A map of the plane, as one of the turned plane.
+motions::Map inPlane(const motions::Map& map)
+{
+  return [map](const Row& x) -> Row
+  {
+    const Row flat = turnedBack(x);
+    Row to = map(flat);
+    to[2] = flat[2];
+    return turned(to);
+  };
+}
+
+Row bent(const Row& x)
+{
+  return Row(x[0] + 0.3 * x[1] * x[1], x[1] - 0.2 * x[0] * x[1], 0);
+}
+
+/// The layer of a square in the turned plane, its sides prescribed.
+struct Layer
+{
+  Mesh flat, mesh;
+  morph::NodePartition partition;
+  morph::Monitor monitor;
+
+  explicit Layer(const std::string& cells)
+    : flat(square(cells))
+  {
+    flat.points = motions::mapped(flat.points, turned);
+    mesh = morph::thicken(flat);
+    partition = motions::outerPartition(mesh);
+  }
+
+  Points moved(morph::Morpher& method, const motions::Map& map)
+  {
+    method.prepare(mesh, partition, monitor);
+    Points result;
+    method.evaluate(motions::targets(mesh, partition, map), result, monitor);
+    return result;
+  }
+};
+
+/// Each edge pulls by the cotangents of the angles that face it times the difference of `motion`.
+Points cotangentForces(const Mesh& triangles, const Points& motion)
+{
+  const Points& x = triangles.points;
+  Points force = Points::Zero(x.rows(), 3);
+  for (Index c = 0; c < triangles.numberOfCells(); ++c)
+  {
+    for (int k = 0; k < 3; ++k)
+    {
+      const Index* nodes = triangles.cell(c);
+      const Index a = nodes[k], b = nodes[(k + 1) % 3], tip = nodes[(k + 2) % 3];
+      const Row u = x.row(a) - x.row(tip), v = x.row(b) - x.row(tip);
+      const Row pull = u.dot(v) / u.cross(v).norm() * (motion.row(a) - motion.row(b));
+      force.row(a) += pull;
+      force.row(b) -= pull;
+    }
+  }
+  return force;
+}
+
+class ShellLayer : public testing::TestWithParam<const char*>
+{
+protected:
+  Layer layer{ GetParam() };
+};
+INSTANTIATE_TEST_SUITE_P(Cells, ShellLayer, testing::Values("quads", "triangles", "mixed"),
+  [](const auto& info) { return std::string(info.param); });
+}
+
+TEST_P(ShellLayer, OnlyItsSidesAreBoundary)
+{
+  const morph::BoundaryFaces faces = morph::boundaryFaces(layer.mesh, layer.monitor);
+  EXPECT_EQ(faces.cells.size(), 4u * Boxes);
+  EXPECT_EQ(faces.nodes.size(), 8u * Boxes);
+}
+
+TEST_P(ShellLayer, CellsHaveTheQualityOfTheirFaces)
+{
+  const auto measure = [&](const Mesh& mesh)
+  {
+    const std::vector<std::int8_t> signs(mesh.types.size(), 1);
+    return morph::measureQuality(mesh, mesh.points, signs, {}, layer.monitor).scaledJacobian;
+  };
+  const auto solid = measure(layer.mesh), flat = measure(layer.flat);
+  ASSERT_EQ(solid.size(), flat.size());
+  for (std::size_t c = 0; c < flat.size(); ++c)
+  {
+    EXPECT_NEAR(solid[c], flat[c], 1e-12) << c;
+  }
+}
+
+TEST_P(ShellLayer, LinearMethodsAreExactForAffineMotionsAndKeepThePlane)
+{
+  const auto affine =
+    inPlane([](const Row& x) { return Row(1.3 * x[0] + 0.4 * x[1] + 1, 0.8 * x[1] - 2, 0); });
+  const Index nodes = layer.flat.numberOfNodes();
+  for (const meshes::LinearMethod& method : meshes::linearMethods())
+  {
+    SCOPED_TRACE(method.name);
+    const auto made = method.make();
+    EXPECT_LT(
+      motions::difference(layer.moved(*made, affine), motions::mapped(layer.mesh.points, affine)),
+      1e-12);
+    const Points moved = layer.moved(*made, inPlane(bent));
+    EXPECT_LT(
+      motions::mapped(moved.topRows(nodes), turnedBack).col(2).cwiseAbs().maxCoeff(), 1e-14);
+    const Points motion = moved - layer.mesh.points;
+    EXPECT_LT(motions::difference(motion.topRows(nodes), motion.middleRows(nodes, nodes)), 1e-14);
+  }
+}
+
+TEST_P(ShellLayer, TransposesBelongToTheMethods)
+{
+  std::mt19937 random(meshes::seed());
+  std::normal_distribution<double> normal;
+  const auto noise = [&](Index rows) -> Points
+  { return Points::NullaryExpr(rows, 3, [&] { return normal(random); }); };
+  for (const meshes::LinearMethod& method : meshes::linearMethods())
+  {
+    const auto made = method.make();
+    made->prepare(layer.mesh, layer.partition, layer.monitor);
+    const Points gradient = noise(layer.mesh.numberOfNodes());
+    const Points boundary = noise(static_cast<Index>(layer.partition.prescribed.size()));
+    const Points mode = made->basis({ boundary }, layer.monitor).front();
+    Points adjoint;
+    made->applyTranspose(gradient, adjoint, layer.monitor);
+    EXPECT_NEAR(gradient.cwiseProduct(mode).sum(), adjoint.cwiseProduct(boundary).sum(), 1e-7)
+      << method.name;
+  }
+}
+
+TEST_P(ShellLayer, TangledMeshesAreUntangledInThePlane)
+{
+  // A block comes in through the lower side, further than FEMWARP can follow.
+  const auto map = inPlane(
+    [](const Row& x)
+    {
+      const bool isBlock = x[1] < 0.01 && std::abs(x[0] - 0.5) < 0.2;
+      return Row(x[0], x[1] + 0.75 * isBlock, 0);
+    });
+  const std::vector<std::int8_t> signs(layer.mesh.types.size(), 1);
+  const Index nodes = layer.flat.numberOfNodes();
+  morph::FemWarp warp;
+  morph::InversionFree free;
+  const auto inverted = [&](const Points& points)
+  { return morph::measureQuality(layer.mesh, points, signs, {}, layer.monitor).inverted; };
+  EXPECT_GT(inverted(layer.moved(warp, map)), 0);
+  const Points moved = layer.moved(free, map);
+  EXPECT_EQ(inverted(moved), 0);
+  EXPECT_LT(motions::mapped(moved.topRows(nodes), turnedBack).col(2).cwiseAbs().maxCoeff(), 1e-14);
+}
+
+TEST(ShellLayer, FemWarpIsTheMembraneOfCotangents)
+{
+  Layer layer("triangles");
+  morph::FemWarp warp;
+  warp.setTolerance(1e-14);
+  const Points moved = layer.moved(warp, inPlane(bent));
+  // Each free node is the mean of its neighbors by the cotangents of the angles that face the edge.
+  const Points motion = moved - layer.mesh.points;
+  const Points force = cotangentForces(layer.flat, motion);
+  for (const Index node : layer.partition.free)
+  {
+    EXPECT_LT(force.row(node % force.rows()).norm(), 1e-12) << node;
+  }
+}
+
+TEST(ShellLayer, OtherCellsAndCellsWithoutAreaAreRefused)
+{
+  std::string message;
+  Mesh other = square("quads");
+  meshes::add(other, morph::Polygon, { 0, 1, 2, 9, 8 });
+  motions::kindOf([&] { morph::thicken(other); }, message);
+  EXPECT_NE(message.find("polygon, cell 36"), std::string::npos) << message;
+  Mesh flat = square("quads");
+  flat.points.col(1).setZero();
+  motions::kindOf([&] { morph::thicken(flat); }, message);
+  EXPECT_NE(message.find("without area"), std::string::npos) << message;
+}
+
+namespace
+{
+Row saddle(const Row& x)
+{
+  return Row(x[0], x[1], 0.4 * x[0] * x[0] - 0.3 * x[0] * x[1] + 0.1 * x[1]);
+}
+
+/// [-1, 1]^3's surface on the unit sphere: quadrilaterals, triangles, or both.
+Mesh sphere(const std::string& cells)
+{
+  const Mesh box = meshes::hexes(4, 4, 4);
+  morph::Monitor monitor;
+  const morph::BoundaryFaces faces = morph::boundaryFaces(box, monitor);
+  Mesh mesh;
+  mesh.offsets = { 0 };
+  mesh.points = box.points(faces.nodes, morph::allColumns) / 2;
+  mesh.points.rowwise() -= Row(1, 1, 1);
+  mesh.points.rowwise().normalize();
+  for (std::size_t f = 0; f < faces.cells.size(); ++f)
+  {
+    std::vector<Index> n;
+    for (Index k = faces.offsets[f]; k < faces.offsets[f + 1]; ++k)
+    {
+      n.push_back(std::lower_bound(faces.nodes.begin(), faces.nodes.end(), faces.connectivity[k]) -
+                  faces.nodes.begin());
+    }
+    if (cells == "quads" || (cells == "mixed" && f % 2 == 0))
+    {
+      meshes::add(mesh, morph::Quad, n);
+      continue;
+    }
+    meshes::add(mesh, morph::Triangle, { n[0], n[1], n[2] });
+    meshes::add(mesh, morph::Triangle, { n[0], n[2], n[3] });
+  }
+  return mesh;
+}
+
+/// A curved shell: open with its edges prescribed, or closed with two patches prescribed.
+struct Shell
+{
+  Mesh faces, mesh;
+  morph::NodePartition partition;
+  morph::Monitor monitor;
+
+  Shell(Mesh of, const std::function<bool(const Row&)>& isPrescribed)
+    : faces(std::move(of))
+    , mesh(morph::thicken(faces))
+  {
+    std::vector<Index> nodes;
+    for (const Index image : { Index(0), faces.numberOfNodes() })
+    {
+      for (Index n = 0; n < faces.numberOfNodes(); ++n)
+      {
+        if (isPrescribed(faces.points.row(n)))
+        {
+          nodes.push_back(n + image);
+        }
+      }
+    }
+    partition = morph::partitionNodes(mesh, nodes);
+  }
+  Points moved(morph::Morpher& method, const motions::Map& map)
+  {
+    method.prepare(mesh, partition, monitor);
+    Points result;
+    method.evaluate(motions::targets(mesh, partition, map), result, monitor);
+    return result;
+  }
+  Points front(const Points& points) const { return points.topRows(faces.numberOfNodes()); }
+  morph::Quality quality(const Points& points)
+  {
+    const std::vector<std::int8_t> signs(mesh.types.size(), 1);
+    return morph::measureQuality(mesh, points, signs, {}, monitor);
+  }
+};
+
+Shell openShell(const std::string& cells)
+{
+  Mesh mesh = square(cells);
+  mesh.points = motions::mapped(mesh.points, saddle);
+  return { std::move(mesh),
+    [](const Row& x) { return x[0] == 0 || x[0] == 1 || x[1] == 0 || x[1] == 1; } };
+}
+
+Shell closedShell(const std::string& cells)
+{
+  return { sphere(cells), [](const Row& x) { return x[2] > 0.6 || x[2] < -0.8; } };
+}
+
+/// The rectangle [0, length] x [0, width] in quadrilaterals, its long edges prescribed.
+Shell strip(int along, int across, double length, double width)
+{
+  Mesh mesh;
+  mesh.offsets = { 0 };
+  mesh.points.resize((along + 1) * (across + 1), 3);
+  for (int i = 0; i <= along; ++i)
+  {
+    for (int j = 0; j <= across; ++j)
+    {
+      const Index n = i * (across + 1) + j;
+      mesh.points.row(n) = Row(length * i / along, width * j / across, 0);
+      if (i < along && j < across)
+      {
+        meshes::add(mesh, morph::Quad, { n, n + across + 1, n + across + 2, n + 1 });
+      }
+    }
+  }
+  Shell shell(std::move(mesh), [width](const Row& x) { return x[1] == 0 || x[1] == width; });
+  shell.mesh = morph::bent(shell.mesh);
+  return shell;
+}
+
+bool isSimplex(const std::string& name)
+{
+  return name.find("implex") != std::string::npos;
+}
+
+class CurvedShell : public testing::TestWithParam<const char*>
+{
+};
+INSTANTIATE_TEST_SUITE_P(Cells, CurvedShell, testing::Values("quads", "triangles", "mixed"),
+  [](const auto& info) { return std::string(info.param); });
+}
+
+TEST_P(CurvedShell, CellsHaveTheQualityOfTheirFaces)
+{
+  for (Shell shell : { openShell(GetParam()), closedShell(GetParam()) })
+  {
+    const std::vector<std::int8_t> signs(shell.faces.types.size(), 1);
+    const auto flat =
+      morph::measureQuality(shell.faces, shell.faces.points, signs, {}, shell.monitor);
+    const morph::Quality quality = shell.quality(shell.mesh.points);
+    EXPECT_EQ(quality.measured, flat.measured);
+    for (std::size_t c = 0; c < flat.scaledJacobian.size(); ++c)
+    {
+      EXPECT_NEAR(quality.scaledJacobian[c], flat.scaledJacobian[c], 1e-12) << c;
+    }
+  }
+}
+
+TEST_P(CurvedShell, LinearMethodsAreExactForAffineMotions)
+{
+  for (Shell shell : { openShell(GetParam()), closedShell(GetParam()) })
+  {
+    const Points expected = motions::mapped(shell.faces.points, motions::affine);
+    for (const meshes::LinearMethod& method : meshes::linearMethods())
+    {
+      SCOPED_TRACE(method.name);
+      const auto made = method.make();
+      if (isSimplex(method.name))
+      {
+        std::string message;
+        motions::kindOf([&] { shell.moved(*made, motions::affine); }, message);
+        EXPECT_NE(message.find("curved shell encloses none"), std::string::npos) << message;
+        continue;
+      }
+      const Points moved = shell.moved(*made, motions::affine);
+      EXPECT_LT(motions::difference(shell.front(moved), expected), 1e-12);
+    }
+  }
+}
+
+TEST_P(CurvedShell, LinearMethodsHaveTheirTransposes)
+{
+  std::mt19937 random(meshes::seed());
+  std::normal_distribution<double> normal;
+  Shell shell = openShell(GetParam());
+  const Index nodes = shell.faces.numberOfNodes();
+  Points boundary = Points::Zero(shell.mesh.numberOfNodes(), 3), gradient = boundary;
+  gradient.topRows(nodes) = Points::NullaryExpr(nodes, 3, [&] { return normal(random); });
+  boundary.topRows(nodes) = Points::NullaryExpr(nodes, 3, [&] { return normal(random); });
+  boundary.bottomRows(nodes) = boundary.topRows(nodes);
+  const Points given = boundary(shell.partition.prescribed, morph::allColumns);
+  for (const meshes::LinearMethod& method : meshes::linearMethods())
+  {
+    if (!isSimplex(method.name))
+    {
+      const auto made = method.make();
+      made->prepare(shell.mesh, shell.partition, shell.monitor);
+      const Points mode = made->basis({ given }, shell.monitor).front();
+      Points adjoint;
+      made->applyTranspose(gradient, adjoint, shell.monitor);
+      EXPECT_NEAR(gradient.cwiseProduct(mode).sum(), adjoint.cwiseProduct(given).sum(), 1e-7)
+        << method.name;
+    }
+  }
+}
+
+TEST_P(CurvedShell, ACellThatFoldsOverIsInvertedHoweverTheShellTurns)
+{
+  for (Shell shell : { openShell(GetParam()), closedShell(GetParam()) })
+  {
+    // A free node goes beyond the far side of its cell.
+    const Index node = shell.partition.free[shell.partition.free.size() / 4];
+    Points points = shell.mesh.points;
+    const Index* cell = shell.mesh.cell(morph::nodeToCells(shell.mesh).begin(node)[0]);
+    const Index last = shell.mesh.cellSize(0) == 8 ? 4 : 3;
+    Row far = Row::Zero();
+    for (Index k = 0; k < last; ++k)
+    {
+      far += points.row(cell[k]) / static_cast<double>(last);
+    }
+    points.row(node) += 2.2 * (far - points.row(node));
+    const auto folded = [&](const Eigen::Matrix3d& turn)
+    {
+      Points turnedPoints = points * turn;
+      morph::placeImages(shell.mesh, turnedPoints);
+      return morph::invertedCells(shell.quality(turnedPoints));
+    };
+    const std::vector<Index> cells = folded(Eigen::Matrix3d::Identity());
+    EXPECT_GT(cells.size(), 0u);
+    EXPECT_LT(cells.size(), 5u);
+    EXPECT_EQ(folded(Turn), cells);
+    EXPECT_EQ(folded(Eigen::AngleAxisd(EIGEN_PI, Eigen::Vector3d::UnitX()).matrix()), cells);
+  }
+}
+
+TEST(CurvedShell, FemWarpIsTheMembraneOfCotangentsBesideTheAffinePart)
+{
+  Shell shell = openShell("triangles");
+  morph::FemWarp warp;
+  warp.setTolerance(1e-14);
+  const Points moved = shell.front(shell.moved(warp, bent));
+  const Points& x = shell.faces.points;
+  std::vector<Index> edge;
+  for (const Index node : shell.partition.prescribed)
+  {
+    if (node < x.rows())
+    {
+      edge.push_back(node);
+    }
+  }
+  const Points motion = moved - x;
+  const morph::AffineFit fit =
+    morph::AffineLeastSquares(x(edge, morph::allColumns)).fit(motion(edge, morph::allColumns));
+  const Points rest =
+    motion - motions::mapped(x, [&](const Row& p) { return fit.displacement(p); });
+  const Points force = cotangentForces(shell.faces, rest);
+  for (const Index node : shell.partition.free)
+  {
+    EXPECT_LT(force.row(node % x.rows()).norm(), 1e-12) << node;
+  }
+}
+
+TEST(CurvedShell, AStripBentOntoACylinderKeepsItsLengths)
+{
+  constexpr double Radius = 20, Width = 1; // a quarter of the cylinder
+  Shell shell = strip(60, 4, Radius * EIGEN_PI / 2, Width);
+  const motions::Map cylinder = [](const Row& x)
+  { return Row(Radius * std::sin(x[0] / Radius), x[1], Radius * (1 - std::cos(x[0] / Radius))); };
+  morph::FemWarp warp;
+  const Points moved = shell.moved(warp, cylinder);
+  // At the free ends the displacement has no slope along the strip, for the width or two.
+  for (Index c = 16; c < shell.faces.numberOfCells() - 16; ++c)
+  {
+    for (int k = 0; k < 4; ++k)
+    {
+      const Index a = shell.faces.cell(c)[k], b = shell.faces.cell(c)[(k + 1) % 4];
+      const double before = (shell.faces.points.row(a) - shell.faces.points.row(b)).norm();
+      EXPECT_NEAR((moved.row(a) - moved.row(b)).norm() / before, 1, 1e-3) << c;
+    }
+  }
+  EXPECT_EQ(shell.quality(moved).inverted, 0);
+}
+
+TEST(CurvedShell, AStripTwistsBy720DegreesWithoutInversion)
+{
+  Shell shell = strip(96, 4, 10, 1);
+  const motions::Map twist = [](const Row& x)
+  {
+    const double angle = 4 * EIGEN_PI * x[0] / 10, y = x[1] - 0.5;
+    return Row(x[0], y * std::cos(angle), y * std::sin(angle));
+  };
+  morph::FemWarp warp;
+  const Points moved = shell.moved(warp, twist);
+  const morph::Quality quality = shell.quality(moved);
+  EXPECT_EQ(quality.inverted, 0);
+  EXPECT_GT(quality.minimum, 0.8);
+}
+
+TEST_P(CurvedShell, TangledShellsAreUntangledNearTheirSurface)
+{
+  // A block comes in through the lower side, further than FEMWARP can follow.
+  Shell shell = openShell(GetParam());
+  const motions::Map map = [](const Row& x)
+  {
+    const bool isBlock = x[1] < 0.01 && std::abs(x[0] - 0.5) < 0.2;
+    return saddle(Row(x[0], x[1] + 0.75 * isBlock, 0));
+  };
+  morph::FemWarp warp;
+  morph::InversionFree free;
+  EXPECT_GT(shell.quality(shell.moved(warp, map)).inverted, 0);
+  const Points moved = shell.moved(free, map);
+  EXPECT_EQ(shell.quality(moved).inverted, 0);
+  const Points on = motions::mapped(shell.front(moved), saddle);
+  EXPECT_LT((shell.front(moved) - on).col(2).cwiseAbs().maxCoeff(), 0.1);
+}
+
+TEST_P(CurvedShell, SmoothingMovesNodesNearTheSurfaceAndNothingWithoutAMotion)
+{
+  Shell shell = openShell(GetParam());
+  morph::Smoothing smoothing;
+  morph::SmoothingOptions options;
+  options.target = morph::SmoothingTarget::Initial;
+  smoothing.setOptions(options);
+  EXPECT_EQ(
+    shell.front(shell.moved(smoothing, [](const Row& x) { return x; })), shell.faces.points);
+  const motions::Map lift = [](const Row& x)
+  { return Row(x[0] + 0.2 * x[1] * x[1], x[1], x[2] + 0.2 * x[0] * x[1]); };
+  const Points moved = shell.moved(smoothing, lift);
+  EXPECT_EQ(shell.quality(moved).inverted, 0);
+  morph::FemWarp warp;
+  EXPECT_LT(motions::difference(shell.front(moved), shell.front(shell.moved(warp, lift))), 0.1);
+}
+
+TEST_P(CurvedShell, APatchOfAClosedShellMovesAndTheRestFollows)
+{
+  Shell shell = closedShell(GetParam());
+  morph::FemWarp warp;
+  const Points moved = shell.front(
+    shell.moved(warp, [](const Row& x) { return Row(x[0], x[1], x[2] + 0.4 * (x[2] > 0.6)); }));
+  const Points motion = moved - shell.faces.points;
+  EXPECT_LT(motion.leftCols(2).cwiseAbs().maxCoeff(), 0.02);
+  EXPECT_GT(motion.col(2).minCoeff(), -0.02);
+  EXPECT_LT(motion.col(2).maxCoeff(), 0.42);
+  for (Index n = 0; n < motion.rows(); ++n)
+  {
+    const double z = shell.faces.points(n, 2);
+    EXPECT_TRUE(z > 0.6 ? std::abs(motion(n, 2) - 0.4) < 1e-14 : z > -0.8 || motion(n, 2) == 0);
+  }
+}
+
+TEST(CurvedShell, AFeatureLineOfAPanelMovesAndItsEdgesStay)
+{
+  // A door: a panel with the crease x = 0.5, which rises in its middle.
+  Mesh mesh = square("quads");
+  for (Index i = 0; i <= Boxes; ++i)
+  {
+    mesh.points(Boxes / 2 * (Boxes + 1) + i, 0) = 0.5;
+  }
+  const auto door = [](const Row& x) { return Row(x[0], x[1], 0.3 - 0.3 * std::abs(x[0] - 0.5)); };
+  mesh.points = motions::mapped(mesh.points, door);
+  Shell shell(std::move(mesh),
+    [](const Row& x) { return x[0] == 0 || x[0] == 1 || x[0] == 0.5 || x[1] == 0 || x[1] == 1; });
+  const motions::Map rise = [](const Row& x)
+  { return Row(x[0], x[1], x[2] + (x[0] == 0.5 ? 0.2 * std::sin(EIGEN_PI * x[1]) : 0.)); };
+  morph::FemWarp warp;
+  const Points moved = shell.moved(warp, rise);
+  EXPECT_EQ(shell.quality(moved).inverted, 0);
+  for (const Index n : shell.partition.prescribed)
+  {
+    const Index node = n % shell.faces.numberOfNodes();
+    EXPECT_EQ(Row(moved.row(node)), rise(shell.faces.points.row(node))) << node;
+  }
+  const Eigen::VectorXd height = (shell.front(moved) - shell.faces.points).col(2);
+  EXPECT_GT(height.minCoeff(), -0.02);
+  EXPECT_LT(height.maxCoeff(), 0.21);
+}
+
+TEST(CurvedShell, ShellsWithOneSideOrNoNormalAreRefused)
+{
+  std::string message;
+  Shell strips = strip(12, 1, 6, 0.5);
+  Mesh moebius = strips.faces;
+  for (Index i = 0; i <= 12; ++i) // half a turn, and the ends joined
+  {
+    const double angle = 2 * EIGEN_PI * i / 12;
+    for (const int side : { 0, 1 })
+    {
+      const double r = 1 + (side - 0.5) * std::cos(angle / 2);
+      moebius.points.row(2 * i + side) =
+        Row(r * std::cos(angle), r * std::sin(angle), (side - 0.5) * std::sin(angle / 2));
+    }
+  }
+  for (Index& node : moebius.connectivity)
+  {
+    node = node == 24 ? 1 : node == 25 ? 0 : node;
+  }
+  motions::kindOf([&] { morph::thicken(moebius); }, message);
+  EXPECT_NE(message.find("one side alone"), std::string::npos) << message;
+  Mesh hairpin;
+  hairpin.offsets = { 0 };
+  hairpin.points = (Points(5, 3) << 0, 0, 0, 0, 1, 0, 1, 0, 0, 1, 1e-9, 0, 0, 0, 1).finished();
+  meshes::add(hairpin, morph::Triangle, { 0, 1, 2 });
+  meshes::add(hairpin, morph::Triangle, { 1, 0, 3 });
+  meshes::add(hairpin, morph::Triangle, { 0, 2, 4 });
+  motions::kindOf([&] { morph::thicken(hairpin); }, message);
+  EXPECT_NE(message.find("no normal at node ids"), std::string::npos) << message;
+}
