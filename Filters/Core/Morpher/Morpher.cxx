@@ -9,6 +9,7 @@
 #include "Support/ReproducibleSum.h"
 
 #include <algorithm>
+#include <iterator>
 #include <typeinfo>
 #include <utility>
 
@@ -85,6 +86,57 @@ std::vector<Index> outside(const NodePartition& partition, Index nodes)
     }
   }
   return ids;
+}
+/// The nodes of a partition that are not prescribed as free ones: of those between the corners of
+/// quadratic cells, an affine motion of a curved layer is not one of the cells, as images move alike.
+NodePartition withHigherOrder(const NodePartition& partition)
+{
+  NodePartition all;
+  all.prescribed = partition.prescribed;
+  std::merge(partition.free.begin(), partition.free.end(), partition.higherOrderNodes.begin(),
+    partition.higherOrderNodes.end(), std::back_inserter(all.free));
+  return all;
+}
+
+/// Lets nodes between corners follow: in a curved layer, for the rest that the affine fits leave.
+/// `all`: displacements of all nodes, #nodes x 3.
+void follow(const HigherOrderNodes& followers, const Mesh* shell, const NodePartition& partition,
+  Points& all)
+{
+  if (!shell || followers.empty())
+  {
+    followers.apply(all);
+    return;
+  }
+  const NodePartition every = withHigherOrder(partition);
+  const ShellFits fits(*shell, every);
+  const Points given = all(every.prescribed, allColumns);
+  Points rest = given, affine = Points::Zero(static_cast<Index>(every.free.size()), 3);
+  fits.addTo(fits.takeOff(rest), affine);
+  all(every.prescribed, allColumns) = rest;
+  all(every.free, allColumns) -= affine;
+  followers.apply(all);
+  all(every.free, allColumns) += affine;
+  all(every.prescribed, allColumns) = given;
+}
+
+/// The adjoint of follow(): `gradient` becomes that of the displacements of prescribed and free
+/// nodes.
+void followTranspose(const HigherOrderNodes& followers, const Mesh* shell,
+  const NodePartition& partition, Points& gradient)
+{
+  const Points given = gradient;
+  followers.applyTranspose(gradient);
+  if (!shell || followers.empty())
+  {
+    return;
+  }
+  const NodePartition every = withHigherOrder(partition);
+  gradient(partition.higherOrderNodes, allColumns).setZero();
+  const Points ofAffine = given(every.free, allColumns) - gradient(every.free, allColumns);
+  Points ofRest = gradient(every.prescribed, allColumns) - given(every.prescribed, allColumns);
+  ShellFits(*shell, every).transpose(ofAffine, ofRest);
+  gradient(every.prescribed, allColumns) = given(every.prescribed, allColumns) + ofRest;
 }
 }
 
@@ -271,7 +323,7 @@ EvaluateReport Morpher::evaluate(
     Points all = Points::Zero(this->restPoints().rows(), 3);
     all(this->partition().free, allColumns) = freeDisplacement;
     all(ids, allColumns) = displacement;
-    this->higherOrderNodes_.apply(all);
+    follow(this->higherOrderNodes_, this->shell_.get(), this->partition(), all);
     for (Index n = 0; n < all.rows(); ++n)
     {
       this->place(n, all.row(n), result);
@@ -303,7 +355,7 @@ EvaluateReport LinearMorpher::applyTranspose(
     throw Error("The gradient has entries that are not finite (NaN or infinite).");
   }
   // Prescribed nodes have no weights: they also receive the gradient from higher-order nodes.
-  this->higherOrderNodes_.applyTranspose(all);
+  followTranspose(this->higherOrderNodes_, this->shell_.get(), this->partition(), all);
   Points result = all(this->partition().prescribed, allColumns);
   EvaluateReport report;
   if (!this->partition().free.empty())
@@ -344,7 +396,7 @@ Points LinearMorpher::mode(
   Points all = Points::Zero(this->restPoints().rows(), 3);
   all(partition.free, allColumns) = free;
   all(partition.prescribed, allColumns) = displacement;
-  this->higherOrderNodes_.apply(all);
+  follow(this->higherOrderNodes_, this->shell_.get(), partition, all);
   return all;
 }
 
@@ -394,8 +446,8 @@ FourFields LinearMorpher::fields(
   {
     Points three = all.leftCols<3>(), fourth = Points::Zero(all.rows(), 3);
     fourth.col(0) = all.col(3);
-    this->higherOrderNodes_.apply(three);
-    this->higherOrderNodes_.apply(fourth);
+    follow(this->higherOrderNodes_, this->shell_.get(), partition, three);
+    follow(this->higherOrderNodes_, this->shell_.get(), partition, fourth);
     all << three, fourth.col(0);
   }
   if (report)
