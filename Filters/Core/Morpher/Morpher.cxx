@@ -87,6 +87,7 @@ std::vector<Index> outside(const NodePartition& partition, Index nodes)
   }
   return ids;
 }
+
 /// The nodes of a partition that are not prescribed as free ones: of those between the corners of
 /// quadratic cells, an affine motion of a curved layer is not one of the cells, as images move alike.
 NodePartition withHigherOrder(const NodePartition& partition)
@@ -100,8 +101,8 @@ NodePartition withHigherOrder(const NodePartition& partition)
 
 /// Lets nodes between corners follow: in a curved layer, for the rest that the affine fits leave.
 /// `all`: displacements of all nodes, #nodes x 3.
-void follow(const HigherOrderNodes& followers, const Mesh* shell, const NodePartition& partition,
-  Points& all)
+void follow(
+  const HigherOrderNodes& followers, const Mesh* shell, const NodePartition& partition, Points& all)
 {
   if (!shell || followers.empty())
   {
