@@ -89,7 +89,8 @@ std::vector<Index> outside(const NodePartition& partition, Index nodes)
 }
 
 /// The nodes of a partition that are not prescribed as free ones: of those between the corners of
-/// quadratic cells, an affine motion of a curved layer is not one of the cells, as images move alike.
+/// quadratic cells, an affine motion of a curved layer is not one of its prisms, as images move
+/// alike.
 NodePartition withHigherOrder(const NodePartition& partition)
 {
   NodePartition all;
