@@ -12,8 +12,8 @@ namespace morph
 {
 /// Returns a mesh of faces as a solid one layer thick, so that all that morphs and measures solids
 /// works for it: triangles become wedges and quadrilaterals hexahedra. Lines become the faces of
-/// its sides. Cells keep their ids, and nodes those of the front; see ShellLayer. Nodes in the middle
-/// of edges between front and back, which quadratic cells have, come last.
+/// its sides. Cells keep their ids, and nodes those of the front; see ShellLayer. Nodes in the
+/// middle of edges between front and back, which quadratic cells have, come last.
 ///
 /// The layer of a plane mesh is as thick as edges are long on the mean, which no result depends on
 /// but by rounding; its normal is that about which most of the area is wound counterclockwise. A
