@@ -11,9 +11,9 @@
 namespace morph
 {
 /// Returns a mesh of faces as a solid one layer thick, so that all that morphs and measures solids
-/// works for it: triangles become wedges and quadrilaterals hexahedra. Lines become the faces of its
-/// sides. Cells keep their ids, and nodes those of the front; see ShellLayer. Nodes in the middle of
-/// edges between front and back, which quadratic cells have, come last.
+/// works for it: triangles become wedges and quadrilaterals hexahedra. Lines become the faces of
+/// its sides. Cells keep their ids, and nodes those of the front; see ShellLayer. Nodes in the
+/// middle of edges between front and back, which quadratic cells have, come last.
 ///
 /// The layer of a plane mesh is as thick as edges are long on the mean, which no result depends on
 /// but by rounding; its normal is that about which most of the area is wound counterclockwise. A
@@ -35,8 +35,8 @@ Mesh bent(Mesh mesh);
 void requireRegion(const Mesh& mesh);
 
 /// Puts the images of the nodes of a curved layer, and the nodes between, behind the front on the
-/// normals that the surface has where it has moved. `moved`: #nodes x 3, of which the front is read.
-/// So a cell that is folded over lies against the normals around it, as these turn along with the
+/// normals that the surface has where it has moved. `moved`: #nodes x 3, whose front is read. So a
+/// cell that is folded over lies against the normals around it, as these turn along with the
 /// surface. Where folded cells leave a node no normal of its own, it has that of three rings of
 /// cells. Other meshes stay. Cost: some passes over the cells.
 void placeImages(const Mesh& rest, Points& moved);
@@ -51,7 +51,8 @@ void copyStanding(
 void stand(double (*corners)[3], int count, double thickness);
 
 /// The cells of a curved layer at `points`, #nodes x 3, each upright on its own front, quadratic
-/// ones too. Each has nodes of its own, in the order of the connectivity. Cost: a copy of the cells.
+/// ones too. Each has nodes of its own, in the order of the connectivity. Cost: a copy of the
+/// cells.
 Mesh standing(const Mesh& mesh, const ConstPoints& points);
 
 /// The images of the nodes of a layer among `ids`, ascending: their places in `ids`, front first.

@@ -66,10 +66,11 @@ public:
 
   /// Moves the mesh. `prescribed`: #prescribed x 3 new positions, in the order of
   /// NodePartition::prescribed. `moved`: becomes #nodes x 3. Prescribed nodes are exactly as given;
-  /// nodes outside the partition stay. Images of a curved layer are placed behind the front. Without motion the undeformed positions are returned bit for
-  /// bit, except by smoothing towards ideal shapes. Throws Error, leaving `moved` untouched, for a
-  /// wrong number of rows, for positions, given or computed, that are not finite, or unless the
-  /// last prepare() succeeded.
+  /// nodes outside the partition stay. Images across a curved layer, prescribed ones too, follow
+  /// the front. Without motion the undeformed positions are returned bit for bit, except by
+  /// smoothing towards ideal shapes. Throws Error, leaving `moved` untouched, for a wrong number of
+  /// rows, for positions, given or computed, that are not finite, or unless the last prepare()
+  /// succeeded.
   EvaluateReport evaluate(const ConstPoints& prescribed, Points& moved, Monitor& monitor) const;
 
   /// Sets the mesh whose cell shapes the method aims for, if not the undeformed mesh. `reference`:

@@ -52,8 +52,8 @@ public:
 
 protected:
   /// Call it once free() is known. `communicator` has to outlive this object. `normal`: that of a
-  /// plane mesh, or zero; `images`: rows of the gradient whose nodes are images of each other across
-  /// a curved one, front first.
+  /// plane mesh, or zero; `images`: rows of the gradient whose nodes are images of each other
+  /// across a curved one, front first.
   void share(const Communicator& communicator, const std::vector<Index>& free,
     const Eigen::RowVector3d& normal, std::vector<std::pair<Index, Index>> images)
   {

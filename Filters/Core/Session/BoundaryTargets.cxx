@@ -66,8 +66,8 @@ void nameImages(const ShellLayer& layer, NamedPoints& named)
 }
 
 /// Keeps the targets of a plane layer's nodes in their plane, unless the boundary leaves it by more
-/// than 1e-6 of the size. Returns the nodes that do. `targets`: of named.pairs, those of images being
-/// the front's, which they follow.
+/// than 1e-6 of the size. Returns the nodes that do. `targets`: of named.pairs, those of images
+/// being the front's, which they follow.
 std::vector<Index> keepInPlane(
   const NamedPoints& named, const Mesh& rest, double size, Points& targets)
 {

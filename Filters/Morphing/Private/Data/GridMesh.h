@@ -30,7 +30,7 @@ morph::Mesh FromGrid(vtkUnstructuredGrid* grid, UnknownCells unknown, morph::Mon
 morph::Mesh FromGrid(vtkUnstructuredGrid* grid, UnknownCells unknown = UnknownCells::Refuse);
 ///@}
 
-/// Marks a grid as that of a shell's or plane mesh's layer, in its field data, for FromGrid(). A layer without
+/// Marks a grid as the layer of a mesh of faces, in its field data, for FromGrid(). A layer without
 /// nodes: removes the mark.
 void MarkLayer(const morph::ShellLayer& layer, vtkUnstructuredGrid* grid);
 
