@@ -45,7 +45,7 @@ class Hands:
         self.paraview.wait()
         self.log.close()
 
-    def ask(self, question, seconds=120):
+    def ask(self, question, seconds=300):
         answer = Path(f"{self.asked}.answer")
         answer.unlink(missing_ok=True)
         made = Path(f"{self.asked}.new")
@@ -54,11 +54,12 @@ class Hands:
         end = time.time() + seconds
         while not answer.exists():
             if time.time() > end or self.paraview.poll() is not None:
-                raise AssertionError(f"no answer to {question!r}:\n{self.messages()}")
+                raise AssertionError(f"no answer to {question!r}, exit code {self.paraview.poll()}:"
+                                     f"\n{self.messages()}")
             time.sleep(0.02)
         return json.loads(answer.read_text(encoding="utf-8"))
 
-    def find(self, question, seconds=60, enabled=True):
+    def find(self, question, seconds=300, enabled=True):
         """Once it is there and, if asked for, enabled: the window is then idle."""
         end = time.time() + seconds
         before = None
@@ -139,7 +140,7 @@ class Hands:
     def text(self, widget):
         return self.find(f"widget\t{widget}", enabled=False)["text"]
 
-    def wait(self, widget, accept, seconds=120):
+    def wait(self, widget, accept, seconds=300):
         """The text of a widget once `accept` takes it."""
         end = time.time() + seconds
         while True:
@@ -163,4 +164,4 @@ if "MORPH_ASKED" in os.environ:
     ctypes.CDLL(os.environ["MESHMORPHING_PANEL_ROWS"]).serve_places(
         os.environ["MORPH_ASKED"].encode(), DOCK)
 elif __name__ == "__main__":
-    sys.exit("window_twelve_tasks.py uses it")
+    sys.exit("window_hand_tasks.py uses it")
