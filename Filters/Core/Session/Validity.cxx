@@ -106,8 +106,7 @@ std::vector<Validity::BadCell> Validity::worst(const Mesh& mesh, const std::vect
   {
     Eigen::RowVector3d center = Eigen::RowVector3d::Zero();
     const bool isPrism = mesh.layer.nodes > 0; // of whose front it is
-    const Index corners =
-      cornerCount(mesh, cell, *cellShape(mesh.types[cell])) / (isPrism ? 2 : 1);
+    const Index corners = cornerCount(mesh, cell, *cellShape(mesh.types[cell])) / (isPrism ? 2 : 1);
     for (Index k = 0; k < corners; ++k)
     {
       center += points.row(mesh.cell(cell)[k]) / static_cast<double>(corners);
