@@ -455,9 +455,10 @@ RandomGrid randomGrid(Choices& choices)
   result.mesh.points = pointsOf(grid);
   morph::replaceCollapsedCells(result.mesh);
   result.size = meshSize(result.mesh);
-  if (result.known.gap(result.mesh.points) > 1e-9 * result.size)
+  if (!(result.known.gap(result.mesh.points) < 1e-9 * result.size))
   {
-    result.isAsMesh = false; // coordinates of few digits put nodes off their faces, or nearly so
+    // Coordinates of few digits put nodes off their faces, or nearly so, or all at one place.
+    result.isAsMesh = false;
   }
   result.outer = result.known.outer.empty() ? outerNodes(result.mesh) : result.known.outer;
   result.data = grid;
