@@ -48,12 +48,13 @@ def printed(filter_proxy, name):
     assert match, f"{name} is not in:\n{text}"
     return match.group(1)
 
-#: Limits of memory, which have no end, and tolerances, which span decades.
+#: Limits of memory and lengths, which have no end, and tolerances, which span decades.
 WITHOUT_SLIDER = ("StepMemoryLimit", "MemoryLimit", "Tolerance", "HandleRadius",
-                  "ContactDistance")
+                  "ContactDistance", "Dimension", "HandleSmoothing", "LatticeLength")
 #: What widgets of the panel are made from; not among its results.
 FOR_WIDGETS = ("SurfaceList", "SurfaceSizes", "SurfaceShapes", "SurfaceBounds", "ZoneList",
-               "ZoneSizes", "PickedSurfaces", "ValidWeights", "Advice")
+               "ZoneSizes", "PickedSurfaces", "ValidWeights", "Advice", "LatticePoints",
+               "Messages")
 
 
 def results(*sections):

@@ -32,6 +32,7 @@
 #include <vtkStringArray.h>
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -77,7 +78,7 @@ struct vtkDisplacementAlgorithm::vtkInternals
   ///@{
   std::array<vtkIdType, morph::Surroundings::IsLayer + 1> Count = {};
   std::string SlideReport, ContactReport;
-  double PresentDimension = 0; ///< of DISPLACEMENT_DIMENSION, else NaN
+  double PresentDimension = std::nan(""); ///< of DISPLACEMENT_DIMENSION
   int ChooseCount = 0;         ///< of all executions
   ///@}
 
