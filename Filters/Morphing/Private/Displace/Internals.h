@@ -79,7 +79,7 @@ struct vtkDisplacementAlgorithm::vtkInternals
   std::array<vtkIdType, morph::Surroundings::IsLayer + 1> Count = {};
   std::string SlideReport, ContactReport;
   double PresentDimension = std::nan(""); ///< of DISPLACEMENT_DIMENSION
-  int ChooseCount = 0;         ///< of all executions
+  int ChooseCount = 0;                    ///< of all executions
   ///@}
 
   /// Solutions while something is dragged need be no finer than a picture.
