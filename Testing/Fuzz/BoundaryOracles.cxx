@@ -159,6 +159,10 @@ Finding checkClassified(const Case& made, vtkPointSet* output)
   const std::set<Index> outer(made.grid.outer.begin(), made.grid.outer.end());
   const std::vector<Index> all = volumeNodes(made.grid.mesh);
   const std::set<Index> inVolume(all.begin(), all.end());
+  if (all.empty())
+  {
+    return {}; // faces alone are a shell, which has a boundary of edges
+  }
   for (Index n = 0; n < output->GetNumberOfPoints(); ++n)
   {
     const double dimension = dimensions->GetComponent(n, 0);
