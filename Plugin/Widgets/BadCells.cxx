@@ -18,7 +18,8 @@ enum Port
 {
   Mesh,
   Bad,
-  Surface
+  Surface,
+  ControlPoints
 };
 }
 
@@ -63,7 +64,7 @@ bool BadCells::areShown() const
     vtkSMRepresentationProxy* const shown = view ? view->FindRepresentation(source, port) : nullptr;
     return shown && vtkSMPropertyHelper(shown, "Visibility").GetAsInt() != 0;
   };
-  return isShown(Bad) && !isShown(Mesh) && !isShown(Surface);
+  return isShown(Bad) && !isShown(Mesh) && !isShown(Surface) && !isShown(ControlPoints);
 }
 
 void BadCells::showText()
@@ -92,6 +93,15 @@ void BadCells::toggle()
     {
       controller->Hide(source, port, view);
     }
+  }
+  const bool hadPoints = view->FindRepresentation(source, ControlPoints) != nullptr;
+  if (hadPoints && back)
+  {
+    controller->Show(source, ControlPoints, view);
+  }
+  else if (hadPoints)
+  {
+    controller->Hide(source, ControlPoints, view);
   }
   view->Update();
   back ? view->ResetCamera() : view->ZoomTo(shown);
