@@ -105,7 +105,7 @@ void vtkDisplacementAlgorithm::vtkInternals::ResetResults()
 {
   this->Count.fill(0);
   this->SlideReport = this->ContactReport = "None";
-  this->PresentDimension = std::numeric_limits<double>::quiet_NaN();
+  this->PresentDimension = 0;
   this->ControlPoints->Initialize();
   this->LatticePoints->Initialize();
   this->LatticePoints->SetNumberOfComponents(3);

@@ -32,7 +32,6 @@
 #include <vtkStringArray.h>
 
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -78,8 +77,8 @@ struct vtkDisplacementAlgorithm::vtkInternals
   ///@{
   std::array<vtkIdType, morph::Surroundings::IsLayer + 1> Count = {};
   std::string SlideReport, ContactReport;
-  double PresentDimension = std::nan(""); ///< of DISPLACEMENT_DIMENSION
-  int ChooseCount = 0;                    ///< of all executions
+  double PresentDimension = 0; ///< of DISPLACEMENT_DIMENSION, else 0
+  int ChooseCount = 0;         ///< of all executions
   ///@}
 
   /// Solutions while something is dragged need be no finer than a picture.
