@@ -134,6 +134,20 @@ Points cotangentForces(const Mesh& triangles, const Points& motion)
   return force;
 }
 
+/// The method's transpose is that of its map. `boundary`: displacements of the prescribed nodes.
+template <typename Prepared>
+void expectTranspose(const meshes::LinearMethod& method, Prepared& shell, const Points& boundary,
+  const Points& gradient)
+{
+  const auto made = method.make();
+  made->prepare(shell.mesh, shell.partition, shell.monitor);
+  const Points mode = made->basis({ boundary }, shell.monitor).front();
+  Points adjoint;
+  made->applyTranspose(gradient, adjoint, shell.monitor);
+  EXPECT_NEAR(gradient.cwiseProduct(mode).sum(), adjoint.cwiseProduct(boundary).sum(), 1e-7)
+    << method.name;
+}
+
 class ShellLayer : public testing::TestWithParam<const char*>
 {
 protected:
@@ -193,15 +207,9 @@ TEST_P(ShellLayer, TransposesBelongToTheMethods)
   { return Points::NullaryExpr(rows, 3, [&] { return normal(random); }); };
   for (const meshes::LinearMethod& method : meshes::linearMethods())
   {
-    const auto made = method.make();
-    made->prepare(layer.mesh, layer.partition, layer.monitor);
     const Points gradient = noise(layer.mesh.numberOfNodes());
     const Points boundary = noise(static_cast<Index>(layer.partition.prescribed.size()));
-    const Points mode = made->basis({ boundary }, layer.monitor).front();
-    Points adjoint;
-    made->applyTranspose(gradient, adjoint, layer.monitor);
-    EXPECT_NEAR(gradient.cwiseProduct(mode).sum(), adjoint.cwiseProduct(boundary).sum(), 1e-7)
-      << method.name;
+    expectTranspose(method, layer, boundary, gradient);
   }
 }
 
@@ -431,13 +439,7 @@ TEST_P(CurvedShell, LinearMethodsHaveTheirTransposes)
   {
     if (!isSimplex(method.name))
     {
-      const auto made = method.make();
-      made->prepare(shell.mesh, shell.partition, shell.monitor);
-      const Points mode = made->basis({ given }, shell.monitor).front();
-      Points adjoint;
-      made->applyTranspose(gradient, adjoint, shell.monitor);
-      EXPECT_NEAR(gradient.cwiseProduct(mode).sum(), adjoint.cwiseProduct(given).sum(), 1e-7)
-        << method.name;
+      expectTranspose(method, shell, given, gradient);
     }
   }
 }

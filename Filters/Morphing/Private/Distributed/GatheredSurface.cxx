@@ -36,7 +36,8 @@ struct GatheredSurface::CellRecord
 
 struct GatheredSurface::FaceRecord
 {
-  std::int64_t cell, side, corners;
+  std::int64_t cell, side;
+  std::int64_t corners; ///< listed elsewhere, as nodes hang on edges; else none
 };
 
 namespace
@@ -169,7 +170,7 @@ void GatheredSurface::Gather(const RankMesh& mesh, vtkUnstructuredGrid* piece)
   std::vector<std::int64_t> nodeIds, cellIds;
   std::vector<CellRecord> cells;
   std::vector<FaceRecord> faces;
-  std::vector<std::int64_t> corners; // of all faces
+  std::vector<std::int64_t> corners; // of faces, if nodes hang on edges
   std::vector<char> texts;
   ranks.together(
     [&]
@@ -191,21 +192,28 @@ void GatheredSurface::Gather(const RankMesh& mesh, vtkUnstructuredGrid* piece)
         cells.push_back({ whole.cellId(static_cast<Index>(cell)), whole.orientation()[cell],
           body < 0 ? body : this->NumberOfBody[body] });
       }
-      std::vector<std::pair<Index, int>> places;
-      for (std::size_t f = 0; f < whole.outerFaces().cells.size(); ++f)
+      const morph::BoundaryFaces& outer = whole.outerFaces();
+      for (std::size_t f = 0; f < outer.cells.size(); ++f)
       {
-        places.emplace_back(whole.outerFaces().cells[f], whole.outerFaces().sides[f]);
+        faces.push_back({ whole.cellId(outer.cells[f]), outer.sides[f], 0 });
       }
-      morph::BoundaryFaces outer = morph::facesAt(whole.mesh(), places);
-      whole.hanging().divideEdges(outer);
-      for (std::size_t f = 0; f < places.size(); ++f)
+      if (whole.hasHanging())
       {
-        faces.push_back({ whole.cellId(outer.cells[f]), outer.sides[f],
-          outer.offsets[f + 1] - outer.offsets[f] });
-      }
-      for (const Index node : outer.connectivity)
-      {
-        corners.push_back(whole.nodeId(node));
+        std::vector<std::pair<Index, int>> places;
+        for (std::size_t f = 0; f < outer.cells.size(); ++f)
+        {
+          places.emplace_back(outer.cells[f], outer.sides[f]);
+        }
+        morph::BoundaryFaces divided = morph::facesAt(whole.mesh(), places);
+        whole.hanging().divideEdges(divided);
+        for (std::size_t f = 0; f < places.size(); ++f)
+        {
+          faces[f].corners = divided.offsets[f + 1] - divided.offsets[f];
+        }
+        for (const Index node : divided.connectivity)
+        {
+          corners.push_back(whole.nodeId(node));
+        }
       }
     });
   this->Bytes = 0;
@@ -312,7 +320,7 @@ void GatheredSurface::Assemble(const std::vector<vtkSmartPointer<vtkUnstructured
   this->Grid = grid;
 }
 
-/// The faces by cell and side, with the corners that their own processes know.
+/// The faces by cell and side, with the corners that their own processes list, if they do.
 void GatheredSurface::DescribeFaces(const std::vector<std::vector<FaceRecord>>& faces,
   const std::vector<std::vector<std::int64_t>>& corners)
 {
@@ -340,7 +348,10 @@ void GatheredSurface::DescribeFaces(const std::vector<std::vector<FaceRecord>>& 
     offsets.push_back(static_cast<Index>(connectivity.size()));
   }
   this->Faces = morph::facesAt(this->Shell, places);
-  morph::setCorners(std::move(offsets), std::move(connectivity), this->Faces);
+  if (!connectivity.empty())
+  {
+    morph::setCorners(std::move(offsets), std::move(connectivity), this->Faces);
+  }
 }
 
 void GatheredSurface::DescribeCells(const std::vector<std::vector<CellRecord>>& cells,
