@@ -5,7 +5,7 @@
 #include "LinearMethods/LogBarrierWarp.h"
 #include "Private/Data/AffineArrays.h"
 #include "Private/Displace/Internals.h"
-#include "Private/Displace/SurfaceGrid.h"
+#include "Private/Displace/Views.h"
 #include "Private/GridMorpher/GridMorpher.h"
 #include "Private/Morph/Stiffness.h"
 #include "Private/Pipeline/CrewMonitor.h"
@@ -435,8 +435,8 @@ void vtkMorphMesh::vtkMorphing::Displace(const morph::DisplacementOptions& optio
 void vtkMorphMesh::vtkMorphing::Show(
   vtkUnstructuredGrid* grid, const Inputs& inputs, const filters::GridMorpher::Outputs& outputs)
 {
-  filters::SurfaceGrid::Write(grid, this->BoundaryOfGrid(), outputs.Mesh);
-  filters::SurfaceGrid::Write(this->Boundary, outputs.Surface);
+  filters::Views::Boundary(grid, this->BoundaryOfGrid(), outputs.Mesh);
+  filters::Views::Boundary(this->Boundary, outputs.Surface);
   this->Results.SetText("Advice", this->Advice(inputs));
   this->Results.Write(outputs.Mesh);
 }

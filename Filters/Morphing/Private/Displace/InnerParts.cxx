@@ -2,7 +2,7 @@
 // What Internals do with zones and layers, which have nodes inside of the mesh.
 #include "Private/Displace/Internals.h"
 
-#include "Private/Displace/InnerPoints.h"
+#include "Private/Displace/DisplacedSurface.h"
 #include "Private/Pipeline/Ranks.h"
 #include "Support/Error.h"
 
@@ -116,7 +116,7 @@ void vtkDisplacementAlgorithm::vtkInternals::AppendInner(
   {
     roles.push_back(result.roles[node]);
   }
-  filters::InnerPoints::Append(grid, this->Mover.inner().pointsOf(this->Model, nodes),
+  filters::DisplacedSurface::AppendInner(grid, this->Mover.inner().pointsOf(this->Model, nodes),
     this->Mover.inner().rest(this->Model)(nodes, morph::allColumns),
     result.moved(nodes, morph::allColumns), roles, output);
   if (this->Whole)

@@ -10,7 +10,6 @@
 #include "Private/Displace/BoundaryFields.h"
 #include "Private/Displace/Chosen.h"
 #include "Private/Displace/ControlPoints.h"
-#include "Private/Displace/FittedTarget.h"
 #include "Private/Displace/InputBoundary.h"
 #include "Private/Displace/Motion.h"
 #include "Private/Displace/Pick.h"
@@ -20,6 +19,7 @@
 #include "Private/Options.h"
 #include "Private/Pipeline/Input.h"
 #include "Private/Pipeline/Monitor.h"
+#include "Private/Project/TargetData.h"
 
 #include <vtkAbstractTransform.h>
 #include <vtkDataArraySelection.h>
