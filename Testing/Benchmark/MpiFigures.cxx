@@ -8,8 +8,8 @@
 #include "Timing.h"
 
 #include "Distributed/DistributedMesh.h"
+#include "Distributed/HypreSolver.h"
 #include "Distributed/RankCommunicator.h"
-#include "Distributed/SystemMethod.h"
 #include "LinearMethods/FemWarp.h"
 #include "LinearMethods/FemWarpSystem.h"
 #include "Solvers/SpdSolver.h"
@@ -132,14 +132,15 @@ void Run::distributed(const Problem& problem, const Ranks& ranks, Times& times, 
     }
   }
   const Points target = problem.target(rows, morph::allColumns);
-  morph::distributed::FemWarp method;
+  morph::FemWarp method;
   method.setTolerance(Tolerance);
   method.prepare(mesh.mesh(), morph::partitionNodes(mesh.mesh(), prescribed), *monitor,
     std::make_shared<morph::distributed::RankCommunicator>(mesh));
   Points local;
   morph::EvaluateReport report = method.evaluate(target, local, *monitor);
   times.cold.push_back(ranks.maximum(cold.seconds()));
-  const morph::distributed::HypreSolver::Seconds first = method.solver().seconds();
+  const auto& hypre = dynamic_cast<const morph::distributed::HypreSolver&>(method.solver());
+  const morph::distributed::HypreSolver::Seconds first = hypre.seconds();
   times.hypreCold.push_back(ranks.maximum(first.setUp + first.solve));
   times.memory = ranks.maximum((processBytes("VmHWM") - before) /
                                (static_cast<double>(problem.mesh.numberOfNodes()) / ranks.count()));
@@ -153,7 +154,7 @@ void Run::distributed(const Problem& problem, const Ranks& ranks, Times& times, 
   }
   const MpiTraffic sent = MpiTraffic::now() - start;
   times.warm.push_back(median(seconds));
-  times.hypreWarm.push_back(ranks.maximum((method.solver().seconds().solve - first.solve) / Warm));
+  times.hypreWarm.push_back(ranks.maximum((hypre.seconds().solve - first.solve) / Warm));
   times.iterations = report.iterations / 3.;
   times.bytes = ranks.maximum(sent.bytes / Warm);
   times.messages = ranks.maximum(sent.messages / Warm);

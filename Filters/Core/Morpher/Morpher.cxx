@@ -68,6 +68,27 @@ void requireFound(
   }
 }
 
+/// Keeps back the warnings of all processes but the first: they are of the whole mesh.
+class FirstSpeaks : public ProgressRange
+{
+public:
+  FirstSpeaks(Monitor& whole, const Communicator& processes)
+    : ProgressRange(whole, 0, 1)
+    , speaks_(processes.isFirst())
+  {
+  }
+  void warn(const std::string& message) override
+  {
+    if (this->speaks_)
+    {
+      ProgressRange::warn(message);
+    }
+  }
+
+private:
+  bool speaks_;
+};
+
 /// Returns the nodes that are in no list of the partition.
 std::vector<Index> outside(const NodePartition& partition, Index nodes)
 {
@@ -212,7 +233,7 @@ void Morpher::prepareFor(const Mesh& rest, std::shared_ptr<const Points> points,
   this->hasFree_ = !processes.all(this->partition().free.empty());
   if (this->hasFree_)
   {
-    ProgressRange whole(monitor, 0, 1);
+    FirstSpeaks whole(monitor, this->processes());
     this->doPrepare(rest, whole);
   }
   this->prepared_ = true;
@@ -339,10 +360,10 @@ EvaluateReport Morpher::evaluateHere(
   const Points displacement = this->displacementOf(prescribed, monitor);
   Points freeDisplacement(static_cast<Index>(this->partition().free.size()), 3);
   EvaluateReport report;
-  ProgressRange whole(monitor, 0, 1);
+  FirstSpeaks whole(monitor, this->processes());
   if (this->hasFree_)
   {
-    this->warnOf(displacement, monitor);
+    this->warnOf(displacement, whole);
     report = this->displaceRest(displacement, freeDisplacement, whole);
     this->keepInPlane(freeDisplacement);
   }
@@ -426,7 +447,7 @@ EvaluateReport LinearMorpher::transposeHere(
   EvaluateReport report;
   if (this->hasFree_)
   {
-    ProgressRange whole(monitor, 0, 1);
+    FirstSpeaks whole(monitor, this->processes());
     Points free = all(this->partition().free, allColumns);
     this->keepInPlane(free);
     if (this->fits_.empty())
@@ -504,7 +525,7 @@ FourFields LinearMorpher::fields(
   requireMode(prescribed, partition, this->processes());
   if (this->hasFree_)
   {
-    ProgressRange whole(monitor, 0, 1);
+    FirstSpeaks whole(monitor, this->processes());
     found = this->fits_.empty() ? this->displaceFields(prescribed, free, whole)
                                 : this->LinearMorpher::displaceFields(prescribed, free, whole);
     for (const auto& [front, back] : this->images_)
@@ -539,10 +560,11 @@ std::vector<Points> LinearMorpher::basis(const std::vector<Points>& displacement
   std::vector<Points> modes;
   std::vector<EvaluateReport> found(displacements.size());
   const auto count = static_cast<double>(displacements.size());
+  FirstSpeaks whole(monitor, this->processes());
   for (std::size_t i = 0; i < displacements.size(); ++i)
   {
     const auto done = static_cast<double>(i);
-    ProgressRange part(monitor, done / count, (done + 1) / count);
+    ProgressRange part(whole, done / count, (done + 1) / count);
     this->processes().together(
       [&] { modes.push_back(this->mode(displacements[i], found[i], part)); });
   }
