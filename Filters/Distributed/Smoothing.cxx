@@ -28,9 +28,10 @@ EvaluateReport Smoothing::displace(const Points& prescribed, Points& free, Monit
   displacement(this->partition().prescribed, allColumns) = prescribed;
   const Points ofOwn = own.take(displacement)(own.partition().prescribed, allColumns);
   Points points;
-  const MotionSmoothing::Outcome outcome = MotionSmoothing(own.mesh(), this->bodies_,
-    own.orientation(), own.partition(), this->followers_, this->options_, own.communicator())
-                                             .run(ofOwn, points, monitor);
+  const MotionSmoothing::Outcome outcome =
+    MotionSmoothing(own.mesh(), this->bodies_, own.orientation(), own.partition(), this->followers_,
+      this->options_, nullptr, own.communicator())
+      .run(ofOwn, points, monitor);
   displacement(own.nodes(), allColumns) = points - own.mesh().points;
   free = displacement(this->partition().free, allColumns);
   Monitor quiet;

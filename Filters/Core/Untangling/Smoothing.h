@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Mesh/SharedHigherOrderNodes.h"
 #include "Mesh/Topology.h"
 #include "Morpher/Morpher.h"
+#include "Untangling/MotionSmoothing.h"
 #include "Untangling/SmoothMesh.h"
+
+#include <memory>
 
 namespace morph
 {
@@ -49,5 +51,6 @@ private:
   ConnectedComponents bodies_;
   SharedHigherOrderNodes followers_;
   std::vector<std::int8_t> orientation_;
+  std::unique_ptr<Membrane> membrane_; ///< null unless the mesh is a curved shell
 };
 }
