@@ -26,7 +26,7 @@ namespace morph
 /// normal at a node, too. Cost: passes over the mesh.
 Mesh thicken(const Mesh& shell);
 
-/// Whether the front of a plane layer at `points` is out of the plane by more than 1e-6 of its size.
+/// Whether the front of a plane layer at `points` leaves the plane by more than 1e-6 of its size.
 bool leavesPlane(const ShellLayer& layer, const ConstPoints& points);
 /// A plane layer as a curved one that is as thick, for motions that leave the plane.
 Mesh bent(Mesh mesh);

@@ -16,8 +16,8 @@
 
 namespace morph
 {
-/// Where nodes of a curved shell start. They then move in tangent planes, so that the surface has to
-/// be where it belongs.
+/// Where nodes of a curved shell start. They then move in tangent planes, so that the surface has
+/// to be where it belongs.
 struct Membrane
 {
   FemWarp warp;   ///< prepared for the shell
