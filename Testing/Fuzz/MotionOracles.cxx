@@ -261,12 +261,14 @@ bool isHeld(const Case& made)
          made.choices.value("with.mask") == 0;
 }
 
-/// Whether rounding decides if free nodes in a flat side lie in the hull of their neighbors.
+/// Whether rounding decides if free nodes in a flat side, or of a plane mesh, lie in the hull of
+/// their neighbors.
 bool isOnHull(const Case& made, vtkAlgorithm* filter)
 {
   auto* shapes = vtkMorphShapes::SafeDownCast(filter);
-  return !isHeld(made) && (vtkLBWarpMorph::SafeDownCast(filter) ||
-                            (shapes && shapes->GetMethod() == vtkMorphShapes::METHOD_LBWARP));
+  const bool isFlat = !isHeld(made) || made.grid.isShell();
+  return isFlat && (vtkLBWarpMorph::SafeDownCast(filter) ||
+                     (shapes && shapes->GetMethod() == vtkMorphShapes::METHOD_LBWARP));
 }
 
 /// Whether rounding decides which of a target's places is nearest, or which simplex extrapolates to

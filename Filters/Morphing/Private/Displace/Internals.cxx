@@ -28,6 +28,7 @@
 #include <array>
 #include <functional>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 namespace filters = morph::filters;
@@ -234,8 +235,11 @@ vtkPolyData* vtkDisplacementAlgorithm::vtkInternals::WholeShell(
     if (mesh.layer.nodes > 0)
     {
       const std::vector<std::int8_t> windings = morph::frontWindings(mesh);
+      morph::BoundaryFaces faces = morph::frontFaces(mesh);
+      faces.nodes.resize(mesh.layer.nodes); // all of the input, so that messages have its ids
+      std::iota(faces.nodes.begin(), faces.nodes.end(), morph::Index(0));
       this->Shell = vtkSmartPointer<vtkPolyData>::New();
-      filters::Surface::Write(grid, mesh, morph::frontFaces(mesh), this->Shell, &windings);
+      filters::Surface::Write(grid, mesh, faces, this->Shell, &windings);
     }
     this->ShellOf = grid;
     this->ShellTime = grid->GetMTime();
