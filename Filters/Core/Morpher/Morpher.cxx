@@ -125,59 +125,6 @@ std::shared_ptr<const NodePartition> countedHere(
     elsewhere.end(), std::back_inserter(result->free));
   return result;
 }
-
-/// The nodes of a partition that are not prescribed as free ones: of those between the corners of
-/// quadratic cells, an affine motion of a curved layer is not one of its prisms, as images move
-/// alike.
-NodePartition withHigherOrder(const NodePartition& partition)
-{
-  NodePartition all;
-  all.prescribed = partition.prescribed;
-  std::merge(partition.free.begin(), partition.free.end(), partition.higherOrderNodes.begin(),
-    partition.higherOrderNodes.end(), std::back_inserter(all.free));
-  return all;
-}
-
-/// Lets nodes between corners follow: in a curved layer, for the rest that the affine fits leave.
-/// `all`: displacements of all nodes, #nodes x 3.
-void follow(
-  const HigherOrderNodes& followers, const Mesh* shell, const NodePartition& partition, Points& all)
-{
-  if (!shell || followers.empty())
-  {
-    followers.apply(all);
-    return;
-  }
-  const NodePartition every = withHigherOrder(partition);
-  const ShellFits fits(*shell, every);
-  const Points given = all(every.prescribed, allColumns);
-  Points rest = given, affine = Points::Zero(static_cast<Index>(every.free.size()), 3);
-  fits.addTo(fits.takeOff(rest), affine);
-  all(every.prescribed, allColumns) = rest;
-  all(every.free, allColumns) -= affine;
-  followers.apply(all);
-  all(every.free, allColumns) += affine;
-  all(every.prescribed, allColumns) = given;
-}
-
-/// The adjoint of follow(): `gradient` becomes that of the displacements of prescribed and free
-/// nodes.
-void followTranspose(const HigherOrderNodes& followers, const Mesh* shell,
-  const NodePartition& partition, Points& gradient)
-{
-  const Points given = gradient;
-  followers.applyTranspose(gradient);
-  if (!shell || followers.empty())
-  {
-    return;
-  }
-  const NodePartition every = withHigherOrder(partition);
-  gradient(partition.higherOrderNodes, allColumns).setZero();
-  const Points ofAffine = given(every.free, allColumns) - gradient(every.free, allColumns);
-  Points ofRest = gradient(every.prescribed, allColumns) - given(every.prescribed, allColumns);
-  ShellFits(*shell, every).transpose(ofAffine, ofRest);
-  gradient(every.prescribed, allColumns) = given(every.prescribed, allColumns) + ofRest;
-}
 }
 
 Morpher::~Morpher() = default;
@@ -337,7 +284,7 @@ void Morpher::complete(Points& displacement) const
     this->copies_->add(displacement);
   };
   copy();
-  follow(this->higherOrderNodes_, this->shell_.get(), this->partition(), displacement);
+  this->higherOrderNodes_.apply(displacement);
   copy(); // a process may not have all cells of its nodes
 }
 
@@ -440,7 +387,7 @@ EvaluateReport LinearMorpher::transposeHere(
         &elsewhere = this->copies_->countedElsewhere();
   // Prescribed nodes have no weights: they also receive the gradient from higher-order nodes.
   all(elsewhere, allColumns).setZero();
-  followTranspose(this->higherOrderNodes_, this->shell_.get(), this->partition(), all);
+  this->higherOrderNodes_.applyTranspose(all);
   this->copies_->add(all);
   all(elsewhere, allColumns).setZero();
   Points result = all(ids, allColumns);

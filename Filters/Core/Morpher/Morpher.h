@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Mesh/HigherOrderNodes.h"
 #include "Mesh/Mesh.h"
 #include "Mesh/NodePartition.h"
+#include "Morpher/Followers.h"
 #include "Morpher/ShellFits.h"
 #include "Support/Communicator.h"
 #include "Support/Monitor.h"
@@ -135,7 +135,7 @@ protected:
   /// Corners and other nodes that count on another process, ascending.
   const std::vector<Index>& countedElsewhere() const { return this->copies_->countedElsewhere(); }
 
-  HigherOrderNodes higherOrderNodes_;
+  Followers higherOrderNodes_;
 
   /// Throws Error unless the last prepare() succeeded.
   void requirePrepared() const;

@@ -2,9 +2,9 @@
 #pragma once
 
 #include "Mesh/OwnCells.h"
-#include "Mesh/SharedHigherOrderNodes.h"
 #include "Mesh/Topology.h"
 #include "Morpher/Morpher.h"
+#include "Untangling/MotionSmoothing.h"
 #include "Untangling/SmoothMesh.h"
 
 #include <memory>
@@ -50,7 +50,8 @@ protected:
 private:
   SmoothingOptions options_;
   std::unique_ptr<OwnCells> own_;
-  ConnectedComponents bodies_;       ///< of own_
-  SharedHigherOrderNodes followers_; ///< of own_
+  ConnectedComponents bodies_;         ///< of own_
+  SharedHigherOrderNodes followers_;   ///< of own_
+  std::unique_ptr<Membrane> membrane_; ///< null unless the mesh is a curved shell
 };
 }

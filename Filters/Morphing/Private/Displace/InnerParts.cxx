@@ -2,6 +2,7 @@
 // What Internals do with zones and layers, which have nodes inside of the mesh.
 #include "Private/Displace/Internals.h"
 
+#include "Private/Data/GridMesh.h"
 #include "Private/Displace/DisplacedSurface.h"
 #include "Private/Pipeline/Ranks.h"
 #include "Support/Error.h"
@@ -58,9 +59,13 @@ std::vector<filters::Zones::Part> vtkDisplacementAlgorithm::vtkInternals::FindZo
   filters::Zones::Kind kind, vtkUnstructuredGrid* grid, const filters::Zones::Options& zones) const
 {
   const filters::MergedBlocks* blocks = this->Blocks.Merged();
-  return this->Whole
-           ? filters::Zones::FindOnRanks(kind, grid, *this->Whole->Volume(), blocks, zones)
-           : filters::Zones::Find(kind, grid, this->Model.mesh, blocks, zones);
+  if (this->Whole)
+  {
+    return filters::Zones::FindOnRanks(kind, grid, *this->Whole->Volume(), blocks, zones);
+  }
+  const bool isMesh = this->Model.mesh.numberOfCells() > 0; // or the faces of a shell
+  return filters::Zones::Find(
+    kind, grid, isMesh ? this->Model.mesh : filters::GridMesh::FromGrid(grid), blocks, zones);
 }
 
 void vtkDisplacementAlgorithm::vtkInternals::FindInner(const Options& options,
@@ -75,8 +80,9 @@ void vtkDisplacementAlgorithm::vtkInternals::FindInner(const Options& options,
   }
   if (!grid)
   {
-    throw morph::Error("Zones and layers have inner nodes, and the input is a surface. Give the "
-                       "volume mesh to this filter.");
+    throw morph::Error(
+      "Zones and layers have inner nodes, and a surface moves as a whole. Give the volume mesh to "
+      "this filter or, of a shell with a target, tick the edges that move.");
   }
   const auto find = [&](filters::Zones::Kind kind)
   {
