@@ -22,8 +22,8 @@ struct Placement
 /// The displacement of x by that placement about `center`: fields (1, x - center).
 AffineMotion affineMotion(const Placement& placement);
 
-/// That part of a motion with the fields (1, x): first of its stretch about `center`, then of a turn
-/// about an axis in space and of a way along it (a screw). The turn of the whole is by at most 180
+/// That part of a motion with the fields (1, x): first of its stretch about `center`, then of a
+/// turn about an axis in space and of a way along it (a screw). The whole turns by at most 180
 /// degrees. The parts 0 and 1 are nothing and the whole, to rounding. Cost: a decomposition of a
 /// matrix of 3 x 3.
 AffineMotion partOf(const AffineMotion& whole, const Eigen::RowVector3d& center, double part);
