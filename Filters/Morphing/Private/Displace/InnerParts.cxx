@@ -10,6 +10,8 @@
 #include <vtkCellData.h>
 #include <vtkUnstructuredGrid.h>
 
+#include <optional>
+
 namespace filters = morph::filters;
 
 namespace
@@ -93,9 +95,18 @@ void vtkDisplacementAlgorithm::vtkInternals::FindInner(const Options& options,
   mover.rigidZones = find(filters::Zones::Rigid);
   if (this->RigidTransform)
   {
-    mover.inner.rigid = [this, factor = options.ScaleFactor](
-                          const Eigen::RowVector3d& x) -> Eigen::RowVector3d
+    const double factor = options.ScaleFactor;
+    std::optional<morph::AffineMotion> part;
+    if (const auto whole = filters::Motion::OfTransform(this->RigidTransform); whole && factor != 1)
     {
+      part = morph::partOf(*whole, Eigen::RowVector3d::Zero(), factor);
+    }
+    mover.inner.rigid = [this, factor, part](const Eigen::RowVector3d& x) -> Eigen::RowVector3d
+    {
+      if (part)
+      {
+        return x + part->col(0).transpose() + x * part->rightCols<3>().transpose();
+      }
       Eigen::RowVector3d to;
       this->RigidTransform->TransformPoint(x.data(), to.data());
       return factor == 1 ? to : Eigen::RowVector3d(x + factor * (to - x));

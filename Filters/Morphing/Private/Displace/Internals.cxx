@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Private/Displace/Internals.h"
 
-#include "BoundaryMover/Dimension.h"
 #include "BoundaryMover/FitToTarget.h"
 #include "BoundaryMover/Patches.h"
 #include "Mesh/ShellLayer.h"
@@ -414,11 +413,8 @@ void vtkDisplacementAlgorithm::vtkInternals::Prepare(const Options& options, vtk
     moves.Given = this->Model.points()(moves.Choice.moving, morph::allColumns) + by;
   }
   monitor.check();
-  if (movesAny && options.Displacement == DISPLACEMENT_DIMENSION)
-  {
-    this->PresentDimension = morph::dimensionOf(this->Model, moves.Choice).value;
-  }
-  moves.Targets = filters::Motion::Targets(this->Model, moves.Choice, motion);
+  moves.Targets =
+    filters::Motion::Targets(this->Model, moves.Choice, motion, &this->PresentDimension);
   if (motion.Displacement == DISPLACEMENT_ALONG_NORMALS)
   {
     // In a plane of symmetry the facets on its other side count, too.
