@@ -261,6 +261,10 @@ TEST(ShellLayer, OtherCellsAndCellsWithoutAreaAreRefused)
   flat.points.col(1).setZero();
   motions::kindOf([&] { morph::thicken(flat); }, message);
   EXPECT_NE(message.find("without area"), std::string::npos) << message;
+  Mesh few = square("quads");
+  meshes::add(few, morph::Quad, { 0, 1, 2 });
+  motions::kindOf([&] { morph::thicken(few); }, message);
+  EXPECT_NE(message.find("wrong number of nodes"), std::string::npos) << message;
 }
 
 namespace

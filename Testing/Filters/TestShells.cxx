@@ -150,7 +150,7 @@ TEST(Shells, AWideStripGoesToACylinder)
     EXPECT_GT(filter->GetMaxTargetDistanceBefore(), 0.3);
     EXPECT_EQ(filter->GetInvertedCells(), 0);
     EXPECT_GT(filter->GetMinScaledJacobian(), 0.9);
-    EXPECT_EQ(filter->GetPrescribedPoints(), quadratic ? 25 * 25 - 12 * 12 : Nodes * Nodes);
+    EXPECT_EQ(filter->GetPrescribedPoints(), grid->GetNumberOfPoints());
     const auto [least, most] = radii(grids::points(filter->GetOutput()).topRows(Nodes));
     EXPECT_GT(least, Radius * std::cos(M_PI / 96) - 1e-6); // points of the target are single
     EXPECT_LT(most, Radius + 1e-6);
@@ -180,6 +180,27 @@ TEST(Shells, AClosedOneGoesToItsTarget)
   EXPECT_EQ(filter->GetPrescribedPoints(), shell->GetNumberOfPoints());
   EXPECT_LT(filter->GetMaxTargetDistance(), 1e-12);
   EXPECT_EQ(filter->GetInvertedCells(), 0);
+}
+
+TEST(Shells, WhatIsWrongWithATargetIsNamedByThePointsOfTheShell)
+{
+  // The last edge, whose ids come after those of points of no cell, is out of reach.
+  auto grid = sheet(
+    Cells, [](const Row& x) -> Row { return wide(x) + Row(0.1, 0, 0); }, true);
+  auto filter = onto(grid, cylinder());
+  filter->SetTargetReach(0.0805);
+  filter->SetValidity(vtkMorphAlgorithm::VALIDITY_REPORT); // what stays behind is inverted
+  grids::Listener listener(filter);
+  filter->Update();
+  ASSERT_GT(listener.Warnings.size(), 0u);
+  EXPECT_NE(listener.Warnings[0].find("point ids 600, 601, 602"), std::string::npos)
+    << listener.Warnings[0];
+  ASSERT_TRUE(listener.Errors.empty()) << listener.Errors[0];
+  filter->SetKeepLayers(1);
+  filter->Update();
+  ASSERT_EQ(listener.Errors.size(), 1u);
+  EXPECT_NE(listener.Errors[0].find("tick the edges that move"), std::string::npos)
+    << listener.Errors[0];
 }
 
 TEST(Shells, OnlyTheEdgesThatAreTickedGoToTheTarget)

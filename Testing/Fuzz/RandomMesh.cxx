@@ -230,7 +230,9 @@ Mesh faces(Choices& choices, Known& known)
 
 Mesh lattice(Choices& choices, Known& known)
 {
-  known.faces = choices.pick("with.faces", { "none", "plane", "curved" }, { 20, 0.8, 0.8 });
+  known.faces = choices.chance("with.plane", 0.035)   ? Known::Plane
+                : choices.chance("with.shell", 0.035) ? Known::Curved
+                                                      : Known::None;
   if (known.faces != Known::None)
   {
     return faces(choices, known);

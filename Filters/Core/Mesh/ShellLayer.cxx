@@ -372,6 +372,7 @@ private:
 
 Mesh thicken(const Mesh& shell)
 {
+  validate(shell); // as cells are read by their types
   Mesh mesh;
   mesh.offsets = { 0 };
   mesh.layer = layerOf(shell);

@@ -83,8 +83,9 @@ void vtkDisplacementAlgorithm::vtkInternals::FindInner(const Options& options,
   if (!grid)
   {
     throw morph::Error(
-      "Zones and layers have inner nodes, and a surface moves as a whole. Give the volume mesh to "
-      "this filter or, of a shell with a target, tick the edges that move.");
+      "Zones and layers have inner nodes, and the input is a surface, or a shell that goes to its "
+      "target as a whole. Give the volume mesh to this filter or, of a shell, tick the edges that "
+      "move.");
   }
   const auto find = [&](filters::Zones::Kind kind)
   {
