@@ -5,11 +5,14 @@
 
 #include <pqDataRepresentation.h>
 #include <pqOutputPort.h>
+#include <pqView.h>
 #include <vtkPVArrayInformation.h>
 #include <vtkPVDataInformation.h>
 #include <vtkPVDataSetAttributesInformation.h>
+#include <vtkPVXMLElement.h>
 #include <vtkSMPropertyHelper.h>
 #include <vtkSMProxy.h>
+#include <vtkSMViewProxy.h>
 
 #include <string>
 #include <vector>
@@ -32,7 +35,7 @@ std::vector<std::string> colorsOf(vtkPVDataSetAttributesInformation* columns)
 }
 }
 
-void SeriesColors::updated(pqDataRepresentation* shown, vtkPVXMLElement*)
+void SeriesColors::updated(pqDataRepresentation* shown, vtkPVXMLElement* hint)
 {
   if (this->Known.contains(shown) || !shown->getProxy()->GetProperty("SeriesColor"))
   {
@@ -54,5 +57,10 @@ void SeriesColors::updated(pqDataRepresentation* shown, vtkPVXMLElement*)
     colors.Set(static_cast<unsigned int>(i), texts[i].c_str());
   }
   shown->getProxy()->UpdateVTKObjects();
+  vtkSMProxy* const chart = shown->getView()->getViewProxy();
+  vtkSMPropertyHelper(chart, "BottomAxisTitle").Set(hint->GetAttribute("x"));
+  vtkSMPropertyHelper(chart, "LeftAxisTitle").Set(hint->GetAttribute("y"));
+  vtkSMPropertyHelper(chart, "LegendLocation").Set("BottomLeft");
+  chart->UpdateVTKObjects();
   shown->renderViewEventually();
 }

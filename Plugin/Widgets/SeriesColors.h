@@ -7,9 +7,10 @@
 #include <QSet>
 
 /// Gives each line of a chart a color of its own where it is first shown: ParaView has seven, and
-/// begins again. A filter asks for it by a hint:
+/// begins again. The axes get titles, and the legend the corner that lines which fall leave free. A
+/// filter asks for it by a hint:
 ///
-///     <SeriesColors port="1"/>
+///     <SeriesColors port="1" x="Time" y="Minimum scaled Jacobian"/>
 class SeriesColors : public HintedResults
 {
   Q_OBJECT

@@ -101,6 +101,7 @@ class Status(Panels):
             self.events.set("SurfaceTable/Rows", command, f"{buttons},0,12,8,/1:0")
         self.events.set("Displacement/ComboBox", "set_string", "Vector")
         self.events.set("Surroundings/ComboBox", "set_string", "Stay")
+        self.events.set("FoldResult", "activate", "")
         said = []
         for height, validity in ((0.1, "Repair"), (1.5, "Sub step"), (1.5, "Report")):
             morph.Vector, morph.Validity = [0, 0, height], validity
@@ -116,6 +117,9 @@ class Status(Panels):
         self.events.set("RadiusChange/DoubleLineEdit0", "set_string", "-9")
         self.events.apply()  # more than there is
         self.look("Radius")
+        morph.Displacement, morph.RadiusChange = "Radius", -9
+        morph.UpdatePipeline()
+        self.assertEqual((morph.LargestValidStep, morph.BoundaryMinimum), (-1, -1))  # not known
         said.append("Failed: the mesh is undeformed")
         colors = self.GREEN, self.ORANGE, self.RED, self.RED
         played = self.play()
@@ -123,6 +127,9 @@ class Status(Panels):
         for panel, minimum in zip(played, minima):
             self.assertAlmostEqual(panel["bars"]["Minimum"], minimum, delta=0.005)
         self.assertNotIn("Minimum", played[3]["bars"])  # of what failed
+        for name in ("LargestValidStep", "BoundaryMinimum", "MinScaledJacobian"):
+            self.assertEqual([name in panel["rows"] for panel in played],
+                             [True, True, name != "LargestValidStep", False], name)
         for panel, text, color in zip(played, said, colors, strict=True):
             self.assertIn(color, panel["styles"].get(text, ""), panel["texts"])
 
