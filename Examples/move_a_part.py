@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""From a mesh to a morphed one, by Documentation/Tutorial.md's steps.
+"""Moves the upper part of any mesh, by Boundary Displacement and Morph FEMWARP.
 
 As a macro (Macros > Import new macro...): select a volume mesh, run it, and drag the box; tick Auto
 Apply (Edit > Settings) to see the mesh follow. As a script:

@@ -100,6 +100,10 @@ vtkSmartPointer<vtkAlgorithm> makeReader(const std::string& path)
   {
     return readerFor<vtkOBJReader>(path);
   }
+  if (!std::filesystem::exists(path))
+  {
+    throw Failure("Cannot read " + path + ": there is no such file.");
+  }
   throw Failure("Cannot read " + path + ": no format that --help lists has its extension." +
                 io::converterOf(path));
 }
