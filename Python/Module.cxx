@@ -188,6 +188,16 @@ std::shared_ptr<Mesh> makeMesh(const ConstPoints& points, const py::array_t<std:
     {
       mesh.points = points;
       morph::validate(mesh);
+      const auto has = [&](int dimension)
+      {
+        return std::any_of(mesh.types.begin(), mesh.types.end(),
+          [&](std::uint8_t type) { return morph::cellShape(type)->dimension == dimension; });
+      };
+      if (has(2) && !has(3))
+      {
+        throw morph::Error("The mesh has faces alone. Plane meshes and shells are morphed by the "
+                           "filters of `meshmorphing.vtk`, and not as arrays.");
+      }
       morph::replaceCollapsedCells(mesh);
       morph::orientPolyhedra(mesh);
       auto made = std::make_shared<Mesh>(std::move(mesh), nullptr, monitor);

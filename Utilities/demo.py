@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Morphs the bore, as hexahedra and as tetrahedra, from its initial to its final shape with each
-method, the way a script in an optimization loop would: one filter, a new boundary each step, the
-undeformed mesh prepared once.
+"""Morphs the bore, as hexahedra and as tetrahedra, and a plate whose hole grows, from the initial
+to the final shape with each method, the way a script in an optimization loop would: one filter, a
+new boundary each step, the undeformed mesh prepared once.
 
 Run by Utilities/demo.sh, which builds the plugin first, or by hand (a picture needs a display):
 
@@ -21,13 +21,14 @@ from pathlib import Path
 import numpy as np
 from paraview import simple
 from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkCommonDataModel import VTK_QUAD, vtkPolyData
 
 ROOT = Path(__file__).resolve().parent.parent
 sys.path[:0] = [str(ROOT / "Data"), str(ROOT / "Utilities")]
 from built_plugin import add_plugin, load_plugin  # noqa: E402  (needs the path above)
 from demo_picture import Panel, producer, save_picture  # noqa: E402
 import Models  # noqa: E402
-from Models.model_mesh import vtk_points  # noqa: E402
+from Models.model_mesh import ModelMesh, add_array, vtk_points  # noqa: E402
 from Models.vtk_files import write_grid, write_pvd  # noqa: E402
 
 
@@ -100,8 +101,44 @@ class Bore:
         self.moved.MarkModified(self.moved)
 
 
+class PlateMesh(ModelMesh):
+    """A square plate of quadrilaterals with a round hole, which grows by half of its radius."""
+
+    AROUND, ACROSS, SIDE, RADIUS = 64, 24, 4, 0.5
+
+    def __init__(self):
+        angle = 2 * np.pi * np.arange(self.AROUND) / self.AROUND
+        ray = np.column_stack([np.cos(angle), np.sin(angle), 0 * angle])
+        outline = self.SIDE / 2 / np.abs(ray).max(axis=1)
+        part = np.linspace(0, 1, self.ACROSS + 1)[:, None]
+        distance = (1 - part) * self.RADIUS + part * outline
+        inner = np.arange(self.ACROSS * self.AROUND)
+        beside = inner // self.AROUND * self.AROUND + (inner + 1) % self.AROUND
+        cells = np.column_stack([inner, inner + self.AROUND, beside + self.AROUND, beside])
+        super().__init__((distance[:, :, None] * ray).reshape(-1, 3), cells, VTK_QUAD)
+        rim = np.arange(self.AROUND)
+        self.nodes = np.concatenate([rim, rim + self.ACROSS * self.AROUND])
+
+    def boundary_positions(self, t):
+        positions = self.points[self.nodes]
+        positions[:self.AROUND] *= 1 + t / 2
+        return positions
+
+
+class Plate(Bore):
+    """The plate at rest. Its boundary is points at the nodes of its edges."""
+
+    def __init__(self):
+        self.name, self.cell_name, self.mesh = "plate", "Plane", PlateMesh()
+        self.rest = producer(self.mesh.to_vtk())
+        self.surface = vtkPolyData()
+        self.surface.SetPoints(vtk_points(self.mesh.boundary_positions(0)))
+        add_array(self.surface.GetPointData(), "MorphPointId", self.mesh.nodes)
+        self.moved = producer(self.surface)
+
+
 def morph_series(model, method, times):
-    """Morphs the bore to S_t for each t of `times`, or for the first and the last."""
+    """Morphs a model to S_t for each t of `times`, or for the first and the last."""
     if not method.every_step:
         times = [times[0], times[-1]]
     model.move_to(times[0])
@@ -210,17 +247,18 @@ def main():
     times = [step / arguments.steps for step in range(arguments.steps + 1)]
     bore = Models.get("bore")
     models = [Bore("bore_hex", "Hexahedra", bore.hex_mesh()),
-              Bore("bore_tet", "Tetrahedra", bore.tet_mesh())]
+              Bore("bore_tet", "Tetrahedra", bore.tet_mesh()), Plate()]
 
     def morph(methods):
-        """Morphs both meshes and prints a table; returns the panels of a picture by method."""
+        """Morphs all meshes and prints a table; returns the panels of the bore by method."""
         all_panels = {method.file_name: [] for method in methods}
         print_head()
         for model in models:
             all_series = [morph_series(model, method, times) for method in methods]
             print_rows(model, all_series)
             for series in all_series:
-                all_panels[series.method.file_name].extend(panels(model, series))
+                if not isinstance(model, Plate):
+                    all_panels[series.method.file_name].extend(panels(model, series))
                 if series.method is FEMWARP:
                     write_series(model.name, series, times, output)
         return all_panels
@@ -240,8 +278,8 @@ def main():
         for method in others:
             picture(method, all_panels)
     print(f"\nWritten to {output}:")
-    print("  bore_hex.pvd, bore_tet.pvd          FEMWARP in time: open in ParaView and press play")
-    print("  bore_*_before.vtu, bore_*_after.vtu its first and its last mesh")
+    print("  *.pvd                               FEMWARP in time: open in ParaView and press play")
+    print("  *_before.vtu, *_after.vtu           its first and its last mesh")
     if not arguments.no_picture:
         print("  bore-*.png                          pictures")
 

@@ -14,6 +14,7 @@
 #include <limits>
 #include <numeric>
 #include <string>
+#include <utility>
 
 #ifdef __GLIBC__
 #include <malloc.h>
@@ -219,6 +220,13 @@ void HypreSolver::prepare(LinearEquations&& equations, Monitor&)
 {
   startHypre();
   const Ranks& ranks = this->ranks_;
+  const std::vector<Index> singular = equations.singularRows();
+  if (ranks.sum(static_cast<Index>(singular.size())) > 0)
+  {
+    throw SingularRows(singular);
+  }
+  this->transposed_.reset();
+  this->components_ = std::move(equations.components);
   const CsrMatrix &own = equations.matrix, &ghosts = equations.ghosts;
   const Index rows = own.rows();
   this->rows_ = rows;
@@ -279,7 +287,7 @@ void HypreSolver::prepare(LinearEquations&& equations, Monitor&)
 }
 
 SolveReport HypreSolver::solve(
-  const Points& rhs, Points& x, double tolerance, int maxIterations, Monitor&) const
+  const RightHandSide& rhs, MultiVector& x, double tolerance, int maxIterations, Monitor&) const
 {
   const Ranks& ranks = this->ranks_;
   SolveReport report;
@@ -289,30 +297,55 @@ SolveReport HypreSolver::solve(
   }
   Handles& handles = *this->handles_;
   const Index rows = rhs.rows();
+  // hypre's norms are over all rows, so each component gets its own unit.
+  std::vector<double> size(std::max<Index>(1, this->components_.count), 0);
+  for (Index i = 0; i < rows; ++i)
+  {
+    size[this->components_.of(i)] += rhs[i].squaredNorm();
+  }
+  ranks.sum(size.data(), size.size());
+  for (double& value : size)
+  {
+    value = size.size() > 1 && value > 0 && std::isfinite(value) ? std::sqrt(value) : 1;
+  }
+  const auto unit = [&](Index i) { return size[this->components_.of(i)]; };
+  tolerance /= std::sqrt(static_cast<double>(size.size()));
   Vector b(ranks.communicator(), this->first_, rows), u(ranks.communicator(), this->first_, rows);
   std::vector<double> column(rows);
-  for (int j = 0; j < 3; ++j)
+  for (int j = 0; j < 4; ++j)
   {
-    Eigen::Map<Eigen::VectorXd>(column.data(), rows) = rhs.col(j);
-    const double norm = std::sqrt(ranks.sum(rhs.col(j).squaredNorm()));
+    for (Index i = 0; i < rows; ++i)
+    {
+      column[i] = rhs[i][j] / unit(i);
+    }
+    const auto norm2 = [&]
+    { return ranks.sum(Eigen::Map<const Eigen::VectorXd>(column.data(), rows).squaredNorm()); };
+    const double norm = std::sqrt(norm2());
+    HYPRE_ParVector pb = b.set(column);
+    for (Index i = 0; i < rows; ++i)
+    {
+      column[i] = norm > 0 ? x[i][j] / unit(i) : 0;
+    }
+    HYPRE_ParVector pu = u.set(column);
+    if (norm > 0)
+    {
+      const morph::Stopwatch watch;
+      report.iterations += handles.solve(pb, pu, tolerance, maxIterations);
+      this->seconds_.solve += watch.seconds();
+      u.get(column);
+    }
+    for (Index i = 0; i < rows; ++i)
+    {
+      x[i][j] = unit(i) * column[i];
+    }
     if (!(norm > 0))
     {
-      x.col(j).setZero();
       continue;
     }
-    HYPRE_ParVector pb = b.set(column);
-    Eigen::Map<Eigen::VectorXd>(column.data(), rows) = x.col(j);
-    HYPRE_ParVector pu = u.set(column);
-    const morph::Stopwatch watch;
-    report.iterations += handles.solve(pb, pu, tolerance, maxIterations);
-    this->seconds_.solve += watch.seconds();
-    u.get(column);
-    x.col(j) = Eigen::Map<const Eigen::VectorXd>(column.data(), rows);
     // b - A x, in place of b: what the iteration reports may have drifted.
     HYPRE_ParCSRMatrixMatvec(-1, handles.matrix, pu, 1, pb);
     b.get(column);
-    const double residual =
-      std::sqrt(ranks.sum(Eigen::Map<const Eigen::VectorXd>(column.data(), rows).squaredNorm()));
+    const double residual = std::sqrt(norm2());
     report.relativeResidual = std::max(report.relativeResidual, residual / norm);
     if (!(residual <= 1e3 * tolerance * norm) && !(residual <= 1e-9 * norm))
     {
@@ -323,6 +356,20 @@ SolveReport HypreSolver::solve(
     }
   }
   return report;
+}
+
+SolveReport HypreSolver::solveTransposed(
+  const Points& b, Points& x, double tolerance, int maxIterations, Monitor& monitor) const
+{
+  if (this->kind_ == Kind::Symmetric)
+  {
+    return this->solve(b, x, tolerance, maxIterations, monitor);
+  }
+  if (!this->transposed_)
+  {
+    this->transposed_ = this->makeTransposed(monitor);
+  }
+  return this->transposed_->solve(b, x, tolerance, maxIterations, monitor);
 }
 
 template <typename Action>
@@ -368,7 +415,7 @@ void HypreSolver::precondition(const Points& from, Points& to, Monitor&) const
     });
 }
 
-std::unique_ptr<HypreSolver> HypreSolver::transposed(Monitor& monitor) const
+std::unique_ptr<HypreSolver> HypreSolver::makeTransposed(Monitor& monitor) const
 {
   const Ranks& ranks = this->ranks_;
   struct Entry
@@ -432,7 +479,7 @@ std::unique_ptr<HypreSolver> HypreSolver::transposed(Monitor& monitor) const
     }
   }
   LinearEquations equations = { CsrMatrix(rows, rows), {},
-    CsrMatrix(rows, static_cast<Index>(ghosts.size())), ghosts };
+    CsrMatrix(rows, static_cast<Index>(ghosts.size())), ghosts, this->components_ };
   equations.matrix.setFromTriplets(own.begin(), own.end());
   equations.ghosts.setFromTriplets(others.begin(), others.end());
   result->prepare(std::move(equations), monitor);

@@ -30,17 +30,23 @@ public:
   /// Sets up the preconditioner. The rows of all ranks are numbered rank by rank. Throws Error on
   /// all ranks where there are more unknowns than hypre's integers hold.
   void prepare(LinearEquations&& equations, Monitor& monitor) override;
-  /// Each column's residual is then below `tolerance` times |b| (Euclidean norms). Throws Error on
-  /// all ranks where `maxIterations` are too few. A right-hand side of zeros gives zeros.
-  SolveReport solve(const Points& b, Points& x, double tolerance, int maxIterations,
+  /// Each column's residual is then below `tolerance` times |b| (Euclidean norms), where hypre gets
+  /// b in units of each component's size. Throws Error on all ranks where `maxIterations` are too
+  /// few. A right-hand side of zeros gives zeros.
+  SolveReport solve(const RightHandSide& b, MultiVector& x, double tolerance, int maxIterations,
+    Monitor& monitor) const override;
+  using LinearSolver::solve;
+  /// The first call makes and keeps a solver of the transposed matrix. Cost: messages of the
+  /// entries in other ranks' columns, and prepare().
+  SolveReport solveTransposed(const Points& b, Points& x, double tolerance, int maxIterations,
     Monitor& monitor) const override;
   void product(const Points& from, Points& to, Monitor& monitor) const override;
   /// One V-cycle for each column.
   void precondition(const Points& from, Points& to, Monitor& monitor) const override;
 
-  /// Returns a solver of the transposed matrix, prepared. Collective. Cost: messages of the
-  /// entries in other ranks' columns, and prepare().
-  std::unique_ptr<HypreSolver> transposed(Monitor& monitor) const;
+  /// Empty: hypre has the matrix.
+  const CsrMatrix& matrix() const override { return this->none_; }
+  const RowComponents& components() const override { return this->components_; }
 
   /// Wall-clock seconds in hypre since construction, for benchmarks.
   struct Seconds
@@ -59,6 +65,7 @@ public:
 
 private:
   struct Handles;
+  std::unique_ptr<HypreSolver> makeTransposed(Monitor& monitor) const;
   /// Calls action(column, result), vectors of hypre, for each column.
   template <typename Action>
   void byColumns(const Points& columns, Points& results, const Action& action) const;
@@ -66,6 +73,9 @@ private:
   const Ranks& ranks_;
   Kind kind_;
   std::unique_ptr<Handles> handles_;
+  CsrMatrix none_;
+  RowComponents components_;
+  mutable std::unique_ptr<HypreSolver> transposed_;
   mutable Seconds seconds_;
   std::int64_t rows_ = 0, first_ = 0, unknowns_ = 0;
 };

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Distributed/Patches.h"
 
-#include "Distributed/Silent.h"
 #include "Mesh/CellShape.h"
 #include "Quality/ScaledJacobian.h"
 #include "Support/Error.h"
@@ -196,7 +195,7 @@ struct Patch
     }
     const NodePartition partition = partitionNodes(mesh, prescribed);
     ProgressRange first(monitor, 0, 0.3), second(monitor, 0.3, 1);
-    InversionFree method;
+    morph::InversionFree method;
     method.setReference(reference);
     method.prepare(mesh, partition, first);
     method.repair(moved, second);

@@ -3,7 +3,6 @@
 
 #include "Distributed/Methods.h"
 #include "Distributed/RankCommunicator.h"
-#include "Distributed/SystemMethod.h"
 
 #include "Support/Error.h"
 
@@ -16,7 +15,7 @@ namespace morph::distributed
 PolyhedralMethod::PolyhedralMethod(std::unique_ptr<Morpher> method)
   : method_(std::move(method))
 {
-  if (const auto* system = dynamic_cast<const SystemMethod*>(this->method_.get()))
+  if (const auto* system = dynamic_cast<const StiffMethod*>(this->method_.get()))
   {
     this->stiffness_ = system->stiffness();
   }
@@ -35,7 +34,8 @@ void PolyhedralMethod::setReference(Points reference)
 void PolyhedralMethod::doPrepare(const Mesh& rest, Monitor& monitor)
 {
   const DistributedMesh& whole = meshOf(this->processes());
-  requirePrescribedBodies(whole, this->partition()); // its message counts cells, not pieces
+  requirePrescribedBodies(
+    whole.bodies(), this->partition(), this->processes()); // its message counts cells, not pieces
   // As their owners have them, who know all cells around them.
   std::vector<std::int64_t> follows(rest.numberOfNodes(), 0);
   for (const Index node : this->partition().higherOrderNodes)
@@ -68,7 +68,7 @@ void PolyhedralMethod::doPrepare(const Mesh& rest, Monitor& monitor)
   {
     this->method_->setReference(this->cut_->extend(this->reference_));
   }
-  if (auto* system = dynamic_cast<SystemMethod*>(this->method_.get()))
+  if (auto* system = dynamic_cast<StiffMethod*>(this->method_.get()))
   {
     CellStiffness stiffness = this->stiffness_;
     stiffness.values = this->cut_->extend(stiffness.values);

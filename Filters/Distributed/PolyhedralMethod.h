@@ -20,6 +20,7 @@ public:
 
   void takeEvaluateOptions(const Morpher& serial) override;
   void setReference(Points reference) override;
+  int layers() const override { return 1; }
 
 protected:
   void doPrepare(const Mesh& rest, Monitor& monitor) override;

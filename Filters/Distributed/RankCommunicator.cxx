@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Distributed/RankCommunicator.h"
 
+#include "Distributed/HypreSolver.h"
 #include "Support/ReproducibleSum.h"
 
+#include <algorithm>
 #include <cstdint>
+#include <iterator>
 #include <numeric>
 #include <unordered_map>
 #include <utility>
@@ -176,5 +179,81 @@ std::unique_ptr<CopiedRows> RankCommunicator::rows() const
 std::unique_ptr<Communicator> RankCommunicator::part(const std::vector<Index>& nodes) const
 {
   return std::make_unique<RankCommunicator>(this->mesh_, this->ofMesh(nodes));
+}
+
+std::vector<Index> RankCommunicator::gatherNodes(const std::vector<Index>& nodes) const
+{
+  return this->mesh_.ranks().gatherSorted(this->idsOf(nodes));
+}
+
+std::vector<Index> RankCommunicator::gatherCells(const std::vector<Index>& cells) const
+{
+  return this->mesh_.gatherCells(cells);
+}
+
+std::vector<Index> RankCommunicator::nodesOf(const std::vector<Index>& ids) const
+{
+  std::vector<Index> nodes;
+  for (const Index id : this->mesh_.ranks().gather(ids))
+  {
+    nodes.push_back(this->mesh_.nodeOf(id));
+  }
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  nodes.erase(nodes.begin(), std::lower_bound(nodes.begin(), nodes.end(), 0)); // -1: not here
+  return nodes;
+}
+
+Points RankCommunicator::gather(const Points& rows, const std::vector<Index>& nodes) const
+{
+  struct Row
+  {
+    std::int64_t id;
+    double x[3];
+    bool operator<(const Row& other) const { return this->id < other.id; }
+  };
+  std::vector<Row> mine;
+  for (const Index node : nodes)
+  {
+    if (this->mesh_.owns(node))
+    {
+      mine.push_back({ this->mesh_.nodeId(node), { rows(node, 0), rows(node, 1), rows(node, 2) } });
+    }
+  }
+  mine = this->mesh_.ranks().gatherSorted(mine);
+  Points result(static_cast<Index>(mine.size()), 3);
+  for (std::size_t i = 0; i < mine.size(); ++i)
+  {
+    result.row(static_cast<Index>(i)) = Eigen::Map<const Eigen::RowVector3d>(mine[i].x);
+  }
+  return result;
+}
+
+void RankCommunicator::completeCells(std::vector<double>& values) const
+{
+  values.resize(this->mesh_.mesh().numberOfCells(), 1);
+  this->mesh_.cellHalo().update(this->mesh_.ranks(), values);
+}
+
+std::vector<Index> RankCommunicator::numbersOf(
+  const std::vector<Index>& nodes, const std::vector<Index>& others) const
+{
+  std::vector<std::int64_t> numbers(this->mesh_.mesh().numberOfNodes(), -1);
+  Index next = this->mesh_.ranks().sumBefore(static_cast<Index>(nodes.size()));
+  for (const Index node : nodes)
+  {
+    numbers[node] = next++;
+  }
+  this->mesh_.halo().update(this->mesh_.ranks(), numbers);
+  std::vector<Index> result;
+  std::transform(others.begin(), others.end(), std::back_inserter(result),
+    [&](Index node) { return numbers[node]; });
+  return result;
+}
+
+std::shared_ptr<LinearSolver> RankCommunicator::makeSolver(bool isSymmetric) const
+{
+  return std::make_shared<HypreSolver>(
+    this->mesh_.ranks(), isSymmetric ? HypreSolver::Kind::Symmetric : HypreSolver::Kind::General);
 }
 }

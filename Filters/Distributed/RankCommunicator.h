@@ -5,6 +5,7 @@
 
 #include "Support/Communicator.h"
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <vector>
@@ -37,6 +38,24 @@ public:
   std::unique_ptr<CopiedRows> rows() const override;
   using Communicator::rows;
   std::unique_ptr<Communicator> part(const std::vector<Index>& nodes) const override;
+
+  bool isFirst() const override { return this->mesh_.ranks().rank() == 0; }
+  const ConnectedComponents* bodies() const override { return &this->mesh_.bodies(); }
+  const std::vector<std::int8_t>* orientation() const override
+  {
+    return &this->mesh_.orientation();
+  }
+  bool isCopy(Index cell) const override { return this->mesh_.isGhost()[cell] != 0; }
+  std::vector<Index> gatherNodes(const std::vector<Index>& nodes) const override;
+  std::vector<Index> gatherCells(const std::vector<Index>& cells) const override;
+  std::vector<Index> nodesOf(const std::vector<Index>& ids) const override;
+  Points gather(const Points& rows, const std::vector<Index>& nodes) const override;
+  void completeCells(std::vector<double>& values) const override;
+  Index join(std::vector<Index>& ofNode) const override { return this->mesh_.join(ofNode); }
+  std::vector<Index> numbersOf(
+    const std::vector<Index>& nodes, const std::vector<Index>& others) const override;
+  /// Returns a HypreSolver.
+  std::shared_ptr<LinearSolver> makeSolver(bool isSymmetric) const override;
 
 private:
   std::vector<Index> ofMesh(std::vector<Index> nodes) const;

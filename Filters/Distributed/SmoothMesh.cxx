@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Distributed/SmoothMesh.h"
 
-#include "Distributed/OwnCells.h"
+#include "Distributed/RankCommunicator.h"
+#include "Mesh/OwnCells.h"
 
 #include <memory>
 
@@ -11,8 +12,10 @@ SmoothingReport smoothMesh(const DistributedMesh& mesh, const Points& rest,
   const NodePartition& partition, const SmoothingOptions& options, Points& moved, Monitor& monitor)
 {
   const Ranks& ranks = mesh.ranks();
+  const RankCommunicator processes(mesh);
   std::unique_ptr<OwnCells> own;
-  ranks.together([&] { own = std::make_unique<OwnCells>(mesh, partition); });
+  ranks.together([&]
+    { own = std::make_unique<OwnCells>(mesh.mesh(), partition, mesh.orientation(), processes); });
   SmoothingReport report;
   Points smoothed;
   own->communicator().together(

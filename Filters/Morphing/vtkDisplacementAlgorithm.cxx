@@ -2,7 +2,7 @@
 #include "vtkDisplacementAlgorithm.h"
 
 #include "Private/Displace/Internals.h"
-#include "Private/Displace/Preview.h"
+#include "Private/Displace/Views.h"
 #include "Private/Pipeline/Property.h"
 #include "Private/Pipeline/Ranks.h"
 #include "Support/Error.h"
@@ -163,7 +163,7 @@ void vtkDisplacementAlgorithm::CopyMovedSurfaces(
                        how == DISPLACEMENT_DIMENSION;
   if (isCheap && own.Model.Surface() && (!own.Whole || filters::Ranks::IsFirst()))
   {
-    filters::Preview::Write(
+    filters::Views::Preview(
       own.Model, names, { *motion->Options, motion->Internals->Transform }, output);
   }
 }

@@ -5,7 +5,7 @@
 #include "LinearMethods/LogBarrierWarp.h"
 #include "Private/Data/AffineArrays.h"
 #include "Private/Displace/Internals.h"
-#include "Private/Displace/SurfaceGrid.h"
+#include "Private/Displace/Views.h"
 #include "Private/GridMorpher/GridMorpher.h"
 #include "Private/Morph/Stiffness.h"
 #include "Private/Pipeline/CrewMonitor.h"
@@ -100,6 +100,11 @@ public:
   {
   }
 
+  /// Whether steps start from each other.
+  bool IsSeries() const
+  {
+    return filters::GridMorpher::IsSeries(this->Filter->MeshOptions->Stepping, this->Motion.Steps);
+  }
   /// What displaces the boundary. MOVING_NOTHING: nothing moves yet. Collective on ranks.
   morph::DisplacementOptions Displacement(const Inputs& inputs);
   /// Displaces the boundary, unless it has been. `mesh`: a grid.
@@ -245,7 +250,7 @@ int vtkMorphMesh::RequestUpdateExtent(
   filters::GridMorpher::Motion& motion = this->Morphing->Motion;
   motion.Steps = filters::Steps(this->MeshOptions->NumberOfSteps, nullptr);
   motion.Step = motion.Steps.Asked(filters::Ports::Asked(request, outputVector));
-  if (filters::GridMorpher::IsSeries(this->MeshOptions->Stepping, motion.Steps))
+  if (this->Morphing->IsSeries())
   {
     this->Morphing->Morpher.CheckSeries(this->GetMTime(), false, 0, motion.Step);
   }
@@ -341,6 +346,10 @@ morph::DisplacementOptions vtkMorphMesh::vtkMorphing::Displacement(const Inputs&
   morph::DisplacementOptions options = *this->Filter->Options;
   // The boundary in the precision of the computation: the output alone is rounded.
   options.OutputPointsPrecision = DOUBLE_PRECISION;
+  if (this->Motion.Steps.Any() && !this->IsSeries())
+  {
+    options.ScaleFactor *= this->Motion.Steps.Fraction(this->Motion.Step);
+  }
   const bool anySelection =
     filters::Ranks::Count(inputs.Selection && inputs.Selection->GetNumberOfNodes() > 0) > 0;
   const bool byHandles = options.Displacement == DISPLACEMENT_HANDLES;
@@ -435,8 +444,8 @@ void vtkMorphMesh::vtkMorphing::Displace(const morph::DisplacementOptions& optio
 void vtkMorphMesh::vtkMorphing::Show(
   vtkUnstructuredGrid* grid, const Inputs& inputs, const filters::GridMorpher::Outputs& outputs)
 {
-  filters::SurfaceGrid::Write(grid, this->BoundaryOfGrid(), outputs.Mesh);
-  filters::SurfaceGrid::Write(this->Boundary, outputs.Surface);
+  filters::Views::Boundary(grid, this->BoundaryOfGrid(), outputs.Mesh);
+  filters::Views::Boundary(this->Boundary, outputs.Surface);
   this->Results.SetText("Advice", this->Advice(inputs));
   this->Results.Write(outputs.Mesh);
 }
@@ -528,8 +537,11 @@ std::string vtkMorphMesh::vtkMorphing::Morph(const filters::Input::Mesh& mesh, c
   const bool isRough = this->Filter->MeshOptions->Live && !isAffineSomewhere;
   const auto take = [&] { method = this->MethodOf(grid, soft, isRough, monitor); };
   mesh.IsDistributed ? filters::Ranks::Together(take) : take();
-  std::string partial = this->Morpher.Morph(
-    grid, this->Boundary, mesh.IsDistributed, this->Motion, method, outputs, monitor);
+  // The boundary is that of the step, but in a series, which divides the whole motion.
+  const filters::GridMorpher::Motion motion =
+    this->IsSeries() ? this->Motion : filters::GridMorpher::Motion();
+  std::string partial =
+    this->Morpher.Morph(grid, this->Boundary, mesh.IsDistributed, motion, method, outputs, monitor);
   for (const char* name : { "SlideChange", "SlideForce", "ContactGaps" })
   {
     if (vtkDataArray* array = this->Boundary->GetFieldData()->GetArray(name))

@@ -90,6 +90,9 @@ BoxAboutCenter::BoxAboutCenter(
   }
   QObject::connect(box, &pqInteractivePropertyWidget::endInteraction, this,
     [this] { QTimer::singleShot(0, this, [this] { this->Before = this->read(); }); });
+  // ParaView places it around the whole input each time that the panel shows the filter.
+  pqCoreUtilities::connect(box->widgetProxy()->GetProperty("PlaceWidget"),
+    vtkCommand::ModifiedEvent, this, SLOT(placeLater()));
   this->Before = this->read();
   this->placeLater();
 }
@@ -174,7 +177,10 @@ vtkBoundingBox BoxAboutCenter::ticked() const
 
 void BoxAboutCenter::placeLater()
 {
-  QTimer::singleShot(0, this, SLOT(place()));
+  if (!this->IsPlacing)
+  {
+    QTimer::singleShot(0, this, SLOT(place()));
+  }
 }
 
 bool BoxAboutCenter::isOfNothing(const vtkBoundingBox& box) const
@@ -185,6 +191,7 @@ bool BoxAboutCenter::isOfNothing(const vtkBoundingBox& box) const
 
 void BoxAboutCenter::place()
 {
+  this->IsPlacing = true;
   const vtkBoundingBox box = this->ticked();
   if (this->isOfNothing(box) != this->IsOfNothing)
   {
@@ -228,6 +235,7 @@ void BoxAboutCenter::place()
   {
     this->Middle[axis] = (six[2 * axis] + six[2 * axis + 1]) / 2;
   }
+  this->IsPlacing = false;
   QMetaObject::invokeMethod(this->Box, "render");
 }
 

@@ -55,6 +55,7 @@ private:
   Triple Middle{};       ///< of the box before it is moved
   Numbers Before{};
   bool IsOfNothing = false; ///< and hidden
+  bool IsPlacing = false;
 
   vtkSMProperty* named(vtkPVXMLElement* hint, const char* role) const;
   Numbers read() const;

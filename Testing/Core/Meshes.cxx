@@ -405,6 +405,12 @@ unsigned seed()
   return value;
 }
 
+Points randomPoints(Index n, std::mt19937& random)
+{
+  std::uniform_real_distribution<double> value(-1, 1);
+  return Points(n, 3).unaryExpr([&](double) { return value(random); });
+}
+
 ThreadedMonitor::ThreadedMonitor(int count)
   : threads(count)
 {

@@ -73,6 +73,8 @@ double size(const Points& points);
 
 /// The seed of random inputs: fixed, or MORPH_TEST_SEED; printed by the first call.
 unsigned seed();
+/// n x 3, from -1 to 1.
+Points randomPoints(Index n, std::mt19937& random);
 
 /// Threads without VTK; counts warnings; can cancel.
 struct ThreadedMonitor : morph::Monitor

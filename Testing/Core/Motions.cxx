@@ -117,4 +117,11 @@ Error::Kind kindOf(const std::function<void()>& call, std::string& message)
   ADD_FAILURE() << "no error";
   return Error::Kind::InvalidInput;
 }
+
+std::string messageOf(const std::function<void()>& call)
+{
+  std::string message;
+  kindOf(call, message);
+  return message;
+}
 }

@@ -46,4 +46,5 @@ bool identical(const morph::Points& a, const morph::Points& b);
 /// The kind of the morph::Error that `call` throws, and its message. Fails the test where it throws
 /// none.
 morph::Error::Kind kindOf(const std::function<void()>& call, std::string& message);
+std::string messageOf(const std::function<void()>& call);
 }

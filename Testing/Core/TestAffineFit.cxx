@@ -11,17 +11,10 @@ using namespace morph;
 
 namespace
 {
-Points randomPoints(Index n, std::mt19937& random)
-{
-  std::uniform_real_distribution<double> value(-1, 1);
-  Points points(n, 3);
-  return points.unaryExpr([&](double) { return value(random); });
-}
-
 /// Random points squeezed into a space of the given dimension, turned in space.
 Points flatPoints(Index n, int dimension, std::mt19937& random)
 {
-  Points points = randomPoints(n, random);
+  Points points = meshes::randomPoints(n, random);
   points.rightCols(3 - dimension).setZero();
   const Eigen::Matrix3d turn =
     Eigen::AngleAxisd(1.1, Eigen::Vector3d(3, -1, 2).normalized()).toRotationMatrix();
@@ -34,7 +27,7 @@ TEST(AffineFit, IsTheLeastSquaresSolutionOfMinimumNorm)
   std::mt19937 random(meshes::seed());
   for (int dimension : { 0, 1, 2, 3 })
   {
-    const Points rest = flatPoints(40, dimension, random), u = randomPoints(40, random);
+    const Points rest = flatPoints(40, dimension, random), u = meshes::randomPoints(40, random);
     const AffineLeastSquares leastSquares(rest);
     EXPECT_EQ(leastSquares.directions().rank(), dimension);
     const AffineFit fit = leastSquares.fit(u);
@@ -56,9 +49,9 @@ TEST(AffineFit, OfNearlyFlatPointsTurnsWithThem)
   turn << 0, 1, 0, -1, 0, 0, 0, 0, 1;
   for (int trial = 0; trial < 20; ++trial)
   {
-    Points rest = randomPoints(40, random);
+    Points rest = meshes::randomPoints(40, random);
     rest.col(0) *= 3e-6;
-    const Points u = randomPoints(40, random), turned = rest * turn;
+    const Points u = meshes::randomPoints(40, random), turned = rest * turn;
     const AffineFit fit = AffineLeastSquares(rest).fit(u);
     const AffineFit other = AffineLeastSquares(turned).fit(u * turn);
     for (Index i = 0; i < rest.rows(); ++i)
@@ -75,8 +68,8 @@ TEST(AffineFit, TransposeIsTheAdjoint)
   std::mt19937 random(meshes::seed());
   for (int dimension : { 0, 1, 2, 3 })
   {
-    const Points rest = flatPoints(40, dimension, random), u = randomPoints(40, random);
-    const Points x = randomPoints(25, random), gradient = randomPoints(25, random);
+    const Points rest = flatPoints(40, dimension, random), u = meshes::randomPoints(40, random);
+    const Points x = meshes::randomPoints(25, random), gradient = meshes::randomPoints(25, random);
     const AffineLeastSquares leastSquares(rest);
     const AffineFit fit = leastSquares.fit(u);
     double value = 0;

@@ -22,12 +22,6 @@ class Modes : public testing::TestWithParam<meshes::LinearMethod>
 {
 };
 
-Points randomPoints(Index rows, std::mt19937& random)
-{
-  std::uniform_real_distribution<double> number(-1, 1);
-  return Points(rows, 3).unaryExpr([&](double) { return number(random); });
-}
-
 /// Random displacements of the prescribed nodes.
 std::vector<Points> displacements(const NodePartition& partition, int count)
 {
@@ -35,7 +29,8 @@ std::vector<Points> displacements(const NodePartition& partition, int count)
   std::vector<Points> result;
   for (int i = 0; i < count; ++i)
   {
-    result.push_back(.1 * randomPoints(static_cast<Index>(partition.prescribed.size()), random));
+    result.push_back(
+      .1 * meshes::randomPoints(static_cast<Index>(partition.prescribed.size()), random));
   }
   return result;
 }
@@ -77,12 +72,12 @@ INSTANTIATE_TEST_SUITE_P(AllMethods, Modes, testing::ValuesIn(meshes::linearMeth
 TEST(Blend, HasTheSameBitsInAnyNumberOfThreads)
 {
   std::mt19937 random(meshes::seed());
-  const Points rest = randomPoints(20011, random);
+  const Points rest = meshes::randomPoints(20011, random);
   std::vector<Points> modes;
   std::vector<WeightedMode> weighted;
   for (int i = 0; i < 7; ++i)
   {
-    modes.push_back(randomPoints(rest.rows(), random));
+    modes.push_back(meshes::randomPoints(rest.rows(), random));
   }
   for (int i = 0; i < 7; ++i)
   {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "BoundaryShapes.h"
+#include "Motions.h"
 
 #include "Boundary/Classification.h"
 #include "Support/Error.h"
@@ -120,19 +121,6 @@ std::set<std::set<Index>> groups(const Classification& g, const std::vector<Inde
     result.insert(group.second);
   }
   return result;
-}
-
-std::string messageOf(const std::function<void()>& call)
-{
-  try
-  {
-    call();
-  }
-  catch (const Error& error)
-  {
-    return error.what();
-  }
-  return "(no error)";
 }
 }
 
@@ -488,7 +476,7 @@ TEST(Classification, WrongInputIsNamed)
   {
     ClassificationOptions options;
     change(options);
-    return messageOf([&] { find(mesh, options); });
+    return motions::messageOf([&] { find(mesh, options); });
   };
   const auto has = [](const std::string& text, const char* part)
   { return text.find(part) != std::string::npos; };

@@ -24,13 +24,6 @@ std::vector<Index> allIds(Index n)
   return ids;
 }
 
-Points randomPoints(Index n, std::mt19937& random)
-{
-  std::uniform_real_distribution<double> value(-1, 1);
-  Points points(n, 3);
-  return points.unaryExpr([&](double) { return value(random); });
-}
-
 bool sameBits(const Points& a, const Points& b)
 {
   return a.rows() == b.rows() && std::memcmp(a.data(), b.data(), sizeof(double) * a.size()) == 0;
@@ -124,7 +117,7 @@ TEST(InterpolationSites, AgreesWithComparingAllPairs)
   for (int round = 0; round < 5; ++round)
   {
     // Clusters whose members lie 0 to 4 steps of 0.6e-12 apart: near, chained or separate.
-    Points points = randomPoints(60, random);
+    Points points = meshes::randomPoints(60, random);
     points.row(0) << -1, -1, -1;
     points.row(1) << 1, 1, 1;
     const double tolerance = 1e-12 * meshes::size(points);
@@ -164,7 +157,7 @@ TEST(InterpolationSites, AgreesWithComparingAllPairs)
 TEST(InterpolationSites, NumbersDoNotDependOnTheNodeNumbering)
 {
   std::mt19937 random(meshes::seed());
-  Points points = randomPoints(500, random);
+  Points points = meshes::randomPoints(500, random);
   for (Index i = 400; i < 500; ++i)
   {
     points.row(i) =
@@ -214,7 +207,7 @@ TEST(InterpolationSites, ASinglePlaceIsASite)
 TEST(InterpolationSites, AverageIsTheMeanAndScatterItsAdjoint)
 {
   std::mt19937 random(meshes::seed());
-  Points points = randomPoints(90, random);
+  Points points = meshes::randomPoints(90, random);
   for (Index i = 30; i < 90; ++i)
   {
     points.row(i) = points.row(i % 20);
@@ -223,7 +216,7 @@ TEST(InterpolationSites, AverageIsTheMeanAndScatterItsAdjoint)
   std::shuffle(ids.begin(), ids.end(), random);
   const InterpolationSites sites(points, ids);
   ASSERT_EQ(sites.size(), 30);
-  const Points values = randomPoints(90, random);
+  const Points values = meshes::randomPoints(90, random);
   Monitor monitor;
   const Points mean = sites.average(values, monitor);
   Points expected = Points::Zero(30, 3);
@@ -236,7 +229,7 @@ TEST(InterpolationSites, AverageIsTheMeanAndScatterItsAdjoint)
   expected.array().colwise() /= count.array();
   EXPECT_LT((mean - expected).cwiseAbs().maxCoeff(), 1e-15);
 
-  const Points gradient = randomPoints(30, random);
+  const Points gradient = meshes::randomPoints(30, random);
   Points scattered = Points::Ones(90, 3);
   sites.scatterTranspose(gradient, scattered);
   EXPECT_NEAR(gradient.cwiseProduct(mean).sum(),
@@ -244,7 +237,7 @@ TEST(InterpolationSites, AverageIsTheMeanAndScatterItsAdjoint)
 
   // A node by itself keeps every bit.
   const InterpolationSites single(points, { 25, 27 });
-  const Points pair = randomPoints(2, random);
+  const Points pair = meshes::randomPoints(2, random);
   Points back = single.average(pair, monitor);
   EXPECT_EQ(back.row(single.siteOf()[0]), pair.row(0));
 }

@@ -15,13 +15,6 @@ using namespace morph;
 
 namespace
 {
-Points randomPoints(Index n, std::mt19937& random)
-{
-  std::uniform_real_distribution<double> value(-1, 1);
-  Points points(n, 3);
-  return points.unaryExpr([&](double) { return value(random); });
-}
-
 /// All nodes at most as far as the k-th, to a relative 1e-9 and rounding.
 std::vector<std::int32_t> byAllDistances(const Points& nodes, const Eigen::RowVector3d& x, Index k)
 {
@@ -59,7 +52,8 @@ void expectNearest(const Points& nodes, const Points& x, Index k, const std::str
 TEST(NearestNodes, AgreeWithAllDistances)
 {
   std::mt19937 random(meshes::seed());
-  const Points cloud = randomPoints(400, random), inside = randomPoints(300, random);
+  const Points cloud = meshes::randomPoints(400, random),
+               inside = meshes::randomPoints(300, random);
   for (Index k : { 1, 2, 20, 80, 399, 400, 1000 })
   {
     expectNearest(cloud, inside, k, "random");
@@ -106,7 +100,7 @@ TEST(NearestNodes, DuplicatesCountOneByOne)
 TEST(NearestNodes, GradedSetsFarFromTheOriginAreExactToo)
 {
   std::mt19937 random(meshes::seed());
-  Points nodes = randomPoints(500, random), x = randomPoints(500, random);
+  Points nodes = meshes::randomPoints(500, random), x = meshes::randomPoints(500, random);
   const auto grade = [](double v) { return v * v * v * v * v; };
   nodes = nodes.unaryExpr(grade);
   x = x.unaryExpr(grade);

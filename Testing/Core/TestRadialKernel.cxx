@@ -18,12 +18,6 @@ using namespace morph;
 
 namespace
 {
-Points randomPoints(Index n, std::mt19937& random)
-{
-  std::uniform_real_distribution<double> value(-1, 1);
-  return Points(n, 3).unaryExpr([&](double) { return value(random); });
-}
-
 double kernelOf(const RadialKernel& kernel, double r)
 {
   const double q = r / kernel.radius;
@@ -58,8 +52,9 @@ TEST(RadialKernel, SumsAreThoseOfPairs)
 {
   std::mt19937 random(meshes::seed());
   // More than one block, and lanes without a target.
-  const Points targets = randomPoints(133, random), strengths = randomPoints(57, random);
-  Points sources = randomPoints(57, random);
+  const Points targets = meshes::randomPoints(133, random),
+               strengths = meshes::randomPoints(57, random);
+  Points sources = meshes::randomPoints(57, random);
   sources.row(3) = targets.row(9); // r = 0
   for (const RadialKernel& kernel : Kernels)
   {
@@ -90,7 +85,7 @@ TEST(RadialKernel, SumsAreThoseOfPairs)
 TEST(FarthestPoints, EachIsTheFarthestFromThoseBefore)
 {
   std::mt19937 random(meshes::seed());
-  Points points = randomPoints(400, random);
+  Points points = meshes::randomPoints(400, random);
   points.topRows(50) = points.row(60).replicate(50, 1); // at one place
   Monitor monitor;
   const FarthestPoints far = farthestPoints(points, monitor);
@@ -172,11 +167,11 @@ TEST(DenseCholesky, IsTheFactorOfEigen)
 TEST(CompactCorrection, MeetsTheResidualsAtItsSitesAndVanishesAtOthers)
 {
   std::mt19937 random(meshes::seed());
-  const Points points = randomPoints(300, random);
+  const Points points = meshes::randomPoints(300, random);
   meshes::ThreadedMonitor monitor(2);
   const FarthestPoints far = farthestPoints(points, monitor);
   const Points sites = meshes::rows(points, far.order);
-  Points residuals = randomPoints(300, random), values = Points::Zero(300, 3);
+  Points residuals = meshes::randomPoints(300, random), values = Points::Zero(300, 3);
   residuals.topRows(50).setZero();
   CompactCorrection correction;
   correction.prepare(sites, far.distances, 50, sites, monitor);
@@ -184,7 +179,8 @@ TEST(CompactCorrection, MeetsTheResidualsAtItsSitesAndVanishesAtOthers)
   correction.addTo(values, residuals, monitor);
   EXPECT_LT(motions::difference(values, residuals), 1e-12);
 
-  const Points targets = randomPoints(200, random), gradient = randomPoints(200, random);
+  const Points targets = meshes::randomPoints(200, random),
+               gradient = meshes::randomPoints(200, random);
   correction.prepare(sites, far.distances, 50, targets, monitor);
   Points moved = Points::Zero(200, 3);
   correction.addTo(moved, residuals, monitor);

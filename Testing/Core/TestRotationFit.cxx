@@ -13,12 +13,6 @@ using namespace morph;
 
 namespace
 {
-Points randomPoints(Index rows, std::mt19937& random)
-{
-  std::uniform_real_distribution<double> number(-1, 1);
-  return Points(rows, 3).unaryExpr([&](double) { return number(random); });
-}
-
 Points turned(const Points& points, const AxisRotation& rotation, double factor)
 {
   const double angle = factor * rotation.angle;
@@ -45,7 +39,7 @@ TEST(RotationFit, FindsTheAxisAndTheAngle)
   std::uniform_real_distribution<double> number(-1, 1);
   for (int run = 0; run < 100; ++run)
   {
-    const Points from = randomPoints(run % 2 ? 3 : 50, random);
+    const Points from = meshes::randomPoints(run % 2 ? 3 : 50, random);
     const Eigen::Vector3d axis =
       Eigen::Vector3d(number(random), number(random), number(random)).normalized();
     const Eigen::RowVector3d center(number(random), number(random), number(random));
@@ -65,7 +59,7 @@ TEST(RotationFit, FindsTheAxisAndTheAngle)
 TEST(RotationFit, RefusesOtherMotions)
 {
   std::mt19937 random(meshes::seed());
-  const Points from = randomPoints(20, random);
+  const Points from = meshes::randomPoints(20, random);
   const Eigen::Matrix3d R = Eigen::AngleAxisd(.7, Eigen::Vector3d::UnitY()).toRotationMatrix();
   const Points to = from * R.transpose();
   EXPECT_NE(messageOf(from, 1.1 * to).find("not rigid"), std::string::npos);

@@ -154,10 +154,9 @@ TEST(SlidingWarp, AgreesOnPlanesWithADenseSolution)
     {
       ThreadedMonitor monitor(threads);
       SlidingWarp method;
-      method.prepare(block.mesh, block.prescribed, block.sliding, monitor);
-      EXPECT_EQ(method.slidingNodes(), block.sliding);
+      method.prepare(block.mesh, partitionNodes(block.mesh, block.prescribed), monitor);
       Points moved = block.moved;
-      const auto rounds = method.slide(block.surfaces(), { 3 }, moved, monitor);
+      const auto rounds = method.slide(block.sliding, block.surfaces(), { 3 }, moved, monitor);
       ASSERT_FALSE(rounds.empty());
       EXPECT_GT(rounds[0].change, 0.05);
       double last = 1;
@@ -188,12 +187,12 @@ TEST(SlidingWarp, ALooserToleranceComesAsNearAsItSays)
   const Block block(Eigen::Matrix3d::Identity());
   ThreadedMonitor monitor;
   SlidingWarp method, other;
-  method.prepare(block.mesh, block.prescribed, block.sliding, monitor);
-  other.prepare(block.mesh, block.prescribed, block.sliding, monitor);
+  method.prepare(block.mesh, partitionNodes(block.mesh, block.prescribed), monitor);
+  other.prepare(block.mesh, partitionNodes(block.mesh, block.prescribed), monitor);
   Points rough = block.moved, fine = block.moved, fresh = block.moved;
-  method.slide(block.surfaces(), { 3, 1e-5 }, rough, monitor);
-  method.slide(block.surfaces(), { 3 }, fine, monitor);
-  other.slide(block.surfaces(), { 3 }, fresh, monitor);
+  method.slide(block.sliding, block.surfaces(), { 3, 1e-5 }, rough, monitor);
+  method.slide(block.sliding, block.surfaces(), { 3 }, fine, monitor);
+  other.slide(block.sliding, block.surfaces(), { 3 }, fresh, monitor);
   EXPECT_LT((rough - fine).cwiseAbs().maxCoeff(), 1e-4 * Side);
   EXPECT_GT((rough - fine).cwiseAbs().maxCoeff(), 1e-9 * Side);
   EXPECT_TRUE(fine == fresh); // the same bits
@@ -205,7 +204,7 @@ TEST(SlidingWarp, WithoutMotionKeepsTheBits)
   Points moved = block.mesh.points;
   ThreadedMonitor monitor;
   SlidingWarp method;
-  method.prepare(block.mesh, block.prescribed, block.sliding, monitor);
-  EXPECT_TRUE(method.slide(block.surfaces(), { 3 }, moved, monitor).empty());
+  method.prepare(block.mesh, partitionNodes(block.mesh, block.prescribed), monitor);
+  EXPECT_TRUE(method.slide(block.sliding, block.surfaces(), { 3 }, moved, monitor).empty());
   EXPECT_TRUE(moved == block.mesh.points);
 }

@@ -122,19 +122,6 @@ std::vector<std::pair<std::string, Mesh>> solids()
     { "hollow ball", shapes::hollowBall(8) }, { "creased", shapes::creasedPlate() },
     { "two bodies", shapes::together(shapes::boxWithHole(16, 2, 2), meshes::tets(2, 2, 2)) } };
 }
-
-std::string messageOf(const std::function<void()>& call)
-{
-  try
-  {
-    call();
-  }
-  catch (const Error& error)
-  {
-    return error.what();
-  }
-  return "(no error)";
-}
 }
 
 TEST(SurfaceMorph, SymmetriesUnitAndOriginGoThrough)
@@ -497,7 +484,7 @@ TEST(SurfaceMorph, BadInputIsNamed)
 {
   const Case c(meshes::hexes(2, 2, 2));
   const auto message = [&](const std::vector<Index>& ids, const Points& targets)
-  { return messageOf([&] { beginMotion(c.mesh, c.faces, c.geometry, ids, targets); }); };
+  { return motions::messageOf([&] { beginMotion(c.mesh, c.faces, c.geometry, ids, targets); }); };
   const auto has = [](const std::string& text, const char* part)
   { return text.find(part) != std::string::npos; };
   EXPECT_TRUE(has(message({}, Points(0, 3)), "No node of the boundary is given"));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Meshes.h"
+#include "Motions.h"
 
 #include "Mesh/NodePartition.h"
 #include "Mesh/SimplicialDecomposition.h"
@@ -31,19 +32,6 @@ std::vector<Index> onBox(const Mesh& mesh)
     }
   }
   return ids;
-}
-
-std::string messageOf(const std::function<void()>& call)
-{
-  try
-  {
-    call();
-  }
-  catch (const Error& error)
-  {
-    return error.what();
-  }
-  return "(no error)";
 }
 }
 
@@ -215,36 +203,37 @@ TEST(Mesh, ValidateNamesWhatIsWrong)
 
   Mesh mesh = good;
   mesh.types[1] = 74; // Lagrange pyramid
-  EXPECT_NE(messageOf([&] { validate(mesh); }).find("higher order"), std::string::npos);
-  EXPECT_NE(messageOf([&] { validate(mesh); }).find("cell ids 1"), std::string::npos);
+  EXPECT_NE(motions::messageOf([&] { validate(mesh); }).find("higher order"), std::string::npos);
+  EXPECT_NE(motions::messageOf([&] { validate(mesh); }).find("cell ids 1"), std::string::npos);
 
   mesh = good;
   mesh.types[1] = Wedge;
-  EXPECT_NE(messageOf([&] { validate(mesh); }).find("wrong number of nodes"), std::string::npos);
+  EXPECT_NE(
+    motions::messageOf([&] { validate(mesh); }).find("wrong number of nodes"), std::string::npos);
 
   mesh = good;
   mesh.connectivity[9] = 12;
-  EXPECT_NE(messageOf([&] { validate(mesh); }).find("outside 0 to 11"), std::string::npos);
+  EXPECT_NE(motions::messageOf([&] { validate(mesh); }).find("outside 0 to 11"), std::string::npos);
 
   mesh = good;
   mesh.points(5, 1) = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_NE(messageOf([&] { validate(mesh); }).find("node ids 5"), std::string::npos);
+  EXPECT_NE(motions::messageOf([&] { validate(mesh); }).find("node ids 5"), std::string::npos);
 
   mesh = good;
   mesh.offsets.pop_back();
-  EXPECT_NE(messageOf([&] { validate(mesh); }).find("offsets"), std::string::npos);
+  EXPECT_NE(motions::messageOf([&] { validate(mesh); }).find("offsets"), std::string::npos);
 }
 
 TEST(NodePartition, NamesWrongAndRepeatedIds)
 {
   const Mesh mesh = meshes::hexes(2, 2, 2);
-  EXPECT_NE(messageOf(
+  EXPECT_NE(motions::messageOf(
               [&] {
                 partitionNodes(mesh, { 0, -3, 27 });
               })
               .find("-3, 27"),
     std::string::npos);
-  EXPECT_NE(messageOf(
+  EXPECT_NE(motions::messageOf(
               [&] {
                 partitionNodes(mesh, { 4, 1, 4 });
               })

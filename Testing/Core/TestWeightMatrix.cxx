@@ -12,13 +12,6 @@ using namespace morph;
 
 namespace
 {
-Points randomPoints(Index n, std::mt19937& random)
-{
-  std::uniform_real_distribution<double> value(-1, 1);
-  Points points(n, 3);
-  return points.unaryExpr([&](double) { return value(random); });
-}
-
 /// Rows of 0 to 9 entries in random columns.
 WeightMatrix randomMatrix(Index rows, Index columns, std::mt19937& random)
 {
@@ -66,7 +59,7 @@ TEST(WeightMatrix, ProductsAreThoseOfTheDenseMatrix)
     const WeightMatrix matrix = randomMatrix(rows, columns, random);
     ASSERT_EQ(matrix.rows(), rows);
     const Eigen::MatrixXd reference = dense(matrix);
-    const Points x = randomPoints(columns, random), y = randomPoints(rows, random);
+    const Points x = meshes::randomPoints(columns, random), y = meshes::randomPoints(rows, random);
     Points product = Points::Constant(2, 3, 7), transposed = product; // overwritten
     matrix.multiply(x, product, monitor);
     matrix.multiplyTranspose(y, transposed, monitor);
@@ -81,7 +74,7 @@ TEST(WeightMatrix, ThreadsDoNotShow)
 {
   std::mt19937 random(meshes::seed());
   const WeightMatrix matrix = randomMatrix(20000, 300, random);
-  const Points x = randomPoints(300, random), y = randomPoints(20000, random);
+  const Points x = meshes::randomPoints(300, random), y = meshes::randomPoints(20000, random);
   Monitor one;
   Points product, transposed;
   matrix.multiply(x, product, one);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What code of one mesh is told on ranks, against the same of the whole mesh.
-#include "Distributed/OwnCells.h"
+#include "Distributed/RankCommunicator.h"
 #include "Mesh/KRing.h"
+#include "Mesh/OwnCells.h"
 #include "Mesh/Topology.h"
 #include "Meshes.h"
 #include "Pieces.h"
@@ -16,9 +17,9 @@ namespace
 {
 using morph::Index;
 using morph::Monitor;
+using morph::OwnCells;
 using morph::Points;
 using morph::distributed::DistributedMesh;
-using morph::distributed::OwnCells;
 using morph::distributed::Ranks;
 
 struct Case
@@ -26,7 +27,9 @@ struct Case
   explicit Case(const Ranks& ranks)
     : whole(meshes::hexesAndPyramids(5, 4, 3))
     , mesh(pieces::distribute(ranks, whole, 1, meshes::seed()))
-    , own(mesh, morph::partitionNodes(mesh.mesh(), pieces::localNodes(mesh, { 0, 1, 2 })))
+    , processes(mesh)
+    , own(mesh.mesh(), morph::partitionNodes(mesh.mesh(), pieces::localNodes(mesh, { 0, 1, 2 })),
+        mesh.orientation(), processes)
   {
   }
 
@@ -35,6 +38,7 @@ struct Case
 
   morph::Mesh whole;
   DistributedMesh mesh;
+  morph::distributed::RankCommunicator processes;
   OwnCells own;
 };
 }

@@ -216,6 +216,21 @@ TEST(PlaneMeshes, AGrowingHoleMovesThePlateHarmonically)
   }
 }
 
+TEST(PlaneMeshes, AWarpedCopyOfThemIsABoundary)
+{
+  const auto turn = inPlane([](const Row& x) { return turnedBy(x, 0.3); });
+  auto grid = plate();
+  const Points turned = grids::mapped(grids::points(grid), turn);
+  vtkNew<vtkFEMWarpMorph> filter;
+  filter->SetInputData(grid);
+  filter->SetBoundaryData(grids::cloud(turned)); // without ids: points have the nodes' numbers
+  grids::Listener listener(filter);
+  filter->Update();
+  ASSERT_EQ(firstError(listener), "");
+  EXPECT_EQ(filter->GetPrescribedPoints(), 2 * Around);
+  EXPECT_LT((grids::points(filter->GetOutput()) - turned).cwiseAbs().maxCoeff(), 1e-12);
+}
+
 TEST(PlaneMeshes, SolidsMayComeBeforeAndAfterThem)
 {
   vtkNew<vtkMorphMesh> filter;

@@ -141,7 +141,11 @@ Finding checkExtracted(const Case& made, vtkPointSet* output)
   std::vector<Index> nodes;
   for (vtkIdType p = 0; ids && p < ids->GetNumberOfTuples(); ++p)
   {
-    nodes.push_back(static_cast<Index>(ids->GetComponent(p, 0)));
+    const auto node = static_cast<Index>(ids->GetComponent(p, 0));
+    if (node < made.grid.mesh.numberOfNodes()) // others are images across a shell
+    {
+      nodes.push_back(node);
+    }
   }
   return nodes == made.grid.outer
            ? Finding{}
@@ -157,7 +161,7 @@ Finding checkClassified(const Case& made, vtkPointSet* output)
     return { "geometry", "no GeometryDimension" };
   }
   const std::set<Index> outer(made.grid.outer.begin(), made.grid.outer.end());
-  const std::vector<Index> all = volumeNodes(made.grid.mesh);
+  const std::vector<Index> all = cellNodes(made.grid.mesh, {});
   const std::set<Index> inVolume(all.begin(), all.end());
   if (all.empty())
   {
@@ -195,7 +199,7 @@ Finding checkMovedBoundary(const Case& made, vtkAlgorithm* algorithm, const Run&
   // Where curves bound all surfaces. A motion that flattens or reflects a surface draws a warning,
   // and smoothing improves faces that a strong one distorts.
   const bool isAffine =
-    made.boundary.isAffine && !made.inputs[2] && run.warnings.empty() &&
+    !made.grid.isShell() && made.boundary.isAffine && !made.inputs[2] && run.warnings.empty() &&
     filter->GetSurfaceMethod() == vtkMorphBoundary::SURFACE_METHOD_WEIGHTED_RESIDUAL &&
     made.choices.value("property.FeatureAngle") < 60 &&
     filter->GetUnattachedMotion() == vtkMorphBoundary::UNATTACHED_MOTION_FOLLOW_AFFINELY &&
@@ -216,6 +220,10 @@ Finding checkMovedBoundary(const Case& made, vtkAlgorithm* algorithm, const Run&
   {
     const auto node = static_cast<Index>(ids->GetComponent(p, 0));
     const double dimension = dimensions->GetComponent(p, 0);
+    if (node >= made.grid.mesh.numberOfNodes())
+    {
+      continue; // an image across a shell
+    }
     const auto target = targets.find(node);
     const Row rest = made.grid.mesh.points.row(node);
     Row x;
@@ -255,6 +263,10 @@ Finding checkBodies(const Case& made, vtkPointSet* output, vtkDataArray* roles, 
 {
   if (made.choices.value("property.ContactDistance") != 0 ||
       made.choices.value("property.SlideRounds") != 0)
+  {
+    return {};
+  }
+  if (made.grid.isShell())
   {
     return {};
   }
@@ -299,6 +311,10 @@ Finding checkDisplaced(const Case& made, vtkPointSet* output)
   {
     const double role = roles->GetComponent(p, 0);
     const auto node = static_cast<Index>(ids->GetComponent(p, 0));
+    if (node >= made.grid.mesh.numberOfNodes())
+    {
+      continue; // an image across a shell
+    }
     const Row rest = made.grid.mesh.points.row(node);
     Row x;
     output->GetPoint(p, x.data());

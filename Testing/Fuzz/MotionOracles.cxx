@@ -157,7 +157,9 @@ double farthest(const Case& made, const Run& run, double& rounded)
       rest.resize(x.rows(), 3);
       for (Index p = 0; p < x.rows(); ++p)
       {
-        rest.row(p) = made.grid.mesh.points.row(static_cast<Index>(ids->GetComponent(p, 0)));
+        const auto node = static_cast<Index>(ids->GetComponent(p, 0));
+        const bool isImage = node >= made.grid.mesh.numberOfNodes(); // across a shell
+        rest.row(p) = isImage ? x.row(p) : made.grid.mesh.points.row(node);
       }
     }
     if (rest.rows() == x.rows() && x.rows() > 0)
@@ -259,12 +261,14 @@ bool isHeld(const Case& made)
          made.choices.value("with.mask") == 0;
 }
 
-/// Whether rounding decides if free nodes in a flat side lie in the hull of their neighbors.
+/// Whether rounding decides if free nodes in a flat side, or of a plane mesh, lie in the hull of
+/// their neighbors.
 bool isOnHull(const Case& made, vtkAlgorithm* filter)
 {
   auto* shapes = vtkMorphShapes::SafeDownCast(filter);
-  return !isHeld(made) && (vtkLBWarpMorph::SafeDownCast(filter) ||
-                            (shapes && shapes->GetMethod() == vtkMorphShapes::METHOD_LBWARP));
+  const bool isFlat = !isHeld(made) || made.grid.isShell();
+  return isFlat && (vtkLBWarpMorph::SafeDownCast(filter) ||
+                     (shapes && shapes->GetMethod() == vtkMorphShapes::METHOD_LBWARP));
 }
 
 /// Whether rounding decides which of a target's places is nearest, or which simplex extrapolates to
@@ -360,7 +364,8 @@ Finding checkFrame(Case& made, vtkAlgorithm* filter, const Run& first)
       !isOfType(output, VTK_DOUBLE) || !isOfType(input, VTK_DOUBLE) ||
       made.choices.value("boundary.float") != 0 || isUndecided(made, filter) ||
       (kind == Origin && isOnHull(made, filter)) || // digits are lost far away
-      (kind == Reflection && isInvertedByMirror(made.grid.mesh)))
+      // The images across a shell are on the side from which its cells are wound clockwise.
+      (kind == Reflection && (made.grid.isShell() || isInvertedByMirror(made.grid.mesh))))
   {
     return {};
   }
@@ -429,7 +434,8 @@ Finding checkAttached(const Case& made, vtkAlgorithm* filter, const Run& run)
   const morph::Points& rest = made.grid.mesh.points;
   const morph::Points x = pointsOf(output);
   const double allowed = 1e3 * (rounding(x, false) + rounding(rest, false));
-  for (const AttachedPart& part : attachedParts(made.grid.mesh))
+  for (const AttachedPart& part :
+    made.grid.isShell() ? std::vector<AttachedPart>() : attachedParts(made.grid.mesh))
   {
     for (std::size_t i = 0; i < part.nodes.size() && part.anchors.size() < 2; ++i)
     {
@@ -589,7 +595,7 @@ Finding checkParts(Case& made, vtkAlgorithm* algorithm)
 {
   auto* filter = vtkDisplacementAlgorithm::SafeDownCast(algorithm);
   if (!filter || !made.grid.hasParts || made.inputs.front() != made.grid.data ||
-      !made.grid.isAsMesh || volumeNodes(made.grid.mesh).empty())
+      !made.grid.isAsMesh || made.grid.nodes.empty())
   {
     return {};
   }

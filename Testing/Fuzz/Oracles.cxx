@@ -66,7 +66,7 @@ std::string summary(const Case& made)
 
 bool hasFreeNodes(const Case& made, vtkAlgorithm* filter)
 {
-  const auto inside = static_cast<morph::Index>(volumeNodes(made.grid.mesh).size());
+  const auto inside = static_cast<morph::Index>(made.grid.nodes.size());
   const auto* morph = vtkMorphAlgorithm::SafeDownCast(filter);
   return inside > (morph ? const_cast<vtkMorphAlgorithm*>(morph)->GetPrescribedPoints()
                          : static_cast<morph::Index>(made.grid.outer.size()));

@@ -112,7 +112,7 @@ Finding checkCounts(const Case& made, vtkUnstructuredGrid* output)
 {
   const morph::Mesh& mesh = made.grid.mesh;
   const morph::Points points = pointsOf(output);
-  if (volumeNodes(mesh).empty() || points.rows() != mesh.numberOfNodes())
+  if (made.grid.isShell() || made.grid.nodes.empty() || points.rows() != mesh.numberOfNodes())
   {
     return {};
   }
@@ -228,13 +228,22 @@ Finding checkPrescribed(const Case& made, vtkMorphAlgorithm* filter, vtkUnstruct
   // Floats below 1e-38 are multiples of one number, however small they are.
   const double subnormal =
     isRounded ? (1 + std::abs(scale)) * std::numeric_limits<float>::denorm_min() : 0;
+  const Row normal = made.grid.known.faces == Known::Plane
+                       ? planeOf(made.grid.mesh.points(made.grid.nodes, morph::allColumns)).second
+                       : Row(Row::Zero());
   for (const auto& [node, target] : made.boundary.targets)
   {
     const Row rest = made.grid.mesh.points.row(node);
-    const Row x = points.row(node);
     const Row wanted = scale == 1   ? target
                        : scale == 0 ? rest
                                     : Row(rest + scale * (target - rest));
+    Row x = points.row(node);
+    // A plane mesh stays in its plane where the boundary does to 1e-6 of its size.
+    const double off = (x - wanted).dot(normal);
+    const double inPlane = normal.isZero() ? 0
+                                           : (isRounded ? 1e-6 : 1e-13) *
+                                               (made.grid.size + wanted.cwiseAbs().maxCoeff());
+    x -= std::abs(off) <= 3e-6 * made.grid.size ? Row(off * normal) : Row(Row::Zero());
     bool isThere = true;
     for (int j = 0; j < 3; ++j)
     {
@@ -250,7 +259,7 @@ Finding checkPrescribed(const Case& made, vtkMorphAlgorithm* filter, vtkUnstruct
                              : wanted[j];
       // Next to nothing may be the rounding of a boundary whose coordinates have few digits by
       // chance.
-      isThere = isThere && std::abs(x[j] - value) <= rounding + 1e-100 * made.grid.size;
+      isThere = isThere && std::abs(x[j] - value) <= rounding + inPlane + 1e-100 * made.grid.size;
     }
     if (!isThere && !hangs(made.grid.mesh, node))
     {
@@ -285,7 +294,7 @@ Finding checkAffine(const Case& made, vtkMorphAlgorithm* filter, vtkUnstructured
   const bool isRounded = isFloat(output) || made.choices.value("boundary.float") != 0;
   const double allowed =
     1e-6 * made.grid.size * (1 + std::abs(scale)) + (isRounded ? 1e-5 : 1e-11) * farthest;
-  for (const Index n : volumeNodes(mesh))
+  for (const Index n : made.grid.nodes)
   {
     const Row rest = mesh.points.row(n);
     const Row mapped = rest * made.boundary.matrix.transpose() + made.boundary.shift;
@@ -342,7 +351,7 @@ bool isPlainCase(const Case& made, vtkMorphAlgorithm* filter)
       return false;
     }
   }
-  return made.isRegular && made.grid.isAsMesh && !volumeNodes(made.grid.mesh).empty() &&
+  return made.isRegular && made.grid.isAsMesh && !made.grid.nodes.empty() &&
          made.boundary.isRight && !made.boundary.targets.empty() &&
          filter->GetMatchTolerance() <= 1e-3 && isValid(made.grid.mesh, made.grid.mesh.points, 0.1);
 }
@@ -367,7 +376,10 @@ Finding checkAccepted(const Case& made, vtkMorphAlgorithm* filter, const Run& ru
   const bool isAlways = made.filter.isLinear && !mayRefuse && filter->GetFixUnnamedBoundary() &&
                         made.choices.value("with.mask") == 0;
   const bool isMild = isMildAffine(made, filter) && !(mayRefuse && mayInvert);
-  const bool hasResult = name != "LBWarpMorph" && (isAlways || isMild) && isPlainCase(made, filter);
+  // A curved shell encloses nothing that could be tessellated.
+  const bool isShell = made.grid.isShell() && name.find("Simplex") != std::string::npos;
+  const bool hasResult =
+    name != "LBWarpMorph" && !isShell && (isAlways || isMild) && isPlainCase(made, filter);
   return run.errors.empty() || !hasResult ? Finding{} : Finding{ "refused", run.errors.front() };
 }
 
@@ -377,8 +389,8 @@ Finding checkKnown(const Case& made, vtkPointSet* output, vtkDataArray* ids, con
 {
   const Known& known = made.grid.known;
   const morph::Points& rest = made.grid.mesh.points;
-  if (!known.isAny() || !made.grid.isAsMesh || isFloat(output) || !run.errors.empty() ||
-      made.choices.value("hostile.grid") != 0)
+  if (!known.isAny() || made.grid.isShell() || !made.grid.isAsMesh || isFloat(output) ||
+      !run.errors.empty() || made.choices.value("hostile.grid") != 0)
   {
     return {};
   }
@@ -528,8 +540,9 @@ Finding checkAdjoint(const Case& made, const Run& run)
     gradient->GetTuple(p, value);
     sum += Row(value[0], value[1], value[2]);
   }
-  std::vector<Index> moved = volumeNodes(made.grid.mesh);
-  for (const AttachedPart& part : attachedParts(made.grid.mesh))
+  std::vector<Index> moved = made.grid.nodes;
+  for (const AttachedPart& part :
+    made.grid.isShell() ? std::vector<AttachedPart>() : attachedParts(made.grid.mesh))
   {
     if (!part.anchors.empty())
     {
@@ -542,6 +555,14 @@ Finding checkAdjoint(const Case& made, const Run& run)
     given->GetTuple(n, value);
     wanted += Row(value[0], value[1], value[2]);
     sizes += Row(value[0], value[1], value[2]).norm();
+  }
+  if (made.grid.known.faces == Known::Plane)
+  {
+    // Derivatives are those in the plane.
+    const morph::Points nodes = made.grid.mesh.points(made.grid.nodes, morph::allColumns);
+    const Row normal = planeOf(nodes).second;
+    wanted -= wanted.dot(normal) * normal;
+    sum -= sum.dot(normal) * normal;
   }
   return (sum - wanted).norm() <= 1e-5 * sizes
            ? Finding{}

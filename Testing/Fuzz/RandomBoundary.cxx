@@ -122,7 +122,7 @@ std::vector<Index> chooseNodes(Choices& choices, const RandomGrid& grid, RandomB
     { "outer", "part of the outer", "outer and some inside", "all", "few", "one", "one end" },
     { 12, 3, 1.5, 0.4, 0.6, 0.3, 2 });
   Random random = choices.stream("boundary.nodes");
-  const std::vector<Index> all = volumeNodes(grid.mesh);
+  const std::vector<Index>& all = grid.nodes;
   const std::set<Index> outer(grid.outer.begin(), grid.outer.end());
   const double part = random.unit();
   double last = -Infinity;
@@ -319,7 +319,11 @@ vtkSmartPointer<vtkPointSet> extracted(
     surface->GetPoint(p, rest.data());
     const Row target = map(rest);
     points->InsertNextPoint(target.data());
-    boundary.targets.emplace_back(static_cast<Index>(ids->GetComponent(p, 0)), target);
+    const auto node = static_cast<Index>(ids->GetComponent(p, 0));
+    if (node < grid.mesh.numberOfNodes()) // others are images across a shell
+    {
+      boundary.targets.emplace_back(node, target);
+    }
   }
   boundary.isRight = grid.isAsMesh;
   surface->SetPoints(points);

@@ -432,7 +432,7 @@ RandomGrid randomGrid(Choices& choices)
 {
   RandomGrid result;
   result.mesh = randomMesh(choices, result.known);
-  result.hasWalls = choices.chance("with.walls", 0.06);
+  result.hasWalls = !result.isShell() && choices.chance("with.walls", 0.06);
   const Index firstWall = result.mesh.numberOfCells();
   if (result.hasWalls)
   {
@@ -454,7 +454,13 @@ RandomGrid randomGrid(Choices& choices)
   result.isAsMesh = polyhedra == 0;
   result.mesh.points = pointsOf(grid);
   morph::replaceCollapsedCells(result.mesh);
-  result.size = meshSize(result.mesh);
+  result.nodes = cellNodes(result.mesh, result.known);
+  result.size = meshSize(result.mesh, result.nodes);
+  if (result.known.faces == Known::Plane &&
+      !(planeOf(result.mesh.points(result.nodes, morph::allColumns)).first < 1e-8 * result.size))
+  {
+    result.isAsMesh = false; // coordinates of few digits leave the plane, or nearly so
+  }
   if (!(result.known.gap(result.mesh.points) < 1e-9 * result.size))
   {
     // Coordinates of few digits put nodes off their faces, or nearly so, or all at one place.
@@ -472,7 +478,7 @@ RandomGrid randomGrid(Choices& choices)
   {
     nameWalls(firstWall, grid);
   }
-  result.hasParts = result.isAsMesh && choices.chance("with.parts", 0.08);
+  result.hasParts = result.isAsMesh && !result.isShell() && choices.chance("with.parts", 0.08);
   if (result.hasParts)
   {
     nameParts(choices, result.mesh, grid);

@@ -21,6 +21,7 @@ struct RandomGrid
   morph::Mesh mesh;                    ///< what `data` was made from
   Known known;                         ///< of `mesh`
   std::vector<morph::Index> outer;     ///< outerNodes() of `mesh`, or those that are known
+  std::vector<morph::Index> nodes;     ///< cellNodes() of `mesh`
   double size = 0;                     ///< of `mesh`
   /// false: `data` is no grid, or its cells, ids or points are not those of `mesh`
   bool isAsMesh = true;
@@ -29,6 +30,7 @@ struct RandomGrid
   bool hasGhosts = false;
   bool hasOddArrays = false; ///< arrays that are too short, too long or of unexpected types
 
+  bool isShell() const { return this->known.faces != Known::None; }
   vtkUnstructuredGrid* grid() const { return vtkUnstructuredGrid::SafeDownCast(this->data); }
 };
 

@@ -170,8 +170,71 @@ void nameSides(Choices& choices, const Mesh& mesh, Known& known)
   }
 }
 
+/// A rectangle in the plane z = 0, or a saddle on it, of quadrilaterals, triangles or both, linear
+/// or quadratic.
+Mesh faces(Choices& choices, Known& known)
+{
+  const int kind =
+    choices.pick("faces.cells", { "quadrilaterals", "triangles", "both" }, { 2, 2, 1 });
+  const bool isQuadratic = choices.chance("faces.quadratic", 0.2);
+  choices.whole("mesh.order", 0, [isQuadratic](Random&) { return isQuadratic ? 1 : 0; });
+  const auto length = [](Random& random) { return 2 + random.below(4); };
+  const int nx = choices.whole("mesh.nx", 3, length), ny = choices.whole("mesh.ny", 3, length);
+  const int steps = isQuadratic ? 2 : 1; // half a cell
+  const int row = steps * ny + 1;
+  Random random = choices.stream("mesh.faces");
+  const double bend = known.faces == Known::Curved ? random.between(0.05, 0.3) : 0;
+  Mesh mesh;
+  mesh.offsets.push_back(0);
+  mesh.points.resize((steps * nx + 1) * row, 3);
+  for (int i = 0; i <= steps * nx; ++i)
+  {
+    for (int j = 0; j < row; ++j)
+    {
+      const double x = double(i) / steps, y = double(j) / steps;
+      mesh.points.row(i * row + j) = Row(x, y, bend * (x * x / nx - 0.7 * y * y / ny + x * y / 9));
+      if (i == 0 || j == 0 || i == steps * nx || j == row - 1)
+      {
+        known.outer.push_back(i * row + j);
+      }
+    }
+  }
+  for (int cell = 0; cell < nx * ny; ++cell)
+  {
+    const auto at = [&](int i, int j) -> Index
+    { return (cell / ny * steps + i) * row + cell % ny * steps + j; };
+    const Index a = at(0, 0), b = at(steps, 0), c = at(steps, steps), d = at(0, steps);
+    const bool isQuad = kind == 0 || (kind == 2 && random.happens(0.5));
+    if (!isQuadratic && isQuad)
+    {
+      meshes::add(mesh, morph::Quad, { a, b, c, d });
+    }
+    else if (!isQuadratic)
+    {
+      meshes::add(mesh, morph::Triangle, { a, b, c });
+      meshes::add(mesh, morph::Triangle, { a, c, d });
+    }
+    else if (isQuad)
+    {
+      meshes::add(
+        mesh, morph::QuadraticQuad, { a, b, c, d, at(1, 0), at(2, 1), at(1, 2), at(0, 1) });
+    }
+    else
+    {
+      meshes::add(mesh, morph::QuadraticTriangle, { a, b, c, at(1, 0), at(2, 1), at(1, 1) });
+      meshes::add(mesh, morph::QuadraticTriangle, { a, c, d, at(1, 1), at(1, 2), at(0, 1) });
+    }
+  }
+  return mesh;
+}
+
 Mesh lattice(Choices& choices, Known& known)
 {
+  known.faces = choices.pick("with.faces", { "none", "plane", "curved" }, { 20, 0.8, 0.8 });
+  if (known.faces != Known::None)
+  {
+    return faces(choices, known);
+  }
   if (const int order =
         choices.pick("with.octree", { "none", "linear", "quadratic" }, { 20, 1.2, 0.8 }))
   {
@@ -225,8 +288,8 @@ Mesh withCells(const Mesh& mesh, const std::vector<Index>& cells)
 
 /// Cells that lie elsewhere in the list, are missing or come twice: holes, several bodies, edges
 /// with four faces.
-/// `isWhole`: none is missing.
-void changeCells(Choices& choices, Mesh& mesh, bool hostile, bool isWhole)
+/// `isWhole`: none is missing. `isShell`: none of another dimension comes in.
+void changeCells(Choices& choices, Mesh& mesh, bool hostile, bool isWhole, bool isShell)
 {
   std::vector<Index> cells(mesh.numberOfCells());
   std::iota(cells.begin(), cells.end(), Index{ 0 });
@@ -294,7 +357,7 @@ void changeCells(Choices& choices, Mesh& mesh, bool hostile, bool isWhole)
       }
     }
   }
-  if (choices.chance("cells.lowerDimensions", 0.1) && mesh.numberOfNodes() > 0)
+  if (!isShell && choices.chance("cells.lowerDimensions", 0.1) && mesh.numberOfNodes() > 0)
   {
     constexpr std::uint8_t types[] = { morph::Vertex, morph::PolyVertex, morph::Line,
       morph::PolyLine, morph::Triangle, morph::TriangleStrip, morph::Polygon, morph::Pixel,
@@ -341,7 +404,7 @@ void jitter(Choices& choices, Mesh& mesh, bool hostile, const Known& known)
   Random random = choices.stream("jitter");
   for (Index n = 0; n < mesh.numberOfNodes(); ++n)
   {
-    // The smallest cells of an octree are a quarter as wide.
+    // The smallest cells of an octree are a quarter as wide, and quadratic faces soon fold.
     const double amount = (known.outer.empty() ? 1 : 0.25) * (isOuter.count(n) ? outside : inside);
     for (int j = 0; j < 3; ++j)
     {
@@ -355,6 +418,10 @@ void jitter(Choices& choices, Mesh& mesh, bool hostile, const Known& known)
   for (const Index node : known.plane)
   {
     mesh.points(node, 0) = 0;
+  }
+  if (known.faces == Known::Plane)
+  {
+    mesh.points.col(2).setZero();
   }
   // What a node hangs on may hang itself, a level above.
   for (int level = 0; level < 3; ++level)
@@ -567,13 +634,13 @@ std::vector<Index> outerNodes(const Mesh& mesh)
   return { outer.begin(), outer.end() };
 }
 
-std::vector<Index> volumeNodes(const Mesh& mesh)
+std::vector<Index> cellNodes(const Mesh& mesh, const Known& known)
 {
   std::set<Index> nodes;
   for (Index c = 0; c < mesh.numberOfCells(); ++c)
   {
     const morph::CellShape* shape = morph::cellShape(mesh.types[c]);
-    if (shape && shape->dimension == 3)
+    if (shape && shape->dimension == (known.faces == Known::None ? 3 : 2))
     {
       nodes.insert(mesh.cell(c), mesh.cell(c) + mesh.cellSize(c));
     }
@@ -583,7 +650,7 @@ std::vector<Index> volumeNodes(const Mesh& mesh)
 
 std::vector<AttachedPart> attachedParts(const Mesh& mesh)
 {
-  const std::vector<Index> volume = volumeNodes(mesh);
+  const std::vector<Index> volume = cellNodes(mesh, {});
   const auto isVolume = [&](Index n)
   { return std::binary_search(volume.begin(), volume.end(), n); };
   std::vector<std::pair<std::set<Index>, std::set<Index>>> parts; // nodes, anchors
@@ -624,9 +691,23 @@ std::vector<AttachedPart> attachedParts(const Mesh& mesh)
   return result;
 }
 
-double meshSize(const Mesh& mesh)
+std::pair<double, Eigen::RowVector3d> planeOf(const morph::Points& nodes)
 {
-  const std::vector<Index> nodes = volumeNodes(mesh);
+  const morph::Points fromMiddle = nodes.rowwise() - nodes.colwise().mean();
+  const double scale = fromMiddle.cwiseAbs().maxCoeff(); // squares of it may be no numbers
+  if (!(scale > 0) || !std::isfinite(scale))
+  {
+    return { 0, Row::Zero() };
+  }
+  const morph::Points unit = fromMiddle / scale;
+  const Eigen::Matrix3d squares = unit.transpose() * unit;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(squares); // the least comes first
+  const Row normal = axes.eigenvectors().col(0).transpose();
+  return { scale * (unit * normal.transpose()).cwiseAbs().maxCoeff(), normal };
+}
+
+double meshSize(const Mesh& mesh, const std::vector<Index>& nodes)
+{
   if (nodes.empty())
   {
     return 0;
@@ -674,17 +755,14 @@ double Known::offPlane(const morph::Points& rest, const morph::Points& moved) co
   }
   const morph::Points nodes = rest(this->plane, morph::allColumns);
   const morph::Points steps = moved(this->plane, morph::allColumns) - nodes;
-  const morph::Points fromMiddle = nodes.rowwise() - nodes.colwise().mean();
-  const Eigen::Matrix3d squares = fromMiddle.transpose() * fromMiddle;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(squares); // the least comes first
-  return (steps * axes.eigenvectors().col(0)).cwiseAbs().maxCoeff();
+  return (steps * planeOf(nodes).second.transpose()).cwiseAbs().maxCoeff();
 }
 
 Mesh randomMesh(Choices& choices, Known& known)
 {
   Mesh mesh = lattice(choices, known);
   const bool hostile = choices.chance("hostile.mesh", known.isAny() ? 0 : 0.17);
-  changeCells(choices, mesh, hostile, known.isAny());
+  changeCells(choices, mesh, hostile, known.isAny(), known.faces != Known::None);
   jitter(choices, mesh, hostile, known);
   addTwin(choices, mesh, known);
   place(choices, mesh, hostile);

@@ -14,7 +14,14 @@ namespace fuzz
 /// What is known of a mesh by how it was made. Such meshes are never hostile.
 struct Known
 {
-  std::vector<morph::Index> outer;              ///< of an octree, ascending; else none
+  enum Faces
+  {
+    None,
+    Plane,
+    Curved
+  };
+  int faces = None;                             ///< cells are triangles and quadrilaterals alone
+  std::vector<morph::Index> outer;              ///< of an octree or faces, ascending; else none
   std::vector<meshes::Octree::Hanging> hanging; ///< of an octree
   /// Nodes of one side and their images on the other, which are translated.
   std::vector<std::pair<morph::Index, morph::Index>> images;
@@ -22,7 +29,8 @@ struct Known
 
   bool isAny() const
   {
-    return !this->outer.empty() || !this->images.empty() || !this->plane.empty();
+    return this->faces != None || !this->outer.empty() || !this->images.empty() ||
+           !this->plane.empty();
   }
   /// The largest distance of a node that hangs from its place.
   double gap(const morph::Points& points) const;
@@ -33,18 +41,19 @@ struct Known
   ///@}
 };
 
-/// A small random volume mesh: all cell types, shapes from perfect to tangled, several bodies,
-/// places far away and sizes out of bounds. Node ids are right and every cell has the nodes that
-/// its type asks for.
+/// A small random mesh of volumes or of faces alone: all cell types, perfect to tangled shapes,
+/// several bodies, places far away and sizes out of bounds. Node ids are right and every cell has
+/// the nodes that its type asks for. Faces alone are triangles and quadrilaterals.
 morph::Mesh randomMesh(Choices& choices, Known& known);
 
 /// Nodes on faces that belong to one volume cell alone, mid-side and face nodes included,
 /// ascending. Told by the nodes of VTK's own faces, so that it does not depend on what is tested.
 std::vector<morph::Index> outerNodes(const morph::Mesh& mesh);
-/// Nodes of volume cells, ascending.
-std::vector<morph::Index> volumeNodes(const morph::Mesh& mesh);
+/// Nodes of cells of the mesh's dimension, ascending: of volume cells or, of a mesh that is known
+/// to have faces alone, of these.
+std::vector<morph::Index> cellNodes(const morph::Mesh& mesh, const Known& known);
 /// Nodes that no volume cell uses but cells of dimension 1 or 2 do: in parts that such cells hold
-/// together apart from volume nodes.
+/// together apart from volume nodes. Of a mesh with volume cells.
 struct AttachedPart
 {
   std::vector<morph::Index> nodes;   ///< ascending
@@ -52,5 +61,7 @@ struct AttachedPart
 };
 std::vector<AttachedPart> attachedParts(const morph::Mesh& mesh);
 /// Diagonal of the box of these nodes.
-double meshSize(const morph::Mesh& mesh);
+double meshSize(const morph::Mesh& mesh, const std::vector<morph::Index>& nodes);
+/// How far these faces are off the plane that fits their nodes best, and its normal.
+std::pair<double, Eigen::RowVector3d> planeOf(const morph::Points& nodes);
 }

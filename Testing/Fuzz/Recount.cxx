@@ -354,12 +354,52 @@ bool isInvertedByMirror(const Mesh& mesh)
   return false;
 }
 
+namespace
+{
+/// The least part of a face's normal, 1 or less, that one has at a corner: negative in a folded
+/// face. 1 for cells of other dimensions.
+double leastOfFace(const Mesh& mesh, const Points& points, Index c, double unit)
+{
+  const morph::CellShape* shape = morph::cellShape(mesh.types[c]);
+  if (!shape || shape->dimension != 2 || shape->numberOfCorners < 3)
+  {
+    return 1;
+  }
+  std::vector<Vector> normals;
+  Vector sum = Vector::Zero();
+  const int corners = shape->numberOfCorners;
+  for (int k = 0; k < corners; ++k)
+  {
+    const auto at = [&](int corner) -> Vector
+    { return points.row(mesh.cell(c)[shape->cornerNode[corner % corners]]).transpose() / unit; };
+    const Vector x = at(k);
+    normals.push_back(direction(at(k + 1) - x).cross(direction(at(k + corners - 1) - x)));
+    sum += normals.back();
+  }
+  double least = 1;
+  for (const Vector& normal : normals)
+  {
+    least = std::min(least, normal.dot(sum.normalized()));
+  }
+  return least;
+}
+}
+
 bool isValid(const Mesh& mesh, const Points& points, double least)
 {
   const double unit = extent(points);
+  bool hasVolume = false;
   for (Index c = 0; c < mesh.numberOfCells(); ++c)
   {
+    hasVolume = hasVolume || isVolume(mesh, c);
     if (isVolume(mesh, c) && !(determinants(mesh, points, c, unit).least > least))
+    {
+      return false;
+    }
+  }
+  for (Index c = 0; c < mesh.numberOfCells() && !hasVolume; ++c)
+  {
+    if (!(leastOfFace(mesh, points, c, unit) > least))
     {
       return false;
     }

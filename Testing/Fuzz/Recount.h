@@ -32,7 +32,8 @@ int isMirrored(const morph::Mesh& mesh);
 /// hexahedron or pyramid is VTK's, as nothing tells that it is mirrored.
 bool isInvertedByMirror(const morph::Mesh& mesh);
 
-/// Whether all volume cells are valid at their corners by more than rounding, in VTK's order.
+/// Whether all volume cells are valid at their corners by more than rounding, in VTK's order. Of
+/// a mesh of faces alone: whether none is folded at its corners.
 bool isValid(const morph::Mesh& mesh, const morph::Points& points, double least);
 
 /// A cell whose `claim` is 1, positive everywhere, and that is inverted at a random place by more

@@ -16,6 +16,7 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 simple.LoadPlugin(os.environ["MESHMORPHING_PLUGIN"], remote=False, ns=globals())
 
 STEPS = 4
+CANISTER = Path(__file__).resolve().parents[2] / "Data/Models/small/canister_hex_small.vtu"
 
 
 def table(proxy):
@@ -110,6 +111,55 @@ class TimeSteps(unittest.TestCase):
         # The chart shows every method, in the order of their names.
         self.assertEqual(list(display.SeriesVisibility),
                          sorted(name for name in minima if name != "Time"))
+
+
+class Turns(unittest.TestCase):
+    """A step is the motion at a fraction of its numbers: a part that turns keeps its size."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.mesh = simple.OpenDataFile(str(CANISTER))
+
+    def half_way(self, **motion):
+        """The distance of the mesh at half of the motion from that by `half` of its numbers."""
+        half = MorphMesh(Input=self.mesh, Surfaces=["Surface 3"], Validity="None",
+                         Displacement="Translate, rotate, scale", Translation=[0, 0, 0.25],
+                         Rotation=[0, 0, 45], Scale=[1.5, 1, 1], Surroundings="Follow everywhere")
+        stepped = MorphMesh(Input=self.mesh, Surfaces=["Surface 3"], Validity="None",
+                            NumberOfSteps=2, Surroundings="Follow everywhere", **motion)
+        half.UpdatePipeline()
+        stepped.UpdatePipeline(1)
+        self.assertGreater(np.abs(points(half) - points(self.mesh)).max(), 0.1)
+        return np.abs(points(half) - points(stepped)).max()
+
+    def test_numbers(self):
+        by = {"Displacement": "Translate, rotate, scale", "Translation": [0, 0, 0.5],
+              "Rotation": [0, 0, 90], "Scale": [2, 1, 1]}
+        self.assertLess(self.half_way(**by), 1e-12)
+
+    def test_an_angle(self):
+        """Two sides of a box, at 90 degrees, are opened to 120."""
+        box = simple.AppendDatasets(Input=[simple.Wavelet(WholeExtent=[0, 4] * 3)])
+        half, whole = (MorphMesh(Input=box, Surfaces=["Surface 0", "Surface 2"], Validity="None",
+                                 Displacement="Dimension", **more)
+                       for more in ({"Dimension": 105}, {"Dimension": 120, "NumberOfSteps": 2}))
+        half.UpdatePipeline()
+        whole.UpdatePipeline(1)
+        self.assertAlmostEqual(whole.PresentDimension, 90)
+        self.assertGreater(np.abs(points(whole) - points(box)).max(), 0.1)
+        self.assertLess(np.abs(points(half) - points(whole)).max(), 1e-12)
+
+    def test_a_transform_about_any_point(self):
+        """Its matrix alone is known, so the axis is found: here it is one far from the part."""
+        whole, half = (BoundaryDisplacement(Input=self.mesh, Displacement="Transform", **more)
+                       for more in ({"ScaleFactor": 0.5}, {}))
+        for filter_, angle in ((whole, 90), (half, 45)):
+            filter_.Transform = "RotateAroundOriginTransform"
+            filter_.Transform.Rotate = [0, angle, 0]
+            filter_.Transform.Originofrotation = [40, -20, 10]
+            filter_.UpdatePipeline()
+        self.assertGreater(np.abs(points(whole)).max(), 10)
+        self.assertLess(np.abs(points(whole) - points(half)).max(), 1e-12)
 
 
 if __name__ == "__main__":

@@ -137,6 +137,14 @@ class Hands:
         self.keyboard.drag([self.view(place) for place in path], button)
         self.count += 1
 
+    def slide(self, widget, part, steps=8):
+        """From the middle of a slider to a part of its length."""
+        place = self.find(f"widget\t{widget}")
+        x, y = place["x"] + place["width"] / 2, place["y"] + place["height"] / 2
+        way = place["width"] * (part - 0.5)
+        self.keyboard.drag([(x + way * i / steps, y) for i in range(steps + 1)])
+        self.count += 1
+
     def text(self, widget):
         return self.find(f"widget\t{widget}", enabled=False)["text"]
 

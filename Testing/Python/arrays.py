@@ -175,7 +175,7 @@ class Meshes(unittest.TestCase):
                 "outside 0 to 26: cell ids 1, 3": (points, [("hexahedron", strayed)]),
                 "cube with 8 nodes": (points, [("cube", cells)]),
                 "tetra with 8 nodes": (points, [("tetra", cells)]),
-                "is a volume cell": (points, [("quad", cells[:, :4])]),
+                "filters of `meshmorphing.vtk`": (points, [("quad", cells[:, :4])]),
                 "need celltypes": (points, flat),
                 "pair of type and array": (points, [cells]),
                 "at nodes 0, 1": (points + 1e60, block),

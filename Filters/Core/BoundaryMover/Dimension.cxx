@@ -245,20 +245,20 @@ Dimension dimensionOf(const BoundaryModel& model, const Choice& choice)
   return Measurement(model, choice).take();
 }
 
-Points movedToDimension(
-  const BoundaryModel& model, const Choice& choice, double wanted, DimensionSide side)
+DimensionMotion movedToDimension(const BoundaryModel& model, const Choice& choice, double wanted,
+  DimensionSide side, double fraction)
 {
   const Points from = model.points()(choice.moving, allColumns);
   const Measured measured = Measurement(model, choice).take();
   if (wanted == 0)
   {
-    return from;
+    return { measured, from };
   }
   if (measured.kind == Kind::Angle && wanted >= 180)
   {
     throw Error("`Dimension` is an angle here, which is below 180 degrees. Give a smaller one.");
   }
-  const double change = wanted - measured.value;
+  const double change = fraction * (wanted - measured.value);
   std::array<double, 2> parts = { 0.5, 0.5 };
   if (side != DimensionSide::Both)
   {
@@ -304,6 +304,6 @@ Points movedToDimension(
     throw Error("`Dimension` moves two surfaces apart that share nodes: point ids " +
                 listIds(torn) + ". Choose surfaces that do not touch, or whose angle changes.");
   }
-  return to;
+  return { measured, std::move(to) };
 }
 }

@@ -6,6 +6,7 @@
 #include "BoundaryMorphing/CurveMorph.h"
 #include "BoundaryMorphing/SurfaceMorph.h"
 #include "BoundaryMover/Patches.h"
+#include "Mesh/ShellLayer.h"
 #include "Support/Error.h"
 #include "Support/ProgressRange.h"
 
@@ -399,11 +400,16 @@ std::string reachFor(
 }
 }
 
-Points fittedTo(Target& target, const BoundaryModel& model, const Choice& choice,
+Points fittedTo(Target& target, const BoundaryModel& model, const Choice& all,
   const std::vector<Index>& sliding, const FitOptions& options, Surroundings& surroundings,
   Monitor& monitor)
 {
   const Classification& geometry = model.geometry;
+  const ShellLayer& layer = model.mesh.layer;
+  Choice choice = all;
+  choice.moving.erase(std::remove_if(choice.moving.begin(), choice.moving.end(),
+                        [&](Index node) { return layer.frontOf(node) != node; }),
+    choice.moving.end());
   const TargetRim rim(model, choice, sliding, surroundings);
   const bool isAlong = options.project == FitOptions::Project::Along;
   std::vector<Index> missed;
@@ -461,6 +467,10 @@ Points fittedTo(Target& target, const BoundaryModel& model, const Choice& choice
       " whose normal is within `TargetAngle`, or faces would fold there: point ids " +
       listIds(missed) + " of the input." + (needed.empty() ? "" : " To let them," + needed));
   }
-  return motion.moved()(choice.moving, allColumns);
+  for (const auto& [front, back] : imagesAmong(layer, all.moving))
+  {
+    motion.displacement.row(all.moving[back]) = motion.displacement.row(all.moving[front]);
+  }
+  return motion.moved()(all.moving, allColumns);
 }
 }

@@ -8,6 +8,7 @@
 #include "Support/Error.h"
 
 #include <Eigen/Geometry>
+#include <Eigen/SVD>
 
 #include <algorithm>
 #include <cmath>
@@ -36,6 +37,42 @@ AffineMotion affineMotion(const Placement& placement)
     turn(2) * turn(0) * turn(1) *
       Eigen::Vector3d::Map(placement.scale.data()).asDiagonal().toDenseMatrix() -
     Eigen::Matrix3d::Identity();
+  return motion;
+}
+
+// x goes to c + R S (x - c) + d, with the turn R and the symmetric stretch S of the polar
+// decomposition, and with the displacement d of the center c. A point c + q of the screw's axis, of
+// direction u, has (I - R) q = d' for the part d' of d across u. By R(p), the turn by p of the
+// angle a, the center goes to (I - R(p)) q + p (d - d'). With A = p a / 2 and B = a / 2 the first
+// term is sin A / sin B (cos(A - B) d' + sin(A - B) u x d'), which is exact for small angles, too,
+// whose axis is far away.
+AffineMotion partOf(const AffineMotion& whole, const Eigen::RowVector3d& center, double part)
+{
+  using Matrix = Eigen::Matrix3d;
+  const Matrix linear = whole.rightCols<3>() + Matrix::Identity();
+  const Eigen::JacobiSVD<Matrix> svd(linear, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  Eigen::Vector3d sizes = svd.singularValues();
+  Matrix out = svd.matrixU();
+  if ((out * svd.matrixV().transpose()).determinant() < 0)
+  {
+    out.col(2) *= -1; // a mirror image is a stretch by a negative factor
+    sizes[2] *= -1;
+  }
+  const Eigen::AngleAxisd turn(Matrix(out * svd.matrixV().transpose()));
+  const Matrix stretch = svd.matrixV() * sizes.asDiagonal() * svd.matrixV().transpose();
+  const Matrix turned = Eigen::AngleAxisd(part * turn.angle(), turn.axis()).toRotationMatrix() *
+                        (Matrix::Identity() + part * (stretch - Matrix::Identity()));
+
+  const Eigen::Vector3d c = center.transpose(), u = turn.axis();
+  const Eigen::Vector3d shift = whole.col(0) + whole.rightCols<3>() * c;
+  const Eigen::Vector3d along = u * u.dot(shift), across = shift - along;
+  const double half = turn.angle() / 2, partly = part * half;
+  const double ratio = std::sin(half) == 0 ? part : std::sin(partly) / std::sin(half);
+  AffineMotion motion;
+  motion.rightCols<3>() = turned - Matrix::Identity();
+  motion.col(0) =
+    part * along - motion.rightCols<3>() * c +
+    ratio * (std::cos(partly - half) * across + std::sin(partly - half) * u.cross(across));
   return motion;
 }
 

@@ -22,6 +22,12 @@ struct Placement
 /// The displacement of x by that placement about `center`: fields (1, x - center).
 AffineMotion affineMotion(const Placement& placement);
 
+/// That part of a motion with the fields (1, x): first of its stretch about `center`, then of a
+/// turn about an axis in space and of a way along it (a screw). The whole turns by at most 180
+/// degrees. The parts 0 and 1 are nothing and the whole, to rounding. Cost: a decomposition of a
+/// matrix of 3 x 3.
+AffineMotion partOf(const AffineMotion& whole, const Eigen::RowVector3d& center, double part);
+
 /// Along the normals by `distance`, outwards if positive. Normals are area-weighted over the faces
 /// that move or, at nodes without such a face, over all faces. Throws Error as nodeNormals() does.
 Points movedAlongNormals(const BoundaryModel& model, const Choice& choice, double distance);

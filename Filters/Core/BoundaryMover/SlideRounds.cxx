@@ -4,6 +4,7 @@
 #include "BoundaryMorphing/MidNodes.h"
 #include "Mesh/Polyhedra.h"
 #include "Support/Error.h"
+#include "Support/ProgressRange.h"
 
 #include <algorithm>
 #include <map>
@@ -122,7 +123,8 @@ void SlideRounds::prepare(const BoundaryModel& model, const std::vector<Index>& 
   {
     this->method_ = nullptr; // in case it throws
     auto method = std::make_unique<SlidingWarp>();
-    method->prepare(mesh, prescribed, nodes, monitor);
+    Silent silent(monitor);
+    method->prepare(mesh, partitionNodes(mesh, prescribed), silent);
     this->method_ = std::move(method);
     this->methodVersion_ = model.inputVersion;
     this->sliding_ = nodes;
@@ -167,8 +169,7 @@ void SlideRounds::run(const BoundaryModel& model, const std::vector<Index>& held
   else
   {
     this->prepare(model, nodes, result, monitor);
-    this->rounds_ =
-      this->method_->slide(along(this->method_->slidingNodes()), limits, result.moved, monitor);
+    this->rounds_ = this->method_->slide(nodes, along(nodes), limits, result.moved, monitor);
   }
   moveBetween(model, sliding, before, shapes, result.moved);
   for (const Index node : nodes)

@@ -4,11 +4,13 @@
 #include "BoundaryMorphing/CurveMorph.h"
 #include "BoundaryMorphing/MidNodes.h"
 #include "BoundaryMorphing/SurfaceSmoothing.h"
+#include "Mesh/ShellLayer.h"
 #include "Support/Error.h"
 
 #include <algorithm>
 #include <iterator>
 #include <map>
+#include <numeric>
 #include <sstream>
 #include <tuple>
 #include <utility>
@@ -224,12 +226,24 @@ const SurfaceShape& Surroundings::shapeOf(const BoundaryModel& model, Index surf
   {
     this->shapes_.clear();
     this->shapes_.resize(surfaces.size());
+    this->shell_.reset();
     this->shapesVersion_ = model.motionVersion;
   }
   if (!this->shapes_[surface])
   {
     this->shapes_[surface] =
       std::make_unique<SurfaceShape>(model.points(), model.faces, surfaces[surface]);
+    const bool isCurve =
+      model.mesh.layer.isCurved() && this->shapes_[surface]->kind() == SurfaceShape::Kind::Facets;
+    if (isCurve && !this->shell_)
+    {
+      const BoundaryFaces faces = frontFaces(model.mesh);
+      GeometrySurface front;
+      front.nodes = faces.nodes;
+      front.faces.resize(faces.cells.size());
+      std::iota(front.faces.begin(), front.faces.end(), Index(0));
+      this->shell_ = std::make_unique<SurfaceShape>(model.points(), faces, front);
+    }
   }
   return *this->shapes_[surface];
 }
@@ -237,13 +251,24 @@ const SurfaceShape& Surroundings::shapeOf(const BoundaryModel& model, Index surf
 Eigen::RowVector3d Surroundings::slid(const BoundaryModel& model,
   const std::vector<Index>& surfaces, Index node, const Eigen::RowVector3d& to)
 {
+  std::vector<const SurfaceShape*> shapes;
+  bool isCurve = false;
+  for (const Index s : surfaces)
+  {
+    shapes.push_back(&this->shapeOf(model, s));
+    isCurve = isCurve || shapes.back()->kind() == SurfaceShape::Kind::Facets;
+  }
+  if (isCurve && this->shell_)
+  {
+    shapes.push_back(this->shell_.get());
+  }
   Eigen::RowVector3d x = to;
-  for (int round = 0; round < (surfaces.size() > 1 ? 100 : 1); ++round)
+  for (int round = 0; round < (shapes.size() > 1 ? 100 : 1); ++round)
   {
     const Eigen::RowVector3d before = x;
-    for (const Index s : surfaces)
+    for (const SurfaceShape* shape : shapes)
     {
-      x = this->shapeOf(model, s).slid(model.points().row(node), x);
+      x = shape->slid(model.points().row(node), x);
     }
     if (x == before)
     {
@@ -262,14 +287,13 @@ std::vector<Index> Surroundings::ableToSlide(const BoundaryModel& model,
   off.precision(3);
   for (const Index s : surfaces)
   {
-    const SurfaceShape& shape = this->shapeOf(model, s);
     double given = 0, all = 0;
     for (const Index node : model.geometry.surfaces[s].nodes)
     {
       if (result.roles[node] == Moves || result.roles[node] == Follows)
       {
         const Eigen::RowVector3d to = result.moved.row(node);
-        const double distance = (shape.slid(model.points().row(node), to) - to).norm();
+        const double distance = (this->slid(model, { s }, node, to) - to).norm();
         all = std::max(all, distance);
         given = std::max(given, result.roles[node] == Moves ? distance : 0);
       }

@@ -91,7 +91,8 @@ public:
   const SurfaceShape& shapeOf(const BoundaryModel& model, Index surface);
   /// Where a node of these surfaces slides to from its place `to`: the nearest point of a single
   /// surface. Of several it is where they meet, by alternating projections. The node keeps its
-  /// undeformed height above each.
+  /// undeformed height above each. An edge of a curved shell that is no part of a plane, cylinder
+  /// or sphere across the shell is a curve on the shell, where the two meet.
   Eigen::RowVector3d slid(const BoundaryModel& model, const std::vector<Index>& surfaces,
     Index node, const Eigen::RowVector3d& to);
 
@@ -129,6 +130,7 @@ private:
 
   std::int64_t shapesVersion_ = -1;
   std::vector<std::unique_ptr<SurfaceShape>> shapes_; ///< #surfaces, null where not needed yet
+  std::unique_ptr<SurfaceShape> shell_;               ///< of a curved shell with a curve in it
   LocalBoundary local_;                               ///< of Follow
   Key weightsKey_, falloffKey_;
   SurfaceWeights weights_;

@@ -15,17 +15,18 @@ namespace
 {
 constexpr double Rounding = 1e-9; // of the boundary's size
 
-/// Nodes, and the largest distance of one.
+/// Nodes, and the largest distance of one. Images across a shell do not count.
 class Off
 {
 public:
-  explicit Off(double rounding)
-    : rounding_(rounding)
+  explicit Off(const BoundaryModel& model)
+    : layer_(model.mesh.layer)
+    , rounding_(Rounding * model.size)
   {
   }
   void add(Index node, double distance)
   {
-    if (distance > this->rounding_)
+    if (distance > this->rounding_ && this->layer_.frontOf(node) == node)
     {
       this->nodes_.push_back(node);
       this->largest_ = std::max(this->largest_, distance);
@@ -42,6 +43,7 @@ public:
   }
 
 private:
+  const ShellLayer& layer_;
   double rounding_;
   std::vector<Index> nodes_;
   double largest_ = 0;
@@ -52,8 +54,7 @@ void warnOfUnmet(const BoundaryModel& model, const Choice& choice, const Points&
   const std::vector<Index>& sliding, const Surroundings::Result& result, Surroundings& surroundings,
   Monitor& monitor)
 {
-  const double rounding = Rounding * model.size;
-  Off moving(rounding), held(rounding), off(rounding);
+  Off moving(model), held(model), off(model);
   for (std::size_t i = 0; i < choice.moving.size(); ++i)
   {
     const Index node = choice.moving[i];

@@ -2,6 +2,8 @@
 #include "LinearMethods/DirichletSystem.h"
 
 #include "Mesh/UnknownOrdering.h"
+#include "Solvers/GeneralSolver.h"
+#include "Solvers/SpdSolver.h"
 #include "Support/Error.h"
 #include "Support/Parallel.h"
 
@@ -11,12 +13,14 @@
 #include <limits>
 #include <memory>
 #include <sstream>
+#include <utility>
 
 namespace morph
 {
 namespace
 {
 constexpr Index Grain = 4096;
+constexpr int MaxIterations = 3000;
 
 std::vector<Index> nodesOf(const std::vector<int>& columns, const NodePartition& partition)
 {
@@ -25,16 +29,6 @@ std::vector<Index> nodesOf(const std::vector<int>& columns, const NodePartition&
     [&](int column) { return partition.prescribed[column]; });
   return nodes;
 }
-}
-
-void requireTolerance(double tolerance)
-{
-  if (!(tolerance > 0 && tolerance < 1))
-  {
-    std::ostringstream text;
-    text << "The tolerance must lie between 0 and 1; it is " << tolerance << ".";
-    throw Error(text.str());
-  }
 }
 
 AffineGuess::AffineGuess(const Points& points, const NodePartition& partition,
@@ -189,55 +183,6 @@ void AffineGuess::addTranspose(const Points& points, const NodePartition& partit
   }
 }
 
-void firstGuess(const Points& points, const std::vector<Index>& rows, const AffineGuess& guess,
-  const AffineGuess::Fits& fits, MultiVector& x, Monitor& monitor)
-{
-  x.resize(rows.size());
-  parallel(static_cast<Index>(rows.size()), Grain, monitor,
-    [&](Index i) { x[i] = fits.displacement(guess.component(i), points.row(rows[i])); });
-}
-
-double AffineResidual::of(const Points& points, const std::vector<Index>& rows,
-  const std::vector<Index>& columns, const CsrMatrix& interior, const CsrMatrix& coupling,
-  Monitor& monitor) const
-{
-  double value = this->value_;
-  if (value == Unknown)
-  {
-    value = affineResidual(points, rows, columns, interior, coupling, monitor);
-    this->value_ = value;
-  }
-  return value;
-}
-
-bool DirichletEquations::solve(const MultiVector& prescribed, double tolerance, MultiVector& x,
-  Monitor& monitor, const std::function<void(const RightHandSide&, MultiVector&)>& solver) const
-{
-  constexpr double AffineShare = 0.01; // of the tolerance, within which a motion counts as affine
-  const double affine = AffineShare * tolerance;
-  const AffineGuess::Fits fits = this->guess.fits(prescribed);
-  firstGuess(this->points, this->rows, this->guess, fits, x, monitor);
-  if (this->guess.agree(this->points, this->partition, prescribed, fits, affine) &&
-      (!this->isUniform || this->affineResidual() <= affine))
-  {
-    return false;
-  }
-  if (this->isUniform)
-  {
-    solver(RightHandSide(this->coupling, prescribed), x);
-    return true;
-  }
-  MultiVector rhs, fitted;
-  this->guess.takeOff(
-    this->points, this->partition, this->coupling, prescribed, fits, rhs, x, fitted, monitor);
-  solver(rhs, x);
-  for (std::size_t i = 0; i < fitted.size(); ++i)
-  {
-    x[i] += fitted[i];
-  }
-  return true;
-}
-
 double affineResidual(const Points& points, const std::vector<Index>& rows,
   const std::vector<Index>& columns, const CsrMatrix& interior, const CsrMatrix& coupling,
   Monitor& monitor)
@@ -277,44 +222,9 @@ double affineResidual(const Points& points, const std::vector<Index>& rows,
   return part.empty() ? 0 : *std::max_element(part.begin(), part.end());
 }
 
-Points permute(const Points& free, const std::vector<Index>& rows, const NodePartition& partition)
-{
-  Points result(static_cast<Index>(rows.size()), 3);
-  for (Index i = 0; i < result.rows(); ++i)
-  {
-    result.row(i) = free.row(indexInFree(rows, partition.free, i));
-  }
-  return result;
-}
-
 namespace
 {
-template <typename Columns>
-void copyBack(const MultiVector& x, const std::vector<Index>& rows, const NodePartition& partition,
-  Columns& free, Monitor& monitor)
-{
-  parallel(static_cast<Index>(x.size()), Grain, monitor,
-    [&](Index i)
-    {
-      free.row(indexInFree(rows, partition.free, i)) =
-        x[i].template head<Columns::ColsAtCompileTime>().transpose();
-    });
-}
-}
-
-void unpermute(const MultiVector& x, const std::vector<Index>& rows, const NodePartition& partition,
-  Points& free, Monitor& monitor)
-{
-  copyBack(x, rows, partition, free, monitor);
-}
-
-void unpermute(const MultiVector& x, const std::vector<Index>& rows, const NodePartition& partition,
-  FourFields& free, Monitor& monitor)
-{
-  copyBack(x, rows, partition, free, monitor);
-}
-
-MultiVector toRows(const FourFields& fields)
+MultiVector toRows(const FourFields& fields, Monitor&)
 {
   MultiVector rows(static_cast<std::size_t>(fields.rows()));
   for (Index i = 0; i < fields.rows(); ++i)
@@ -322,5 +232,219 @@ MultiVector toRows(const FourFields& fields)
     rows[i] = fields.row(i).transpose();
   }
   return rows;
+}
+
+/// rowComponents() of the rows of all processes. `ghosts`: the nodes of the ghosts' columns.
+RowComponents componentsOf(const LinearEquations& equations, const std::vector<Index>& rows,
+  const std::vector<Index>& ghosts, Index nodes, const Communicator& processes, Monitor& monitor)
+{
+  const RowComponents here = rowComponents(equations.matrix, monitor, equations.ghosts);
+  std::vector<Index> ofNode(nodes, -1);
+  Index next = 0;
+  for (const std::vector<Index>* some : { &rows, &ghosts })
+  {
+    for (const Index node : *some)
+    {
+      ofNode[node] = here.of(next++);
+    }
+  }
+  RowComponents result;
+  result.count = processes.join(ofNode);
+  std::transform(rows.begin(), rows.end(), std::back_inserter(result.ofRow),
+    [&](Index node) { return static_cast<int>(ofNode[node]); });
+  return result;
+}
+}
+
+void DirichletMethod::setTolerance(double tolerance)
+{
+  if (!(tolerance > 0 && tolerance < 1))
+  {
+    std::ostringstream text;
+    text << "The tolerance must lie between 0 and 1; it is " << tolerance << ".";
+    throw Error(text.str());
+  }
+  this->tolerance_ = tolerance;
+}
+
+std::vector<Index> DirichletMethod::setRows(
+  const Mesh& rest, const std::vector<Index>& rows, const ConnectedComponents& bodies)
+{
+  this->rows_ = unknownOrdering(rest, rows);
+  if (this->rows_ == this->partition().free)
+  {
+    this->rows_ = {};
+  }
+  const std::vector<Index>& prescribed = this->partition().prescribed;
+  std::vector<Index> columns = prescribed;
+  for (const Index node : this->countedElsewhere())
+  {
+    if (bodies.ofNode[node] >= 0 && !std::binary_search(prescribed.begin(), prescribed.end(), node))
+    {
+      columns.push_back(node);
+    }
+  }
+  return columns;
+}
+
+void DirichletMethod::setEquations(CsrMatrix& interior, CsrMatrix& coupling,
+  const std::vector<Index>& columns, bool isUniform, Monitor& monitor)
+{
+  const Points& rest = this->restPoints();
+  this->isUniform_ = isUniform;
+  this->affineResidual_ = Unknown;
+  LinearEquations equations;
+  this->solver_ = this->processes().makeSolver(this->isSymmetric_);
+  if (this->solver_) // of several processes, which takes the matrix
+  {
+    this->affineResidual_ = this->processes().maximum(
+      morph::affineResidual(rest, this->rows(), columns, interior, coupling, monitor));
+  }
+  equations.matrix.swap(interior);
+  if (this->solver_)
+  {
+    const auto held = static_cast<Index>(this->partition().prescribed.size());
+    const std::vector<Index> ghosts(columns.begin() + held, columns.end());
+    equations.ghosts = coupling.middleCols(held, coupling.cols() - held);
+    coupling = CsrMatrix(coupling.middleCols(0, held));
+    equations.ghostNumbers = this->processes().numbersOf(this->rows(), ghosts);
+    equations.components =
+      componentsOf(equations, this->rows(), ghosts, rest.rows(), this->processes(), monitor);
+  }
+  else if (this->isSymmetric_)
+  {
+    this->solver_ = std::make_shared<SpdSolver>();
+  }
+  else
+  {
+    this->solver_ = std::make_shared<GeneralSolver>();
+  }
+  equations.coordinates = rest(this->rows(), allColumns);
+  this->coupling_.swap(coupling);
+  try
+  {
+    this->solver_->prepare(std::move(equations), monitor);
+  }
+  catch (const SingularRows& error)
+  {
+    std::vector<Index> nodes;
+    for (const Index row : error.rows())
+    {
+      nodes.push_back(this->rows()[row]);
+    }
+    this->throwSingular(nodes);
+  }
+  this->guess_ = AffineGuess(rest, this->partition(), this->rows(), this->solver_->components(),
+    this->coupling_, this->processes());
+}
+
+void DirichletMethod::throwSingular(const std::vector<Index>& nodes) const
+{
+  throw Error(Error::Kind::Singular,
+    "Every cell around node ids " + listIds(this->processes().gatherNodes(nodes)) +
+      " has zero volume, so nothing says where they go. Prescribe them or repair the cells.");
+}
+
+double DirichletMethod::affineResidual(Monitor& monitor) const
+{
+  double value = this->affineResidual_;
+  if (value == Unknown)
+  {
+    value = morph::affineResidual(this->restPoints(), this->rows(), this->partition().prescribed,
+      this->solver_->matrix(), this->coupling_, monitor);
+    this->affineResidual_ = value;
+  }
+  return value;
+}
+
+EvaluateReport DirichletMethod::report(const SolveReport& solved, Monitor& monitor) const
+{
+  reportRounding(solved, this->tolerance_, monitor);
+  return { solved.iterations, solved.relativeResidual, this->statistics_ };
+}
+
+EvaluateReport DirichletMethod::solve(
+  const MultiVector& prescribed, MultiVector& x, Monitor& monitor) const
+{
+  constexpr double AffineShare = 0.01; // of the tolerance, within which a motion counts as affine
+  const double affine = AffineShare * this->tolerance_;
+  const Points& rest = this->restPoints();
+  const NodePartition& partition = this->partition();
+  const AffineGuess::Fits fits = this->guess_.fits(prescribed);
+  x.resize(this->rows().size());
+  parallel(static_cast<Index>(x.size()), Grain, monitor,
+    [&](Index i)
+    { x[i] = fits.displacement(this->guess_.component(i), rest.row(this->rows()[i])); });
+  // A pass over the matrix takes longer than all else.
+  if (this->guess_.agree(rest, partition, prescribed, fits, affine) &&
+      (!this->isUniform_ || this->affineResidual(monitor) <= affine))
+  {
+    return this->report({}, monitor);
+  }
+  MultiVector rhs, fitted;
+  if (!this->isUniform_)
+  {
+    this->guess_.takeOff(
+      rest, partition, this->coupling_, prescribed, fits, rhs, x, fitted, monitor);
+  }
+  const SolveReport solved = this->solver_->solve(
+    this->isUniform_ ? RightHandSide(this->coupling_, prescribed) : RightHandSide(rhs), x,
+    this->tolerance_, MaxIterations, monitor);
+  for (std::size_t i = 0; i < fitted.size(); ++i)
+  {
+    x[i] += fitted[i];
+  }
+  return this->report(solved, monitor);
+}
+
+template <typename Columns>
+EvaluateReport DirichletMethod::displaceColumns(
+  const Columns& prescribed, Columns& free, Monitor& monitor) const
+{
+  MultiVector x;
+  const EvaluateReport report = this->solve(toRows(prescribed, monitor), x, monitor);
+  parallel(static_cast<Index>(x.size()), Grain, monitor,
+    [&](Index i)
+    {
+      free.row(indexInFree(this->rows(), this->partition().free, i)) =
+        x[i].template head<Columns::ColsAtCompileTime>().transpose();
+    });
+  this->stars_.recover(prescribed, free, monitor);
+  return report;
+}
+
+EvaluateReport DirichletMethod::displace(
+  const Points& prescribed, Points& free, Monitor& monitor) const
+{
+  return this->displaceColumns(prescribed, free, monitor);
+}
+
+EvaluateReport DirichletMethod::displaceFields(
+  const FourFields& prescribed, FourFields& free, Monitor& monitor) const
+{
+  return this->displaceColumns(prescribed, free, monitor);
+}
+
+EvaluateReport DirichletMethod::displaceTranspose(
+  const Points& free, Points& prescribed, Monitor& monitor) const
+{
+  // M = -A_I^-1 A_B, so M^T g = -A_B^T A_I^-T g.
+  Points gradient = free;
+  this->stars_.recoverTranspose(gradient, prescribed);
+  Points rhs(static_cast<Index>(this->rows().size()), 3);
+  for (Index i = 0; i < rhs.rows(); ++i)
+  {
+    rhs.row(i) = gradient.row(indexInFree(this->rows(), this->partition().free, i));
+  }
+  Points solution = Points::Zero(rhs.rows(), 3);
+  const SolveReport solved =
+    this->solver_->solveTransposed(rhs, solution, this->tolerance_, MaxIterations, monitor);
+  prescribed -= this->coupling_.transpose() * solution;
+  if (!this->isUniform_)
+  {
+    this->guess_.addTranspose(this->restPoints(), this->partition(), this->rows(), this->coupling_,
+      rhs, solution, prescribed);
+  }
+  return this->report(solved, monitor);
 }
 }

@@ -2,9 +2,12 @@
 #pragma once
 
 #include "Geometry/AffineFit.h"
+#include "LinearMethods/CenterStars.h"
 #include "Mesh/NodePartition.h"
+#include "Mesh/Topology.h"
 #include "Morpher/Morpher.h"
 #include "Solvers/CsrMatrix.h"
+#include "Solvers/LinearSolver.h"
 #include "Solvers/MultiVector.h"
 #include "Solvers/RightHandSide.h"
 #include "Solvers/RowComponents.h"
@@ -12,17 +15,11 @@
 #include "Support/Monitor.h"
 
 #include <atomic>
-#include <functional>
+#include <memory>
 #include <vector>
 
 namespace morph
 {
-/// Parts shared by methods that solve A_I U_I = -A_B U_B. `rows`: the node id of each matrix row,
-/// see UnknownOrdering.h.
-
-/// Throws Error unless the tolerance lies in (0, 1).
-void requireTolerance(double tolerance);
-
 /// The first guess of A_I U_I = -A_B U_B: an affine displacement field in each component of the
 /// rows. It fits the prescribed nodes that A_B couples with the component. Affine motions solve the
 /// equations, so the iteration finds only the remainder.
@@ -99,43 +96,85 @@ private:
   std::vector<AffineLeastSquares> leastSquares_;
 };
 
-/// Sets `x` to the first guess, #rows.
-void firstGuess(const Points& points, const std::vector<Index>& rows, const AffineGuess& guess,
-  const AffineGuess::Fits& fits, MultiVector& x, Monitor& monitor);
-
-/// affineResidual() of equations, computed when it is first asked for: only affine motions ask.
-class AffineResidual
+/// A method that solves A_I U_I = -A_B U_B. On several processes each has the rows of the free
+/// nodes that count there, and its Communicator makes the solver.
+///
+/// A boundary that moves affinely, to a hundredth of the tolerance, needs no iteration: the fit is
+/// the solution.
+class DirichletMethod : public LinearMorpher
 {
 public:
-  /// The equations are others from now on.
-  void reset() { this->value_ = Unknown; }
-  /// Several threads may call it at once. Cost of the first calls: that of affineResidual(), which
-  /// has these arguments.
-  double of(const Points& points, const std::vector<Index>& rows, const std::vector<Index>& columns,
-    const CsrMatrix& interior, const CsrMatrix& coupling, Monitor& monitor) const;
+  /// Sets the relative residual at which the solver stops, per coordinate. Throws Error outside
+  /// (0, 1); default 1e-10.
+  void setTolerance(double tolerance);
+  double tolerance() const override { return this->tolerance_; }
+  void takeEvaluateOptions(const Morpher& other) override
+  {
+    this->tolerance_ = static_cast<const DirichletMethod&>(other).tolerance_;
+  }
+
+  int layers() const override { return 1; }
+
+  /// Returns the node id of each matrix row: NodePartition::free, or these ids in a better order
+  /// for memory. Of a mesh with polyhedra some centers are eliminated and are no rows, if the
+  /// stiffness is uniform.
+  const std::vector<Index>& rows() const
+  {
+    return this->rows_.empty() ? this->partition().free : this->rows_;
+  }
+  /// Returns the solver with its matrix A_I (#rows x #rows), once prepared.
+  const LinearSolver& solver() const { return *this->solver_; }
+  /// Returns A_B, #rows x #prescribed; rows as above, columns in the order of
+  /// NodePartition::prescribed.
+  const CsrMatrix& coupling() const { return this->coupling_; }
+
+protected:
+  explicit DirichletMethod(bool isSymmetric)
+    : isSymmetric_(isSymmetric)
+  {
+  }
+
+  /// Sets the nodes of the rows, and returns those of all other columns: the prescribed ones, and
+  /// rows of other processes. `rows`: in NodePartition::free. `bodies`: of `rest`.
+  std::vector<Index> setRows(
+    const Mesh& rest, const std::vector<Index>& rows, const ConnectedComponents& bodies);
+  /// Takes over A_I and the coupling of the columns that setRows() gave. `isUniform`: affine
+  /// motions solve the equations. Otherwise their fit is taken off first. Throws Error as
+  /// throwSingular().
+  void setEquations(CsrMatrix& interior, CsrMatrix& coupling, const std::vector<Index>& columns,
+    bool isUniform, Monitor& monitor);
+  /// Throws Error for nodes, here, without an equation. Collective.
+  [[noreturn]] void throwSingular(const std::vector<Index>& nodes) const;
+
+  EvaluateReport displace(const Points& prescribed, Points& free, Monitor& monitor) const override;
+  EvaluateReport displaceFields(
+    const FourFields& prescribed, FourFields& free, Monitor& monitor) const override;
+  EvaluateReport displaceTranspose(
+    const Points& free, Points& prescribed, Monitor& monitor) const override;
+
+  CenterStars stars_;                 ///< free nodes that are no rows
+  std::vector<Statistic> statistics_; ///< of all reports
 
 private:
   static constexpr double Unknown = -1;
-  mutable std::atomic<double> value_{ Unknown }; // whoever computes it, it is the same
-};
 
-/// Equations A_I U_I = -A_B U_B with their guess, whose rows may be on several processes. It has
-/// references alone.
-struct DirichletEquations
-{
-  const Points& points; ///< undeformed
-  const NodePartition& partition;
-  const std::vector<Index>& rows;
-  const CsrMatrix& coupling; ///< A_B
-  const AffineGuess& guess;
-  bool isUniform;                               ///< affine motions solve them, but for rounding
-  const std::function<double()> affineResidual; ///< asked where they are uniform
+  /// By how much affine motions miss the equations; the first call takes affineResidual().
+  double affineResidual(Monitor& monitor) const;
+  EvaluateReport report(const SolveReport& solved, Monitor& monitor) const;
+  /// Sets `x` to the displacements of the rows.
+  EvaluateReport solve(const MultiVector& prescribed, MultiVector& x, Monitor& monitor) const;
+  template <typename Columns>
+  EvaluateReport displaceColumns(const Columns& prescribed, Columns& free, Monitor& monitor) const;
 
-  /// Solves to `tolerance` by solveEach(), and sets `x`, #rows. Returns false where the guess is
-  /// the solution to a hundredth of the tolerance. `solver` is not called then, as a pass over the
-  /// matrix takes longer than all else.
-  bool solve(const MultiVector& prescribed, double tolerance, MultiVector& x, Monitor& monitor,
-    const std::function<void(const RightHandSide&, MultiVector&)>& solver) const;
+  bool isSymmetric_;
+  double tolerance_ = 1e-10;
+  std::vector<Index> rows_; ///< empty where they are the free nodes
+  std::shared_ptr<LinearSolver> solver_;
+  CsrMatrix coupling_;
+  AffineGuess guess_;
+  bool isUniform_ = true;
+  /// Only affine motions ask for it. Whichever thread finds it, it is the same.
+  mutable std::atomic<double> affineResidual_{ Unknown };
 };
 
 /// By how much affine motions miss the equations: the largest residual of a row, of the sum of its
@@ -144,17 +183,4 @@ struct DirichletEquations
 double affineResidual(const Points& points, const std::vector<Index>& rows,
   const std::vector<Index>& columns, const CsrMatrix& interior, const CsrMatrix& coupling,
   Monitor& monitor);
-
-/// Reorders rows from NodePartition::free's order to the matrix order, and back. `free`: #free x 3,
-/// or #free x 4. Free nodes without a row are left out, and their rows of `free` stay.
-///@{
-Points permute(const Points& free, const std::vector<Index>& rows, const NodePartition& partition);
-void unpermute(const MultiVector& x, const std::vector<Index>& rows, const NodePartition& partition,
-  Points& free, Monitor& monitor);
-void unpermute(const MultiVector& x, const std::vector<Index>& rows, const NodePartition& partition,
-  FourFields& free, Monitor& monitor);
-///@}
-
-/// The rows of four scalar fields.
-MultiVector toRows(const FourFields& fields);
 }

@@ -3,8 +3,8 @@
 
 #include "LinearMethods/ElementStiffness.h"
 #include "Mesh/CellShape.h"
-#include "Mesh/ShellLayer.h"
 #include "Mesh/SimplicialDecomposition.h"
+#include "Mesh/StandingCells.h"
 #include "Quality/ScaledJacobian.h"
 #include "Support/Parallel.h"
 

@@ -4,7 +4,7 @@
 #include "Geometry/ThinSvd3.h"
 #include "LinearMethods/ElementStiffness.h"
 #include "Mesh/CellShape.h"
-#include "Mesh/ShellLayer.h"
+#include "Mesh/StandingCells.h"
 
 #include <algorithm>
 #include <cmath>

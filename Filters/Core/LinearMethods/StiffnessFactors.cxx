@@ -71,19 +71,19 @@ std::vector<double> wallDistances(const Mesh& mesh, const Points& walls, Monitor
 
 /// Returns 1 / value^exponent; values below `least` of the mean count as this.
 std::vector<double> inversePower(const Mesh& mesh, std::vector<double> value, double exponent,
-  double least, const StiffnessPart& part)
+  double least, const Communicator& processes)
 {
   double sum = 0, count = 0;
   for (Index c = 0; c < mesh.numberOfCells(); ++c)
   {
-    if (part.isGhost[c] == 0)
+    if (!processes.isCopy(c))
     {
       sum += value[c];
       count += isVolumeCell(mesh, c);
     }
   }
-  sum = part.sum(sum);
-  count = part.sum(count);
+  sum = processes.sum(sum);
+  count = processes.sum(count);
   const double floor = count > 0 ? least * sum / count : 0;
   for (double& v : value)
   {
@@ -101,14 +101,20 @@ void requireExponent(double exponent)
   }
 }
 
-void requireWalls(const Mesh& mesh, const CellStiffness& stiffness)
+/// The positions of the walls of all processes.
+Points wallsOf(const Mesh& mesh, const std::vector<Index>& prescribed,
+  const CellStiffness& stiffness, const Communicator& processes)
 {
-  const std::vector<Index>& walls = stiffness.walls;
-  if (walls.empty() && !stiffness.noWalls.empty())
+  const bool isNamed = !processes.all(stiffness.walls.empty());
+  if (!isNamed && !stiffness.noWalls.empty())
   {
     throw Error(stiffness.noWalls);
   }
-  std::vector<Index> wrong;
+  std::vector<Index> walls = isNamed ? stiffness.walls : prescribed, wrong;
+  if (isNamed && stiffness.areWallsGlobal)
+  {
+    walls = processes.nodesOf(walls); // the boundary may be on another process than its nodes
+  }
   std::copy_if(walls.begin(), walls.end(), std::back_inserter(wrong),
     [&](Index node) { return node < 0 || node >= mesh.numberOfNodes(); });
   if (!wrong.empty())
@@ -116,9 +122,11 @@ void requireWalls(const Mesh& mesh, const CellStiffness& stiffness)
     throw Error("The walls of the stiffness name nodes that do not exist: ids " + listIds(wrong) +
                 ". The mesh has nodes 0 to " + std::to_string(mesh.numberOfNodes() - 1) + ".");
   }
+  return processes.gather(mesh.points, walls);
 }
 
-void requireValues(const Mesh& mesh, const std::vector<double>& values)
+void requireValues(
+  const Mesh& mesh, const std::vector<double>& values, const Communicator& processes)
 {
   if (static_cast<Index>(values.size()) != mesh.numberOfCells())
   {
@@ -133,6 +141,7 @@ void requireValues(const Mesh& mesh, const std::vector<double>& values)
       wrong.push_back(c);
     }
   }
+  wrong = processes.gatherCells(wrong);
   if (!wrong.empty())
   {
     throw Error("The stiffness is not positive and finite at cell ids " + listIds(wrong) +
@@ -141,14 +150,14 @@ void requireValues(const Mesh& mesh, const std::vector<double>& values)
 }
 
 /// Divides by the largest of the volume cells, and limits the ratios.
-void normalize(const Mesh& mesh, const StiffnessPart& part, std::vector<double>& factors)
+void normalize(const Mesh& mesh, const Communicator& processes, std::vector<double>& factors)
 {
   double largest = 0;
   for (Index c = 0; c < mesh.numberOfCells(); ++c)
   {
     largest = isVolumeCell(mesh, c) ? std::max(largest, factors[c]) : largest;
   }
-  largest = part.maximum(largest);
+  largest = processes.maximum(largest);
   for (Index c = 0; c < mesh.numberOfCells(); ++c)
   {
     factors[c] = isVolumeCell(mesh, c) ? std::max(factors[c] / largest, LeastRatio) : 1;
@@ -157,44 +166,35 @@ void normalize(const Mesh& mesh, const StiffnessPart& part, std::vector<double>&
 }
 
 std::vector<double> stiffnessFactors(const Mesh& mesh, const std::vector<Index>& prescribed,
-  const CellStiffness& stiffness, Monitor& monitor)
+  const CellStiffness& stiffness, Monitor& monitor, const Communicator& processes)
 {
-  if (stiffness.kind == CellStiffness::Kind::Uniform && stiffness.values.empty())
+  const bool hasValues = !processes.all(stiffness.values.empty());
+  if (stiffness.kind == CellStiffness::Kind::Uniform && !hasValues)
   {
     return {};
   }
-  const std::vector<std::uint8_t> isGhost(mesh.numberOfCells(), 0);
-  const auto same = [](double value) { return value; };
-  StiffnessPart whole{ isGhost, Points(0, 3), same, same };
-  if (stiffness.kind == CellStiffness::Kind::WallDistance)
-  {
-    requireWalls(mesh, stiffness);
-    whole.walls = mesh.points(stiffness.walls.empty() ? prescribed : stiffness.walls, allColumns);
-  }
-  return stiffnessFactors(mesh, stiffness, whole, monitor);
-}
-
-std::vector<double> stiffnessFactors(
-  const Mesh& mesh, const CellStiffness& stiffness, const StiffnessPart& part, Monitor& monitor)
-{
   requireExponent(stiffness.exponent);
   std::vector<double> factors(mesh.numberOfCells(), 1);
   if (stiffness.kind == CellStiffness::Kind::InverseVolume)
   {
-    factors = inversePower(mesh, volumes(mesh, monitor), stiffness.exponent, LeastVolume, part);
+    factors =
+      inversePower(mesh, volumes(mesh, monitor), stiffness.exponent, LeastVolume, processes);
   }
   else if (stiffness.kind == CellStiffness::Kind::WallDistance)
   {
+    const Points walls = wallsOf(mesh, prescribed, stiffness, processes);
     factors = inversePower(
-      mesh, wallDistances(mesh, part.walls, monitor), stiffness.exponent, LeastDistance, part);
+      mesh, wallDistances(mesh, walls, monitor), stiffness.exponent, LeastDistance, processes);
   }
-  if (!stiffness.values.empty())
+  if (hasValues)
   {
-    requireValues(mesh, stiffness.values);
-    std::transform(factors.begin(), factors.end(), stiffness.values.begin(), factors.begin(),
-      std::multiplies<>());
+    std::vector<double> values = stiffness.values;
+    processes.completeCells(values);
+    requireValues(mesh, values, processes);
+    std::transform(
+      factors.begin(), factors.end(), values.begin(), factors.begin(), std::multiplies<>());
   }
-  normalize(mesh, part, factors);
+  normalize(mesh, processes, factors);
   return factors;
 }
 }

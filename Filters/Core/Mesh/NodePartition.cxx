@@ -80,9 +80,9 @@ NodePartition partitionNodes(const Mesh& mesh, std::vector<Index> prescribed)
 }
 
 void requirePrescribedBodies(
-  const Mesh& mesh, const ConnectedComponents& parts, const NodePartition& partition)
+  const ConnectedComponents& parts, const NodePartition& partition, const Communicator& processes)
 {
-  std::vector<std::uint8_t> held(parts.count, 0);
+  std::vector<double> held(parts.count, 0);
   for (Index id : partition.prescribed)
   {
     if (parts.ofNode[id] >= 0)
@@ -90,20 +90,25 @@ void requirePrescribedBodies(
       held[parts.ofNode[id]] = 1;
     }
   }
-  for (Index body = 0; body < parts.count; ++body)
+  processes.sum(held.data(), static_cast<int>(parts.count));
+  const Index body = std::find(held.begin(), held.end(), 0) - held.begin();
+  if (body == parts.count)
   {
-    if (held[body])
-    {
-      continue;
-    }
-    const auto first = std::find(parts.ofCell.begin(), parts.ofCell.end(), body);
-    const auto size = std::count(parts.ofCell.begin(), parts.ofCell.end(), body);
-    const Index cell = first - parts.ofCell.begin();
-    throw Error(Error::Kind::Singular,
-      "Body " + std::to_string(body) + " (" + std::to_string(size) + " cells, the first is cell " +
-        std::to_string(cell) + " at node " + std::to_string(mesh.cell(cell)[0]) +
-        ") has no prescribed node, so nothing says where it goes. Prescribe at least one of its "
-        "nodes, or remove it from the grid.");
+    return;
   }
+  std::vector<Index> cells;
+  for (std::size_t c = 0; c < parts.ofCell.size(); ++c)
+  {
+    if (parts.ofCell[c] == body)
+    {
+      cells.push_back(static_cast<Index>(c));
+    }
+  }
+  cells = processes.gatherCells(cells);
+  throw Error(Error::Kind::Singular,
+    "Body " + std::to_string(body) + " (" + std::to_string(cells.size()) +
+      " cells, the first is cell " + std::to_string(cells.front()) +
+      ") has no prescribed node, so nothing says where it goes. Prescribe at least one of its "
+      "nodes, or remove it from the grid.");
 }
 }

@@ -23,7 +23,7 @@ struct NodePartition
 NodePartition partitionNodes(const Mesh& mesh, std::vector<Index> prescribed);
 
 /// Throws Error of kind Singular unless each body has a prescribed corner node; the message names
-/// the first that has none. For methods that work through the mesh's connectivity.
-void requirePrescribedBodies(
-  const Mesh& mesh, const ConnectedComponents& parts, const NodePartition& partition);
+/// the first that has none. For methods that work through the mesh's connectivity. Collective.
+void requirePrescribedBodies(const ConnectedComponents& parts, const NodePartition& partition,
+  const Communicator& processes = Communicator::alone());
 }

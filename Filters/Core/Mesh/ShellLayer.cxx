@@ -2,7 +2,8 @@
 #include "Mesh/ShellLayer.h"
 
 #include "Mesh/CellShape.h"
-#include "Mesh/Extent.h"
+#include "Mesh/FacesOfCells.h"
+#include "Mesh/StandingCells.h"
 #include "Support/Error.h"
 
 #include <Eigen/Geometry>
@@ -10,7 +11,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <numeric>
 #include <string>
 #include <tuple>
 
@@ -114,15 +114,6 @@ ShellLayer layerOf(const Mesh& mesh)
     plane.thickness *= Thin;
   }
   return plane;
-}
-
-/// The corners of a prism's front; none of other cells.
-std::vector<Index> frontOf(const Mesh& mesh, Index cell)
-{
-  const CellShape& shape = *cellShape(mesh.types[cell]);
-  const Index* nodes = mesh.cell(cell);
-  return shape.dimension == 3 ? std::vector<Index>(nodes, nodes + shape.numberOfCorners / 2)
-                              : std::vector<Index>();
 }
 
 /// Whether each front is wound as its neighbors, across edges of two fronts, are on the whole: 1 or
@@ -420,14 +411,13 @@ Mesh thicken(const Mesh& shell)
   return mesh;
 }
 
-bool leavesPlane(const Mesh& mesh)
+bool leavesPlane(const ShellLayer& layer, const ConstPoints& points)
 {
-  const ShellLayer& layer = mesh.layer;
   if (layer.nodes == 0 || layer.isCurved())
   {
     return false;
   }
-  const auto front = mesh.points.topRows(layer.nodes);
+  const auto front = points.topRows(layer.nodes);
   const Eigen::VectorXd heights = (front.rowwise() - front.row(0)) * layer.normal.transpose();
   const double size = (front.colwise().maxCoeff() - front.colwise().minCoeff()).norm();
   return heights.maxCoeff() - heights.minCoeff() > 2 * Flatness * size;
@@ -452,6 +442,45 @@ Mesh bent(Mesh mesh)
   return mesh;
 }
 
+BoundaryFaces frontFaces(const Mesh& mesh)
+{
+  std::vector<std::pair<Index, int>> places;
+  for (Index c = 0; c < mesh.numberOfCells(); ++c)
+  {
+    const CellShape& shape = *cellShape(mesh.types[c]);
+    const auto isFront = [&](int side)
+    {
+      const FaceShape& face = shape.faces[side];
+      return std::all_of(face.corner, face.corner + face.size,
+        [&](int node) { return mesh.cell(c)[node] < mesh.layer.nodes; });
+    };
+    for (int side = 0; side < shape.numberOfFaces; ++side)
+    {
+      if (isFront(side))
+      {
+        places.emplace_back(c, side);
+      }
+    }
+  }
+  return facesAt(mesh, places);
+}
+
+std::vector<std::int8_t> frontWindings(const Mesh& mesh)
+{
+  const Index count = mesh.layer.nodes;
+  const Points across = mesh.points.middleRows(count, count) - mesh.points.topRows(count);
+  std::vector<std::int8_t> windings(mesh.numberOfCells(), 1);
+  for (Index c = 0; c < mesh.numberOfCells(); ++c)
+  {
+    const std::vector<Index> corners = frontOf(mesh, c);
+    const bool isAgainst =
+      !corners.empty() &&
+      areaOf(mesh.points, corners).dot(across(corners, allColumns).colwise().sum()) < 0;
+    windings[c] = isAgainst ? -1 : 1;
+  }
+  return windings;
+}
+
 void placeImages(const Mesh& rest, Points& moved)
 {
   const Index count = rest.layer.nodes;
@@ -459,16 +488,7 @@ void placeImages(const Mesh& rest, Points& moved)
   {
     return;
   }
-  std::vector<std::int8_t> windings(rest.numberOfCells(), 1);
-  const Points before = rest.points.middleRows(count, count) - rest.points.topRows(count);
-  for (Index c = 0; c < rest.numberOfCells(); ++c)
-  {
-    const std::vector<Index> corners = frontOf(rest, c);
-    const bool isAgainst =
-      !corners.empty() &&
-      areaOf(rest.points, corners).dot(before(corners, allColumns).colwise().sum()) < 0;
-    windings[c] = isAgainst ? -1 : 1;
-  }
+  const std::vector<std::int8_t> windings = frontWindings(rest);
   // Where cells around a node are folded over, their sum is no normal, and the wider neighborhood
   // tells it. At a sharp bend of the undeformed shell the two differ without a fold.
   const auto bothAt = [&](const Points& points)
@@ -500,67 +520,6 @@ void placeImages(const Mesh& rest, Points& moved)
       const Index front = corners[corners.size() - 1 - k];
       moved.row(*(end - 1 - k)) = (moved.row(front) + moved.row(front + count)) / 2;
     }
-  }
-}
-
-void stand(double (*corners)[3], int count, double thickness)
-{
-  using Row = Eigen::Map<Eigen::RowVector3d>;
-  const int half = count / 2;
-  const auto at = [&](int k) { return Row(corners[k]); };
-  const Eigen::RowVector3d area =
-    half == 3 ? (at(1) - at(0)).cross(at(2) - at(0)) : (at(2) - at(0)).cross(at(3) - at(1));
-  Eigen::RowVector3d across = Eigen::RowVector3d::Zero();
-  for (int k = 0; k < half; ++k)
-  {
-    across += at(half + k) - at(k);
-  }
-  const double side = area.dot(across) < 0 ? -1 : 1;
-  const Eigen::RowVector3d upright = side * thickness * area.stableNormalized();
-  for (int k = 0; k < half; ++k)
-  {
-    at(half + k) = at(k) + upright;
-  }
-}
-
-Mesh standing(const Mesh& mesh, const ConstPoints& points)
-{
-  Mesh result;
-  result.types = mesh.types;
-  result.offsets = mesh.offsets;
-  result.connectivity.resize(mesh.connectivity.size());
-  std::iota(result.connectivity.begin(), result.connectivity.end(), Index(0));
-  result.points = points(mesh.connectivity, allColumns);
-  for (Index c = 0; c < mesh.numberOfCells(); ++c)
-  {
-    const int half = static_cast<int>(frontOf(mesh, c).size());
-    auto* x = reinterpret_cast<double(*)[3]>(result.points.data() + 3 * mesh.offsets[c]);
-    if (half == 0)
-    {
-      continue;
-    }
-    stand(x, 2 * half, mesh.layer.thickness);
-    const Eigen::RowVector3d upright =
-      result.points.row(mesh.offsets[c] + half) - result.points.row(mesh.offsets[c]);
-    // A quadratic prism: the edges of its front, those of its back, and those between.
-    const auto middles = mesh.cellSize(c) > 2 * half ? half : 0;
-    for (int k = 0; k < middles; ++k)
-    {
-      const Index edge = mesh.offsets[c] + 2 * half + k;
-      result.points.row(edge + half) = result.points.row(edge) + upright;
-      result.points.row(edge + 2 * half) = result.points.row(mesh.offsets[c] + k) + upright / 2;
-    }
-  }
-  return result;
-}
-
-void copyStanding(
-  const Mesh& mesh, Index cell, const CellShape& shape, const ConstPoints& points, double* corners)
-{
-  copyCorners(mesh, cell, shape, points, corners);
-  if (mesh.layer.isCurved() && shape.dimension == 3)
-  {
-    stand(reinterpret_cast<double(*)[3]>(corners), shape.numberOfCorners, mesh.layer.thickness);
   }
 }
 

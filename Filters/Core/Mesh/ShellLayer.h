@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Mesh/CellShape.h"
 #include "Mesh/Mesh.h"
+#include "Mesh/Topology.h"
 
 #include <cstdint>
 #include <utility>
@@ -19,20 +19,25 @@ namespace morph
 /// but by rounding; its normal is that about which most of the area is wound counterclockwise. A
 /// mesh that is not plane to 1e-6 of its size is a curved shell, a tenth as thick. Its layer stands
 /// on the normals of its nodes: sums of the areas around them, cells that are wound against their
-/// neighbors turned over. Geometry reads its cells as copyStanding() and standing() give them.
+/// neighbors turned over. Geometry reads its cells upright; see StandingCells.h.
 ///
 /// Throws Error for a mesh without area, and for cells other than vertices, lines, triangles and
 /// quadrilaterals, linear or quadratic. It throws for shells with one side alone or without a
 /// normal at a node, too. Cost: passes over the mesh.
 Mesh thicken(const Mesh& shell);
 
-/// Whether the front of a plane layer has moved out of the plane by more than 1e-6 of its size.
-bool leavesPlane(const Mesh& mesh);
+/// Whether the front of a plane layer at `points` leaves the plane by more than 1e-6 of its size.
+bool leavesPlane(const ShellLayer& layer, const ConstPoints& points);
 /// A plane layer as a curved one that is as thick, for motions that leave the plane.
 Mesh bent(Mesh mesh);
 
 /// Throws Error for a curved layer, whose nodes span no region that could be tessellated.
 void requireRegion(const Mesh& mesh);
+
+/// The cells of a layer as faces, outward to the front where its cells are wound alike.
+BoundaryFaces frontFaces(const Mesh& mesh);
+/// #cells: -1 where a cell of a layer is wound against its normals, else 1.
+std::vector<std::int8_t> frontWindings(const Mesh& mesh);
 
 /// Puts the images of the nodes of a curved layer, and the nodes between, behind the front on the
 /// normals that the surface has where it has moved. `moved`: #nodes x 3, whose front is read. So a
@@ -40,20 +45,6 @@ void requireRegion(const Mesh& mesh);
 /// surface. Where folded cells leave a node no normal of its own, it has that of three rings of
 /// cells. Other meshes stay. Cost: some passes over the cells.
 void placeImages(const Mesh& rest, Points& moved);
-
-/// copyCorners() of a cell as geometry reads it: one of a curved layer stands upright on its own
-/// front, so that it has the front's scaled Jacobian and membrane stiffness, to whichever side the
-/// layer is. Other cells are copied as they are.
-void copyStanding(
-  const Mesh& mesh, Index cell, const CellShape& shape, const ConstPoints& points, double* corners);
-
-/// The same for a prism's corners, front first, that are copied already. `count`: 6 or 8.
-void stand(double (*corners)[3], int count, double thickness);
-
-/// The cells of a curved layer at `points`, #nodes x 3, each upright on its own front, quadratic
-/// ones too. Each has nodes of its own, in the order of the connectivity. Cost: a copy of the
-/// cells.
-Mesh standing(const Mesh& mesh, const ConstPoints& points);
 
 /// The images of the nodes of a layer among `ids`, ascending: their places in `ids`, front first.
 /// Nodes whose image is not among them are left out.

@@ -442,8 +442,13 @@ ConnectedComponents connectedComponents(const Mesh& mesh)
   return connectedComponents(mesh, serial);
 }
 
-ConnectedComponents connectedComponents(const Mesh& mesh, Monitor& monitor)
+ConnectedComponents connectedComponents(
+  const Mesh& mesh, Monitor& monitor, const Communicator& processes)
 {
+  if (processes.bodies())
+  {
+    return *processes.bodies();
+  }
   constexpr Index None = -1;
   const Index nodes = mesh.numberOfNodes(), cells = mesh.numberOfCells();
   UnionFind<Index> bodies(nodes);
@@ -486,9 +491,13 @@ std::vector<std::int8_t> cellSigns(const Mesh& mesh, const ConnectedComponents& 
   return cellSigns(mesh, bodies, serial);
 }
 
-std::vector<std::int8_t> cellSigns(
-  const Mesh& mesh, const ConnectedComponents& bodies, Monitor& monitor)
+std::vector<std::int8_t> cellSigns(const Mesh& mesh, const ConnectedComponents& bodies,
+  Monitor& monitor, const Communicator& processes)
 {
+  if (processes.orientation())
+  {
+    return *processes.orientation();
+  }
   std::vector<std::int8_t> result =
     cellSigns(mesh, bodies, shapeVolumes(mesh, bodies, {}, monitor));
   alignShapeSigns(mesh, bodies, result);

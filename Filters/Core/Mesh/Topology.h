@@ -3,6 +3,7 @@
 
 #include "Mesh/Mesh.h"
 #include "Support/Adjacency.h"
+#include "Support/Communicator.h"
 #include "Support/Monitor.h"
 
 #include <cstdint>
@@ -45,7 +46,8 @@ struct ConnectedComponents
   std::vector<Index> ofNode;
 };
 ///@{
-ConnectedComponents connectedComponents(const Mesh& mesh, Monitor& monitor);
+ConnectedComponents connectedComponents(
+  const Mesh& mesh, Monitor& monitor, const Communicator& processes = Communicator::alone());
 ConnectedComponents connectedComponents(const Mesh& mesh);
 ///@}
 /// ConnectedComponents::ofNode with the nodes between corners, which have the body of their cell.
@@ -56,8 +58,8 @@ std::vector<Index> bodyOfNodes(const Mesh& mesh, const ConnectedComponents& bodi
 /// order (+1). So a wholly mirrored body, or wedges in VTK's older order, count as valid. A cell
 /// that is inverted among valid neighbors stays inverted. Cells below dimension 3 have +1.
 ///@{
-std::vector<std::int8_t> cellSigns(
-  const Mesh& mesh, const ConnectedComponents& bodies, Monitor& monitor);
+std::vector<std::int8_t> cellSigns(const Mesh& mesh, const ConnectedComponents& bodies,
+  Monitor& monitor, const Communicator& processes = Communicator::alone());
 std::vector<std::int8_t> cellSigns(const Mesh& mesh, const ConnectedComponents& bodies);
 ///@}
 }

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Morpher/Morpher.h"
+#include "Support/Types.h"
 
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace morph
@@ -31,14 +32,16 @@ struct CellStiffness
   bool operator==(const CellStiffness& other) const;
 };
 
-/// A linear method that knows the stiffness of cells. It stays linear, affine motions stay exact,
-/// and it has an adjoint, whatever the stiffness.
-class StiffMorpher : public LinearMorpher
+/// What a linear method has that knows the stiffness of cells. It stays linear, affine motions stay
+/// exact, and it has an adjoint, whatever the stiffness.
+class StiffMethod
 {
 public:
+  virtual ~StiffMethod() = default;
+
   /// Call it before prepare(), which throws Error for values or walls that do not fit the mesh.
   /// Default Uniform.
-  void setStiffness(CellStiffness stiffness);
+  void setStiffness(CellStiffness stiffness) { this->stiffness_ = std::move(stiffness); }
   const CellStiffness& stiffness() const { return this->stiffness_; }
 
   /// Nodes from this id on are centers of polyhedra and of their faces. A method may eliminate them
@@ -46,9 +49,6 @@ public:
   /// such a center.
   void setFirstCenter(Index node) { this->firstCenter_ = node; }
   Index firstCenter() const { return this->firstCenter_; }
-
-protected:
-  bool hasPrepareOptionsOf(const Morpher& other) const override;
 
 private:
   Index firstCenter_ = std::numeric_limits<Index>::max();

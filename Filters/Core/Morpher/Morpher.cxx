@@ -68,6 +68,27 @@ void requireFound(
   }
 }
 
+/// Keeps back the warnings of all processes but the first: they are of the whole mesh.
+class FirstSpeaks : public ProgressRange
+{
+public:
+  FirstSpeaks(Monitor& whole, const Communicator& processes)
+    : ProgressRange(whole, 0, 1)
+    , speaks_(processes.isFirst())
+  {
+  }
+  void warn(const std::string& message) override
+  {
+    if (this->speaks_)
+    {
+      ProgressRange::warn(message);
+    }
+  }
+
+private:
+  bool speaks_;
+};
+
 /// Returns the nodes that are in no list of the partition.
 std::vector<Index> outside(const NodePartition& partition, Index nodes)
 {
@@ -103,59 +124,6 @@ std::shared_ptr<const NodePartition> countedHere(
   std::set_difference(partition->free.begin(), partition->free.end(), elsewhere.begin(),
     elsewhere.end(), std::back_inserter(result->free));
   return result;
-}
-
-/// The nodes of a partition that are not prescribed as free ones: of those between the corners of
-/// quadratic cells, an affine motion of a curved layer is not one of its prisms, as images move
-/// alike.
-NodePartition withHigherOrder(const NodePartition& partition)
-{
-  NodePartition all;
-  all.prescribed = partition.prescribed;
-  std::merge(partition.free.begin(), partition.free.end(), partition.higherOrderNodes.begin(),
-    partition.higherOrderNodes.end(), std::back_inserter(all.free));
-  return all;
-}
-
-/// Lets nodes between corners follow: in a curved layer, for the rest that the affine fits leave.
-/// `all`: displacements of all nodes, #nodes x 3.
-void follow(
-  const HigherOrderNodes& followers, const Mesh* shell, const NodePartition& partition, Points& all)
-{
-  if (!shell || followers.empty())
-  {
-    followers.apply(all);
-    return;
-  }
-  const NodePartition every = withHigherOrder(partition);
-  const ShellFits fits(*shell, every);
-  const Points given = all(every.prescribed, allColumns);
-  Points rest = given, affine = Points::Zero(static_cast<Index>(every.free.size()), 3);
-  fits.addTo(fits.takeOff(rest), affine);
-  all(every.prescribed, allColumns) = rest;
-  all(every.free, allColumns) -= affine;
-  followers.apply(all);
-  all(every.free, allColumns) += affine;
-  all(every.prescribed, allColumns) = given;
-}
-
-/// The adjoint of follow(): `gradient` becomes that of the displacements of prescribed and free
-/// nodes.
-void followTranspose(const HigherOrderNodes& followers, const Mesh* shell,
-  const NodePartition& partition, Points& gradient)
-{
-  const Points given = gradient;
-  followers.applyTranspose(gradient);
-  if (!shell || followers.empty())
-  {
-    return;
-  }
-  const NodePartition every = withHigherOrder(partition);
-  gradient(partition.higherOrderNodes, allColumns).setZero();
-  const Points ofAffine = given(every.free, allColumns) - gradient(every.free, allColumns);
-  Points ofRest = gradient(every.prescribed, allColumns) - given(every.prescribed, allColumns);
-  ShellFits(*shell, every).transpose(ofAffine, ofRest);
-  gradient(every.prescribed, allColumns) = given(every.prescribed, allColumns) + ofRest;
 }
 }
 
@@ -212,7 +180,7 @@ void Morpher::prepareFor(const Mesh& rest, std::shared_ptr<const Points> points,
   this->hasFree_ = !processes.all(this->partition().free.empty());
   if (this->hasFree_)
   {
-    ProgressRange whole(monitor, 0, 1);
+    FirstSpeaks whole(monitor, this->processes());
     this->doPrepare(rest, whole);
   }
   this->prepared_ = true;
@@ -316,7 +284,7 @@ void Morpher::complete(Points& displacement) const
     this->copies_->add(displacement);
   };
   copy();
-  follow(this->higherOrderNodes_, this->shell_.get(), this->partition(), displacement);
+  this->higherOrderNodes_.apply(displacement);
   copy(); // a process may not have all cells of its nodes
 }
 
@@ -339,10 +307,10 @@ EvaluateReport Morpher::evaluateHere(
   const Points displacement = this->displacementOf(prescribed, monitor);
   Points freeDisplacement(static_cast<Index>(this->partition().free.size()), 3);
   EvaluateReport report;
-  ProgressRange whole(monitor, 0, 1);
+  FirstSpeaks whole(monitor, this->processes());
   if (this->hasFree_)
   {
-    this->warnOf(displacement, monitor);
+    this->warnOf(displacement, whole);
     report = this->displaceRest(displacement, freeDisplacement, whole);
     this->keepInPlane(freeDisplacement);
   }
@@ -419,14 +387,14 @@ EvaluateReport LinearMorpher::transposeHere(
         &elsewhere = this->copies_->countedElsewhere();
   // Prescribed nodes have no weights: they also receive the gradient from higher-order nodes.
   all(elsewhere, allColumns).setZero();
-  followTranspose(this->higherOrderNodes_, this->shell_.get(), this->partition(), all);
+  this->higherOrderNodes_.applyTranspose(all);
   this->copies_->add(all);
   all(elsewhere, allColumns).setZero();
   Points result = all(ids, allColumns);
   EvaluateReport report;
   if (this->hasFree_)
   {
-    ProgressRange whole(monitor, 0, 1);
+    FirstSpeaks whole(monitor, this->processes());
     Points free = all(this->partition().free, allColumns);
     this->keepInPlane(free);
     if (this->fits_.empty())
@@ -504,7 +472,7 @@ FourFields LinearMorpher::fields(
   requireMode(prescribed, partition, this->processes());
   if (this->hasFree_)
   {
-    ProgressRange whole(monitor, 0, 1);
+    FirstSpeaks whole(monitor, this->processes());
     found = this->fits_.empty() ? this->displaceFields(prescribed, free, whole)
                                 : this->LinearMorpher::displaceFields(prescribed, free, whole);
     for (const auto& [front, back] : this->images_)
@@ -539,10 +507,11 @@ std::vector<Points> LinearMorpher::basis(const std::vector<Points>& displacement
   std::vector<Points> modes;
   std::vector<EvaluateReport> found(displacements.size());
   const auto count = static_cast<double>(displacements.size());
+  FirstSpeaks whole(monitor, this->processes());
   for (std::size_t i = 0; i < displacements.size(); ++i)
   {
     const auto done = static_cast<double>(i);
-    ProgressRange part(monitor, done / count, (done + 1) / count);
+    ProgressRange part(whole, done / count, (done + 1) / count);
     this->processes().together(
       [&] { modes.push_back(this->mode(displacements[i], found[i], part)); });
   }

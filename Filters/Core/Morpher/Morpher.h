@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Mesh/HigherOrderNodes.h"
 #include "Mesh/Mesh.h"
 #include "Mesh/NodePartition.h"
+#include "Morpher/Followers.h"
 #include "Morpher/ShellFits.h"
 #include "Support/Communicator.h"
 #include "Support/Monitor.h"
@@ -77,8 +77,9 @@ public:
   /// #nodes x 3; no rows mean the undeformed mesh. Call it before prepare(). Methods that only
   /// follow the motion ignore it.
   virtual void setReference(Points reference);
-  /// The layers of cells around the nodes of a process that prepare() reads there.
-  virtual int layers() const { return 1; }
+  /// The layers of cells around the nodes of a process that prepare() reads there. 0: the method
+  /// needs one process.
+  virtual int layers() const { return 0; }
 
   /// A copy with the same options of a linear method that reads no cells, null of all others. Such
   /// a method interpolates between all prescribed nodes, so that motions would cross the gaps
@@ -118,6 +119,11 @@ protected:
   {
     method.warnOf(prescribed, monitor);
   }
+  /// prepare() for the same partition and processes.
+  void prepareAlike(Morpher& method, const Mesh& rest, Monitor& monitor) const
+  {
+    method.prepare(rest, this->partition(), monitor, this->processes_);
+  }
   ///@}
 
   /// Those that have parts of the mesh.
@@ -126,7 +132,10 @@ protected:
     return this->processes_ ? *this->processes_ : Communicator::alone();
   }
 
-  HigherOrderNodes higherOrderNodes_;
+  /// Corners and other nodes that count on another process, ascending.
+  const std::vector<Index>& countedElsewhere() const { return this->copies_->countedElsewhere(); }
+
+  Followers higherOrderNodes_;
 
   /// Throws Error unless the last prepare() succeeded.
   void requirePrepared() const;

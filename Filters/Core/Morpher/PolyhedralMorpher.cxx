@@ -36,7 +36,7 @@ public:
     {
       this->method_->setReference(this->pieces_->extend(this->reference_));
     }
-    auto* stiff = dynamic_cast<StiffMorpher*>(this->method_.get());
+    auto* stiff = dynamic_cast<StiffMethod*>(this->method_.get());
     if (stiff)
     {
       stiff->setFirstCenter(this->nodes_);

@@ -18,7 +18,8 @@ ShellFits::ShellFits(const Mesh& rest, const NodePartition& partition)
   {
     for (std::size_t i = 0; i < nodes.size(); ++i)
     {
-      if (bodyOf[nodes[i]] >= 0)
+      // Nodes between front and back are where their images are put.
+      if (bodyOf[nodes[i]] >= 0 && nodes[i] < 2 * rest.layer.nodes)
       {
         (this->bodies_[bodyOf[nodes[i]]].*list).push_back(static_cast<Index>(i));
       }

@@ -3,8 +3,8 @@
 
 #include "Geometry/OrientationPredicate.h"
 #include "Mesh/CellShape.h"
-#include "Mesh/ShellLayer.h"
 #include "Mesh/SimplicialDecomposition.h"
+#include "Mesh/StandingCells.h"
 #include "Quality/CellMap.h"
 #include "Quality/PolyhedronQuality.h"
 #include "Support/ReproducibleSum.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Quality/InvertedBefore.h"
 
-#include "Mesh/ShellLayer.h"
+#include "Mesh/StandingCells.h"
 #include "Quality/MeasuredPlaces.h"
 #include "Quality/PolyhedronQuality.h"
 

@@ -2,7 +2,7 @@
 #include "Quality/MovableQuality.h"
 
 #include "Mesh/CellShape.h"
-#include "Mesh/ShellLayer.h"
+#include "Mesh/StandingCells.h"
 
 #include <algorithm>
 #include <bitset>

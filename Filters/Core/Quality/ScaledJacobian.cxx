@@ -2,7 +2,7 @@
 #include "Quality/ScaledJacobian.h"
 
 #include "Mesh/CellShape.h"
-#include "Mesh/ShellLayer.h"
+#include "Mesh/StandingCells.h"
 #include "Quality/Certificate.h"
 #include "Quality/MeasuredPlaces.h"
 #include "Quality/PolyhedronQuality.h"

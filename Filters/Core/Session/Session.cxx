@@ -184,7 +184,7 @@ std::shared_ptr<const StepResult> Session::morphSeries(int step,
 StepResult Session::morphStep(const Mesh& from, const BoundaryTargets& boundary,
   const AffineHandle* handle, const Options& options, Monitor& monitor)
 {
-  if (!from.layer.isCurved() && (!boundary.leaving.empty() || leavesPlane(from)))
+  if (!from.layer.isCurved() && (!boundary.leaving.empty() || leavesPlane(from.layer, from.points)))
   {
     return this->morphStep(bent(from), boundary, handle, options, monitor);
   }

@@ -26,8 +26,8 @@ public:
   SolveReport solve(const RightHandSide& b, MultiVector& x, double tolerance, int maxIterations,
     Monitor& monitor) const override;
   /// Solves A^T x = b. The first call makes and keeps the transposes.
-  SolveReport solveTransposed(
-    const Points& b, Points& x, double tolerance, int maxIterations, Monitor& monitor) const;
+  SolveReport solveTransposed(const Points& b, Points& x, double tolerance, int maxIterations,
+    Monitor& monitor) const override;
 
 private:
   struct Iteration;

@@ -5,9 +5,34 @@
 #include "Support/ReproducibleSum.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace morph
 {
+std::vector<Index> LinearEquations::singularRows() const
+{
+  const Eigen::VectorXd diagonal = this->matrix.diagonal();
+  std::vector<Index> rows;
+  for (Index i = 0; i < diagonal.size(); ++i)
+  {
+    if (!(diagonal[i] > 0 && std::isfinite(diagonal[i])))
+    {
+      rows.push_back(i);
+    }
+  }
+  return rows;
+}
+
+SolveReport LinearSolver::solve(
+  const Points& b, Points& x, double tolerance, int maxIterations, Monitor& monitor) const
+{
+  MultiVector rows = toRows(x, monitor);
+  const SolveReport report =
+    this->solve(toRows(b, monitor), rows, tolerance, maxIterations, monitor);
+  fromRows(rows, x, monitor);
+  return report;
+}
+
 SolveReport solveConstrained(const LinearSolver& solver, const Points& b,
   const RowConstraints& constraints, Points& x, double tolerance, int maxIterations,
   PointsVectors& work, Monitor& monitor, const Communicator& communicator)

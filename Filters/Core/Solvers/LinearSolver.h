@@ -3,6 +3,9 @@
 
 #include "Solvers/ConjugateGradients.h"
 #include "Solvers/CsrMatrix.h"
+#include "Solvers/MultiVector.h"
+#include "Solvers/RightHandSide.h"
+#include "Solvers/RowComponents.h"
 #include "Solvers/SolveReport.h"
 #include "Support/Communicator.h"
 #include "Support/Monitor.h"
@@ -20,24 +23,44 @@ struct LinearEquations
   Points coordinates;    ///< #rows x 3: positions of the nodes, near which are near in the graph
   CsrMatrix ghosts = {}; ///< #rows x #ghosts: other processes' unknowns
   std::vector<std::int64_t> ghostNumbers = {}; ///< #ghosts: their numbers among all unknowns
+  RowComponents components = {}; ///< of several processes: those of all unknowns, of these rows
+
+  /// The rows whose diagonal entry is not positive and finite.
+  std::vector<Index> singularRows() const;
 };
 
-/// Solves A X = B for three columns at once. On several processes all functions are collective.
+/// Solves A X = B for up to four columns at once. On several processes all functions are
+/// collective.
 class LinearSolver
 {
 public:
   virtual ~LinearSolver() = default;
 
-  /// Takes over the equations. Throws SingularRows if a diagonal entry is not positive.
+  /// Takes over the equations. Throws SingularRows, with those of this process, if a diagonal entry
+  /// is not positive.
   virtual void prepare(LinearEquations&& equations, Monitor& monitor) = 0;
-  /// Solves A x = b. `x`: #rows x 3, the first guess, then the solution.
-  virtual SolveReport solve(
-    const Points& b, Points& x, double tolerance, int maxIterations, Monitor& monitor) const = 0;
+  /// Solves A x = b, each component to its own size. `x`: #rows, the first guess, then the
+  /// solution.
+  virtual SolveReport solve(const RightHandSide& b, MultiVector& x, double tolerance,
+    int maxIterations, Monitor& monitor) const = 0;
+  /// The same for three columns, #rows x 3.
+  SolveReport solve(
+    const Points& b, Points& x, double tolerance, int maxIterations, Monitor& monitor) const;
+  /// Solves A^T x = b; as solve() unless A is not symmetric.
+  virtual SolveReport solveTransposed(
+    const Points& b, Points& x, double tolerance, int maxIterations, Monitor& monitor) const
+  {
+    return this->solve(b, x, tolerance, maxIterations, monitor);
+  }
   /// Sets `to` to A `from`, #rows x 3.
   virtual void product(const Points& from, Points& to, Monitor& monitor) const = 0;
   /// Sets `to` to B `from`, #rows x 3, with a fixed B near A^-1. It is symmetric and positive
   /// definite where A is.
   virtual void precondition(const Points& from, Points& to, Monitor& monitor) const = 0;
+
+  /// A without the columns of ghosts; empty if the solver has it in another form.
+  virtual const CsrMatrix& matrix() const = 0;
+  virtual const RowComponents& components() const = 0;
 };
 
 /// Rows of a system whose three columns are the coordinates of nodes, and the directions in which

@@ -14,35 +14,17 @@ namespace morph
 void MultigridSolver::prepare(LinearEquations&& equations, Monitor& monitor)
 {
   assert(equations.ghostNumbers.empty());
+  const std::vector<Index> singular = equations.singularRows();
+  if (!singular.empty())
+  {
+    throw SingularRows(singular);
+  }
   auto fresh = std::make_unique<Parts>();
   fresh->A.swap(equations.matrix); // Eigen 3.4 would copy on a move
   fresh->A.makeCompressed();
-  const Eigen::VectorXd diagonal = fresh->A.diagonal();
-  std::vector<Index> notPositive;
-  for (Index i = 0; i < diagonal.size(); ++i)
-  {
-    if (!(diagonal[i] > 0 && std::isfinite(diagonal[i])))
-    {
-      notPositive.push_back(i);
-    }
-  }
-  if (!notPositive.empty())
-  {
-    throw SingularRows(notPositive);
-  }
   fresh->components = rowComponents(fresh->A, monitor);
   fresh->multigrid.prepare(fresh->A, this->symmetry_, equations.coordinates, monitor);
   this->parts_ = std::move(fresh);
-}
-
-SolveReport MultigridSolver::solve(
-  const Points& b, Points& x, double tolerance, int maxIterations, Monitor& monitor) const
-{
-  MultiVector rows = toRows(x, monitor);
-  const SolveReport report =
-    this->solve(toRows(b, monitor), rows, tolerance, maxIterations, monitor);
-  fromRows(rows, x, monitor);
-  return report;
 }
 
 void MultigridSolver::product(const Points& from, Points& to, Monitor& monitor) const

@@ -20,22 +20,21 @@ namespace morph
 class MultigridSolver : public LinearSolver
 {
 public:
-  /// `x`: up to four columns, without copies; what it is after an error has no meaning. Each column
-  /// of each component stops at |b - A x| <= max(tolerance |b_column|, 1e-14 |b_all|); the second
-  /// term ends columns that are pure rounding. A guess with a larger residual than 0 is dropped. If
-  /// rounding keeps the residual above the goal, the best x is returned and the residual reported.
-  /// Throws Error of kind NoConvergence, with the residual, after `maxIterations` or on overflow.
-  virtual SolveReport solve(const RightHandSide& b, MultiVector& x, double tolerance,
-    int maxIterations, Monitor& monitor) const = 0;
+  /// `x`: what it is after an error has no meaning. Each column of each component stops at
+  /// |b - A x| <= max(tolerance |b_column|, 1e-14 |b_all|); the second term ends columns that are
+  /// pure rounding. A guess with a larger residual than 0 is dropped. If rounding keeps the
+  /// residual above the goal, the best x is returned and the residual reported. Throws Error of
+  /// kind NoConvergence, with the residual, after `maxIterations` or on overflow.
+  SolveReport solve(const RightHandSide& b, MultiVector& x, double tolerance, int maxIterations,
+    Monitor& monitor) const override = 0;
+  using LinearSolver::solve;
 
   void prepare(LinearEquations&& equations, Monitor& monitor) override;
-  SolveReport solve(const Points& b, Points& x, double tolerance, int maxIterations,
-    Monitor& monitor) const override;
   void product(const Points& from, Points& to, Monitor& monitor) const override;
   void precondition(const Points& from, Points& to, Monitor& monitor) const override;
 
-  const CsrMatrix& matrix() const { return this->parts_->A; }
-  const RowComponents& components() const { return this->parts_->components; }
+  const CsrMatrix& matrix() const override { return this->parts_->A; }
+  const RowComponents& components() const override { return this->parts_->components; }
 
 protected:
   explicit MultigridSolver(Multigrid::Symmetry symmetry)

@@ -6,10 +6,10 @@
 
 namespace morph
 {
-RowComponents rowComponents(const CsrMatrix& matrix, Monitor& monitor)
+RowComponents rowComponents(const CsrMatrix& matrix, Monitor& monitor, const CsrMatrix& ghosts)
 {
-  const int rows = static_cast<int>(matrix.rows());
-  UnionFind<int> components(rows);
+  const int rows = static_cast<int>(matrix.rows()), all = rows + static_cast<int>(ghosts.cols());
+  UnionFind<int> components(all);
   parallel(rows, monitor,
     [&](Index row)
     {
@@ -18,12 +18,20 @@ RowComponents rowComponents(const CsrMatrix& matrix, Monitor& monitor)
       {
         root = components.join(root, static_cast<int>(entry.col()));
       }
+      if (all == rows)
+      {
+        return;
+      }
+      for (CsrMatrix::InnerIterator entry(ghosts, row); entry; ++entry)
+      {
+        root = components.join(root, rows + static_cast<int>(entry.col()));
+      }
     });
 
   RowComponents result;
   std::vector<int>& number = result.ofRow;
-  number.resize(rows);
-  for (int row = 0; row < rows; ++row)
+  number.resize(all);
+  for (int row = 0; row < all; ++row)
   {
     const int first = components.root(row); // the minimum row of its component
     number[row] = first == row ? static_cast<int>(result.count++) : number[first];

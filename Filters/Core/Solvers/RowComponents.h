@@ -99,9 +99,11 @@ private:
   static constexpr Index Block = 4096;
 };
 
-/// Finds the components: rows are connected if either has an entry in the other's column. Cost: one
-/// pass over the matrix.
-RowComponents rowComponents(const CsrMatrix& matrix, Monitor& monitor);
+/// Finds the components: rows are connected if either has an entry in the other's column. `ghosts`:
+/// none, or more columns, whose components follow those of the rows. Cost: one pass over the
+/// matrices.
+RowComponents rowComponents(
+  const CsrMatrix& matrix, Monitor& monitor, const CsrMatrix& ghosts = CsrMatrix());
 
 /// Replaces a first guess of A x = b by 0, and its residual by b, in each column of each component
 /// where the residual exceeds b. Where b is exactly 0, so is then the solution, without an

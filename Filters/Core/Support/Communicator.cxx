@@ -3,6 +3,8 @@
 
 #include "Support/ReproducibleSum.h"
 
+#include <algorithm>
+
 namespace morph
 {
 CopiedRows::~CopiedRows() = default;
@@ -70,6 +72,27 @@ std::unique_ptr<CopiedRows> Communicator::rows() const
 std::unique_ptr<Communicator> Communicator::part(const std::vector<Index>&) const
 {
   return std::make_unique<Communicator>();
+}
+
+Points Communicator::gather(const Points& rows, const std::vector<Index>& nodes) const
+{
+  return rows(nodes, allColumns);
+}
+
+Index Communicator::join(std::vector<Index>& ofNode) const
+{
+  return ofNode.empty() ? 0 : 1 + *std::max_element(ofNode.begin(), ofNode.end());
+}
+
+std::vector<Index> Communicator::numbersOf(
+  const std::vector<Index>&, const std::vector<Index>&) const
+{
+  return {};
+}
+
+std::shared_ptr<LinearSolver> Communicator::makeSolver(bool) const
+{
+  return nullptr;
 }
 
 const Communicator& Communicator::alone()

@@ -4,12 +4,16 @@
 #include "Support/Monitor.h"
 #include "Support/Types.h"
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <vector>
 
 namespace morph
 {
+class LinearSolver;
+struct ConnectedComponents;
+
 /// Rows of values of some nodes, of which other processes may have copies; see Communicator. This
 /// class is that of one process. Every function is collective.
 class CopiedRows
@@ -42,6 +46,8 @@ public:
   virtual void together(const std::function<void()>& work) const;
   /// Returns the numbers of nodes in the whole mesh, for messages. Not collective.
   virtual std::vector<Index> idsOf(const std::vector<Index>& nodes) const;
+  /// Whether this process speaks for all. Not collective.
+  virtual bool isFirst() const { return true; }
 
   /// Over all processes; all get the same bits.
   ///@{
@@ -70,6 +76,41 @@ public:
   ///@}
   /// Returns the communicator of a part of the mesh, whose node i is `nodes`[i] here.
   virtual std::unique_ptr<Communicator> part(const std::vector<Index>& nodes) const;
+
+  /// Of a whole mesh, whose cells a process has with copies of those around its nodes.
+  ///@{
+  /// Of this process's nodes and cells, by the same numbers on all: the bodies, and cellSigns().
+  /// Null where one process finds them. Not collective.
+  virtual const ConnectedComponents* bodies() const { return nullptr; }
+  virtual const std::vector<std::int8_t>* orientation() const { return nullptr; }
+  /// Whether a cell is a copy of one that another process has. Not collective.
+  virtual bool isCopy(Index /*cell*/) const { return false; }
+  /// Returns the numbers in the whole mesh of these of all processes, ascending. `nodes`: each is
+  /// in the list of one process. Of cells, copies are left out.
+  ///@{
+  virtual std::vector<Index> gatherNodes(const std::vector<Index>& nodes) const { return nodes; }
+  virtual std::vector<Index> gatherCells(const std::vector<Index>& cells) const { return cells; }
+  ///@}
+  /// Returns the nodes here that any process names by their numbers in the whole mesh.
+  virtual std::vector<Index> nodesOf(const std::vector<Index>& ids) const { return ids; }
+  /// Returns the rows of these nodes of all processes, each once, in the order of the nodes'
+  /// numbers in the whole mesh. `rows`: of all nodes here.
+  virtual Points gather(const Points& rows, const std::vector<Index>& nodes) const;
+  /// Gives copies of cells the values of those that they are copies of. `values`: of this process's
+  /// own cells, which come first, or none.
+  virtual void completeCells(std::vector<double>& /*values*/) const {}
+  /// Joins the components that processes have of some nodes where these have a node in common.
+  /// `ofNode`: #nodes, -1 for others; becomes numbers from 0 that are the same on all processes.
+  /// Returns how many there are.
+  virtual Index join(std::vector<Index>& ofNode) const;
+  /// Numbers `nodes` of all processes, one process after the other. Returns the numbers of `others`
+  /// here, which are in the list of another process.
+  virtual std::vector<Index> numbersOf(
+    const std::vector<Index>& nodes, const std::vector<Index>& others) const;
+  /// Returns a solver of equations whose rows several processes have; null for one process, which
+  /// has its own. Not collective.
+  virtual std::shared_ptr<LinearSolver> makeSolver(bool isSymmetric) const;
+  ///@}
 
   static const Communicator& alone();
 };

@@ -39,4 +39,15 @@ private:
   Monitor& whole_;
   double first_, last_, told_ = 0;
 };
+
+/// Keeps back warnings, as of code that says them again, or has other numbers of nodes and cells.
+class Silent : public ProgressRange
+{
+public:
+  explicit Silent(Monitor& whole)
+    : ProgressRange(whole, 0, 1)
+  {
+  }
+  void warn(const std::string&) override {}
+};
 }

@@ -2,14 +2,19 @@
 #include "Untangling/InversionFree.h"
 
 #include "LinearMethods/GraphLaplace.h"
+#include "LinearMethods/SimplexLinear.h"
 #include "Mesh/ShellLayer.h"
 #include "Mesh/UnknownOrdering.h"
+#include "Morpher/SiteMethod.h"
 #include "Quality/BoundaryDetermined.h"
 #include "Quality/ScaledJacobian.h"
 #include "Support/Error.h"
 #include "Support/ProgressRange.h"
 #include "Untangling/HigherOrderUntangling.h"
 #include "Untangling/MeshImprovement.h"
+
+#include <limits>
+#include <utility>
 
 namespace morph
 {
@@ -28,40 +33,59 @@ void InversionFree::takeEvaluateOptions(const Morpher& other)
 
 void InversionFree::doPrepare(const Mesh& rest, Monitor& monitor)
 {
-  this->referenceMesh_ = rest;
+  const Communicator& processes = this->processes();
+  Mesh reference = rest;
   if (this->reference_.rows() > 0)
   {
-    this->referenceMesh_.points = this->reference_;
-    validate(this->referenceMesh_);
+    reference.points = this->reference_;
+    validate(reference);
   }
-  this->orientation_ = cellSigns(this->referenceMesh_, connectedComponents(rest, monitor), monitor);
-  this->scale_ = unitEdgeScale(this->referenceMesh_);
-  this->referenceMesh_.points *= this->scale_;
-  this->referenceMesh_.layer.thickness *= this->scale_;
-  const Points atRest = rest.points * this->scale_;
-  this->minimumAtRest_ =
-    measureCorners(this->referenceMesh_, atRest, this->orientation_, {}, monitor).minimum;
-  const MovableQuality quality(this->referenceMesh_, this->orientation_, this->partition().free);
-  this->validAtRest_ = quality.measure(atRest, monitor).inverted == 0;
+  const std::vector<std::int8_t> signs =
+    cellSigns(reference, connectedComponents(rest, monitor, processes), monitor, processes);
+  this->own_ =
+    std::make_unique<OwnCells>(std::move(reference), this->partition(), signs, processes);
+  OwnCells& own = *this->own_;
+  this->scale_ = unitEdgeScale(own.mesh(), own.communicator());
+  own.mesh().points *= this->scale_;
+  own.mesh().layer.thickness *= this->scale_;
+  const Points atRest = own.take(rest.points) * this->scale_;
+  const auto minimumAt = [&](const Points& points)
+  {
+    const Quality quality = measureCorners(own.mesh(), points, own.orientation(), {}, monitor);
+    return own.communicator().minimum(
+      quality.measured > 0 ? quality.minimum : std::numeric_limits<double>::infinity());
+  };
+  this->minimumAtRest_ = minimumAt(atRest);
+  if (!own.isWhole() && !(minimumAt(own.mesh().points) > 0))
+  {
+    throw Error("The undeformed mesh has inverted or degenerate cells. On several MPI ranks the "
+                "inversion-free method needs a valid one: repair it on one rank first.");
+  }
+  const MovableQuality quality(
+    own.mesh(), own.orientation(), own.partition().free, own.communicator());
+  this->validAtRest_ = !own.isWhole() || quality.measure(atRest, monitor).inverted == 0;
   if (this->nearOnly_)
   {
     this->hasFemWarp_ = false;
-    this->hasSimplexLinear_ = false;
+    this->simplexLinear_.reset();
     this->preconditioner_.reset();
     return;
   }
 
   ProgressRange first(monitor, 0, 0.1), second(monitor, 0.1, 0.4), third(monitor, 0.4, 0.9);
-  this->boundary_ = boundaryFaces(this->referenceMesh_, first);
+  this->boundary_ = own.outerFaces(rest, first);
   monitor.check();
-  this->geometry_ = classify(this->referenceMesh_, this->boundary_, {}, first);
+  this->geometry_ = classify(own.mesh(), this->boundary_, {}, first);
   monitor.check();
   this->prepareFemWarp(rest, second);
+  this->simplexLinear_ = std::make_unique<SimplexLinear>();
+  if (!own.isWhole())
+  {
+    this->simplexLinear_ = std::make_unique<SiteMethod>(std::move(this->simplexLinear_));
+  }
   try
   {
-    this->hasSimplexLinear_ = false;
-    this->simplexLinear_.prepare(rest, this->partition(), third);
-    this->hasSimplexLinear_ = true;
+    this->prepareAlike(*this->simplexLinear_, rest, third);
   }
   catch (const Error& error)
   {
@@ -69,6 +93,7 @@ void InversionFree::doPrepare(const Mesh& rest, Monitor& monitor)
     {
       throw;
     }
+    this->simplexLinear_.reset();
   }
 }
 
@@ -78,8 +103,9 @@ void InversionFree::prepareFemWarp(const Mesh& rest, Monitor& monitor)
   this->preconditioner_.reset();
   try
   {
-    this->femWarp_.prepare(rest, this->partition(), monitor);
-    if (this->femWarp_.rows() == unknownOrdering(this->referenceMesh_, this->partition().free))
+    this->prepareAlike(this->femWarp_, rest, monitor);
+    if (this->own_->isWhole() &&
+        this->femWarp_.rows() == unknownOrdering(this->own_->mesh(), this->partition().free))
     {
       this->preconditioner_ = std::make_unique<WarpPreconditioner>(this->femWarp_);
     }
@@ -91,7 +117,7 @@ void InversionFree::prepareFemWarp(const Mesh& rest, Monitor& monitor)
     {
       throw;
     }
-    requirePrescribedBodies(rest, connectedComponents(rest, monitor), this->partition());
+    requirePrescribedBodies(connectedComponents(rest, monitor), this->partition());
     this->hasFemWarp_ = false;
   }
 }
@@ -101,7 +127,7 @@ Points InversionFree::moved(
 {
   Points result;
   report.iterations += method.evaluate(boundary, result, monitor).iterations;
-  return result * this->scale_;
+  return this->own_->take(result) * this->scale_;
 }
 
 MeshImprovement InversionFree::improvement(const std::vector<Index>& hopeless) const
@@ -112,8 +138,9 @@ MeshImprovement InversionFree::improvement(const std::vector<Index>& hopeless) c
   options.nearOnly = this->nearOnly_;
   options.minimumAtRest = this->minimumAtRest_;
   options.preconditioner = this->preconditioner_.get();
-  return { this->referenceMesh_, this->orientation_, this->partition(), this->boundary_,
-    this->geometry_, hopeless, options };
+  const OwnCells& own = *this->own_;
+  return { own.mesh(), own.orientation(), own.partition(), this->boundary_, this->geometry_,
+    hopeless, options, own.communicator() };
 }
 
 MeshImprovement::Outcome InversionFree::run(const MeshImprovement& improvement, const Points& guide,
@@ -121,9 +148,9 @@ MeshImprovement::Outcome InversionFree::run(const MeshImprovement& improvement, 
 {
   MeshImprovement::Outcome outcome = improvement.run(guide, target, isRepair, points, monitor);
   // A curved shell's tangent planes are those of the start. The result has others.
-  for (int turn = 0; turn < Turns && this->referenceMesh_.layer.isCurved(); ++turn)
+  for (int turn = 0; turn < Turns && this->own_->mesh().layer.isCurved(); ++turn)
   {
-    placeImages(this->referenceMesh_, points);
+    placeImages(this->own_->mesh(), points);
     if (improvement.quality().measure(points, monitor).inverted == 0)
     {
       break;
@@ -138,7 +165,7 @@ TargetConstruction InversionFree::findStart(const Points& boundary, const Movabl
 {
   const Points atRest = points;
   MovableQuality::Result best;
-  best.inverted = this->referenceMesh_.numberOfCells() + 1;
+  best.inverted = std::numeric_limits<Index>::max();
   const auto keepBetter = [&](Points start)
   { return quality.keepBetter(std::move(start), points, best, monitor); };
   ProgressRange first(monitor, 0, 0.05), second(monitor, 0.05, 0.1);
@@ -146,9 +173,9 @@ TargetConstruction InversionFree::findStart(const Points& boundary, const Movabl
   {
     keepBetter(this->moved(this->femWarp_, boundary, report, first));
   }
-  if (this->hasSimplexLinear_)
+  if (this->simplexLinear_)
   {
-    keepBetter(this->moved(this->simplexLinear_, boundary, report, second));
+    keepBetter(this->moved(*this->simplexLinear_, boundary, report, second));
   }
   if (this->validAtRest_)
   {
@@ -156,7 +183,7 @@ TargetConstruction InversionFree::findStart(const Points& boundary, const Movabl
   }
   keepBetter(atRest);
   // Where it is the better start, the undeformed shapes are worth nothing.
-  return keepBetter(graphLaplaceMesh(this->referenceMesh_, this->partition(), atRest, monitor))
+  return keepBetter(graphLaplaceMesh(this->own_->mesh(), this->partition(), atRest, monitor))
            ? TargetConstruction::IdealSkew
            : TargetConstruction::Stretched;
 }
@@ -171,25 +198,23 @@ EvaluateReport InversionFree::displace(
       "method's mesh near its inverted cells. To evaluate it, "
       "prepare it without NearOnly.");
   }
-  const NodePartition& partition = this->partition();
-  if (this->validAtRest_ && (prescribed.array() == 0).all())
+  const OwnCells& own = *this->own_;
+  if (this->validAtRest_ && this->processes().all((prescribed.array() == 0).all()))
   {
     free.setZero();
     MeshImprovement::Outcome nothing;
     nothing.untangled = true;
     return reportImprovement(nothing, {}, monitor);
   }
-  Points boundary(prescribed.rows(), 3), points = this->restPoints() * this->scale_;
-  for (Index i = 0; i < boundary.rows(); ++i)
-  {
-    const Index node = partition.prescribed[i];
-    boundary.row(i) = this->restPoints().row(node) + prescribed.row(i);
-    points.row(node) = boundary.row(i) * this->scale_;
-  }
-  const std::vector<Index> determined = inversionsByBoundaryMotion(this->referenceMesh_, partition,
-    this->orientation_, this->restPoints() * this->scale_, points, monitor);
+  const Points& rest = this->restPoints();
+  const Points boundary = rest(this->partition().prescribed, allColumns) + prescribed;
+  Points all = rest;
+  all(this->partition().prescribed, allColumns) = boundary;
+  Points points = own.take(all) * this->scale_;
+  const std::vector<Index> determined = inversionsByBoundaryMotion(
+    own.mesh(), own.partition(), own.orientation(), own.take(rest) * this->scale_, points, monitor);
   const std::vector<Index> hopeless =
-    boundaryDeterminedInversions(this->referenceMesh_, partition, this->orientation_, points);
+    boundaryDeterminedInversions(own.mesh(), own.partition(), own.orientation(), points);
 
   EvaluateReport guesses;
   const Points atRest = points;
@@ -197,19 +222,16 @@ EvaluateReport InversionFree::displace(
   const TargetConstruction target =
     this->findStart(boundary, improvement.quality(), points, guesses, monitor);
   const Points guide = points;
-  const MeshImprovement::Outcome outcome =
-    this->run(improvement, guide, target, false, points, monitor);
+  MeshImprovement::Outcome outcome = this->run(improvement, guide, target, false, points, monitor);
   if (!outcome.untangled && improvement.quality().measure(points, monitor) <
                               improvement.quality().measure(atRest, monitor))
   {
     points = atRest;
   }
-  for (Index i = 0; i < free.rows(); ++i)
-  {
-    const Index node = partition.free[i];
-    free.row(i) = points.row(node) / this->scale_ - this->restPoints().row(node);
-  }
-  EvaluateReport report = reportImprovement(outcome, determined, monitor);
+  all(own.nodes(), allColumns) = points / this->scale_;
+  free = all(this->partition().free, allColumns) - rest(this->partition().free, allColumns);
+  outcome.onFolds = own.gatherIds(outcome.onFolds);
+  EvaluateReport report = reportImprovement(outcome, own.gatherIds(determined), monitor);
   report.iterations += guesses.iterations;
   return report;
 }
@@ -232,7 +254,7 @@ EvaluateReport InversionFree::repair(Points& moved, Monitor& whole) const
   ProgressRange first(monitor, 0, 0.1);
   Points points = moved * this->scale_;
   const std::vector<Index> hopeless =
-    boundaryDeterminedInversions(this->referenceMesh_, partition, this->orientation_, points);
+    boundaryDeterminedInversions(this->own_->mesh(), partition, this->own_->orientation(), points);
   const Points guide =
     this->hasFemWarp_ ? this->moved(this->femWarp_, boundary, guesses, first) : points;
   // A mesh that is valid again is enough: the rest of it stays as its method made it.
@@ -244,8 +266,8 @@ EvaluateReport InversionFree::repair(Points& moved, Monitor& whole) const
     failed.effort = outcome.effort;
     return reportImprovement(failed, {}, monitor);
   }
-  const std::vector<Index> determined = inversionsByBoundaryMotion(this->referenceMesh_, partition,
-    this->orientation_, this->restPoints() * this->scale_, points, monitor);
+  const std::vector<Index> determined = inversionsByBoundaryMotion(this->own_->mesh(), partition,
+    this->own_->orientation(), this->restPoints() * this->scale_, points, monitor);
 
   Points displacement = Points::Zero(moved.rows(), 3);
   for (Index node : partition.prescribed)
@@ -262,7 +284,7 @@ EvaluateReport InversionFree::repair(Points& moved, Monitor& whole) const
   {
     moved.row(node) = this->restPoints().row(node) + displacement.row(node);
   }
-  untangleHigherOrder(this->referenceMesh_, partition, this->orientation_, moved, monitor);
+  untangleHigherOrder(this->own_->mesh(), partition, this->own_->orientation(), moved, monitor);
   monitor.progress(1);
   return reportImprovement(outcome, determined, monitor);
 }

@@ -5,7 +5,7 @@
 #include "Energies/MeshEnergy.h"
 #include "Energies/TargetMatrices.h"
 #include "LinearMethods/FemWarp.h"
-#include "LinearMethods/SimplexLinear.h"
+#include "Mesh/OwnCells.h"
 #include "Morpher/Morpher.h"
 #include "Untangling/MeshImprovement.h"
 #include "Untangling/WarpPreconditioner.h"
@@ -32,6 +32,9 @@ namespace morph
 /// No method can repair cells that the boundary itself inverts (BoundaryDetermined.h). A warning
 /// names them, and the other cells are improved without them. If others stay inverted, the count
 /// `Untangled` is 0. A warning names those on a folded face of the boundary (Untangling.h).
+///
+/// On several processes the stages are the same for the cells of each. The undeformed mesh has to
+/// be valid, and a folded boundary is recognized by the outer faces of each process alone.
 ///
 /// Counts: `NewtonSteps`, `LinearIterations`, `EnergyEvaluations`, `BoundaryDeterminedCells`,
 /// `FoldedBoundaryCells` and `Untangled` (1 or 0).
@@ -60,6 +63,7 @@ public:
 
   void takeEvaluateOptions(const Morpher& other) override;
   void setReference(Points reference) override { this->reference_ = std::move(reference); }
+  int layers() const override { return 1; }
 
   /// Repairs `moved`, another method's mesh, instead of evaluate(). `moved`: #nodes x 3, with the
   /// prescribed nodes in place. Where its inverted cells can be untangled by the nodes near them,
@@ -97,17 +101,15 @@ private:
   bool raisesValid_ = true;
 
   Points reference_;
-  Mesh referenceMesh_; ///< the reference, its coordinates times scale_
-  double scale_ = 1;   ///< a power of two that makes edges about 1 long
-  std::vector<std::int8_t> orientation_;
-  BoundaryFaces boundary_;
-  Classification geometry_; ///< of the undeformed boundary
+  std::unique_ptr<OwnCells> own_; ///< of the reference, its coordinates times scale_
+  double scale_ = 1;              ///< a power of two that makes edges about 1 long
+  BoundaryFaces boundary_;        ///< of own_: the outer faces of the whole mesh
+  Classification geometry_;       ///< of the undeformed boundary
   bool validAtRest_ = true;
   double minimumAtRest_ = 0; ///< of the scaled Jacobian
   FemWarp femWarp_;
   bool hasFemWarp_ = false; ///< a tangled mesh may leave a node without a cell that has volume
   std::unique_ptr<WarpPreconditioner> preconditioner_; ///< null: not of the energy's rows
-  SimplexLinear simplexLinear_;
-  bool hasSimplexLinear_ = false; ///< a flat boundary has no tessellation, for instance
+  std::unique_ptr<Morpher> simplexLinear_; ///< null: a flat boundary has no tessellation
 };
 }

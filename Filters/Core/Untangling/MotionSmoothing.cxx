@@ -4,8 +4,6 @@
 #include "Energies/MeshEnergy.h"
 #include "Energies/SmoothingTargets.h"
 #include "LinearMethods/BodyMotion.h"
-#include "LinearMethods/FemWarp.h"
-#include "Morpher/ShellFits.h"
 #include "Quality/BoundaryDetermined.h"
 #include "Support/Error.h"
 #include "Untangling/KeepMinimum.h"
@@ -22,13 +20,14 @@ constexpr double Affine = 1e-9; // of the motion
 MotionSmoothing::MotionSmoothing(const Mesh& rest, const ConnectedComponents& bodies,
   const std::vector<std::int8_t>& orientation, const NodePartition& partition,
   const SharedHigherOrderNodes& followers, const SmoothingOptions& options,
-  const Communicator& communicator)
+  const Membrane* membrane, const Communicator& communicator)
   : rest_(rest)
   , bodies_(bodies)
   , orientation_(orientation)
   , partition_(partition)
   , followers_(followers)
   , options_(options)
+  , membrane_(membrane)
   , communicator_(communicator)
 {
 }
@@ -67,14 +66,12 @@ Quality MotionSmoothing::measure(Points& points, Monitor& monitor) const
 
 bool MotionSmoothing::start(const Points& prescribed, Points& points, Monitor& monitor) const
 {
-  if (this->rest_.layer.isCurved())
+  if (this->membrane_)
   {
-    // Nodes then move in tangent planes, so that the surface has to be where it belongs.
-    FemWarp membrane;
-    membrane.prepare(this->rest_, this->partition_, monitor);
-    membrane.evaluate(Points(points(this->partition_.prescribed, allColumns)), points, monitor);
+    this->membrane_->warp.evaluate(
+      Points(points(this->partition_.prescribed, allColumns)), points, monitor);
     Points left = prescribed;
-    ShellFits(this->rest_, this->partition_).takeOff(left);
+    this->membrane_->fits.takeOff(left);
     return left.cwiseAbs().maxCoeff() <= Affine * prescribed.cwiseAbs().maxCoeff();
   }
   Points followed = points;

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "LinearMethods/FemWarp.h"
 #include "Mesh/NodePartition.h"
 #include "Mesh/SharedHigherOrderNodes.h"
 #include "Mesh/Topology.h"
 #include "Morpher/Morpher.h"
+#include "Morpher/ShellFits.h"
 #include "Quality/ScaledJacobian.h"
 #include "Support/Communicator.h"
 #include "Untangling/SmoothMesh.h"
@@ -14,6 +16,14 @@
 
 namespace morph
 {
+/// Where nodes of a curved shell start. They then move in tangent planes, so that the surface has
+/// to be where it belongs.
+struct Membrane
+{
+  FemWarp warp;   ///< prepared for the shell
+  ShellFits fits; ///< by which an affine motion is known
+};
+
 /// Smooths a mesh whose boundary has moved: the stages of Smoothing.h. On several processes each
 /// has its own cells, and all take the same steps. Holds its arguments by reference, but for the
 /// options.
@@ -21,11 +31,12 @@ class MotionSmoothing
 {
 public:
   /// `rest`: undeformed. `bodies`: those of the whole mesh. `orientation`: #cells, see cellSigns()
-  /// in Topology.h. `followers`: prepared for `rest`.
+  /// in Topology.h. `followers`: prepared for `rest`. `membrane`: that of a curved
+  /// shell; null for other meshes.
   MotionSmoothing(const Mesh& rest, const ConnectedComponents& bodies,
     const std::vector<std::int8_t>& orientation, const NodePartition& partition,
     const SharedHigherOrderNodes& followers, const SmoothingOptions& options,
-    const Communicator& communicator = Communicator::alone());
+    const Membrane* membrane = nullptr, const Communicator& communicator = Communicator::alone());
 
   struct Outcome
   {
@@ -52,6 +63,7 @@ private:
   const NodePartition& partition_;
   const SharedHigherOrderNodes& followers_;
   const SmoothingOptions options_;
+  const Membrane* membrane_;
   const Communicator& communicator_;
 };
 

@@ -1,30 +1,39 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Untangling/Smoothing.h"
 
-#include "Untangling/MotionSmoothing.h"
-
 namespace morph
 {
-void Smoothing::doPrepare(const Mesh& rest, Monitor&)
+void Smoothing::doPrepare(const Mesh& rest, Monitor& monitor)
 {
-  this->bodies_ = connectedComponents(rest);
-  requirePrescribedBodies(rest, this->bodies_, this->partition());
-  this->orientation_ = cellSigns(rest, this->bodies_);
-  this->mesh_ = rest;
-  this->followers_.prepare(rest, this->partition(), Communicator::alone());
+  const Communicator& processes = this->processes();
+  const ConnectedComponents bodies = connectedComponents(rest, monitor, processes);
+  requirePrescribedBodies(bodies, this->partition(), processes);
+  this->own_ = std::make_unique<OwnCells>(
+    rest, this->partition(), cellSigns(rest, bodies, monitor, processes), processes);
+  const OwnCells& own = *this->own_;
+  this->bodies_ = own.bodies(bodies);
+  this->followers_.prepare(own.mesh(), own.partition(), own.communicator());
+  this->membrane_.reset();
+  if (rest.layer.isCurved())
+  {
+    this->membrane_ = std::make_unique<Membrane>();
+    this->membrane_->warp.prepare(rest, this->partition(), monitor);
+    this->membrane_->fits = ShellFits(rest, this->partition());
+  }
 }
 
 EvaluateReport Smoothing::displace(const Points& prescribed, Points& free, Monitor& monitor) const
 {
-  Points points;
-  const MotionSmoothing::Outcome outcome = MotionSmoothing(this->mesh_, this->bodies_,
-    this->orientation_, this->partition(), this->followers_, this->options_)
-                                             .run(prescribed, points, monitor);
-  for (Index i = 0; i < free.rows(); ++i)
-  {
-    const Index node = this->partition().free[i];
-    free.row(i) = points.row(node) - this->mesh_.points.row(node);
-  }
-  return reportSmoothing(outcome, outcome.determined, monitor);
+  const OwnCells& own = *this->own_;
+  Points displacement = Points::Zero(this->restPoints().rows(), 3), points;
+  displacement(this->partition().prescribed, allColumns) = prescribed;
+  const Points ofOwn = own.take(displacement)(own.partition().prescribed, allColumns);
+  const MotionSmoothing::Outcome outcome =
+    MotionSmoothing(own.mesh(), this->bodies_, own.orientation(), own.partition(), this->followers_,
+      this->options_, this->membrane_.get(), own.communicator())
+      .run(ofOwn, points, monitor);
+  displacement(own.nodes(), allColumns) = points - own.mesh().points;
+  free = displacement(this->partition().free, allColumns);
+  return reportSmoothing(outcome, own.gatherIds(outcome.determined), monitor);
 }
 }

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Mesh/SharedHigherOrderNodes.h"
+#include "Mesh/OwnCells.h"
 #include "Mesh/Topology.h"
 #include "Morpher/Morpher.h"
+#include "Untangling/MotionSmoothing.h"
 #include "Untangling/SmoothMesh.h"
+
+#include <memory>
 
 namespace morph
 {
@@ -38,6 +41,7 @@ public:
   {
     this->options_ = static_cast<const Smoothing&>(other).options_;
   }
+  int layers() const override { return 1; }
 
 protected:
   void doPrepare(const Mesh& rest, Monitor& monitor) override;
@@ -45,9 +49,9 @@ protected:
 
 private:
   SmoothingOptions options_;
-  Mesh mesh_; ///< undeformed
-  ConnectedComponents bodies_;
-  SharedHigherOrderNodes followers_;
-  std::vector<std::int8_t> orientation_;
+  std::unique_ptr<OwnCells> own_;
+  ConnectedComponents bodies_;         ///< of own_
+  SharedHigherOrderNodes followers_;   ///< of own_
+  std::unique_ptr<Membrane> membrane_; ///< null unless the mesh is a curved shell
 };
 }

@@ -3,6 +3,7 @@
 
 #include "Boundary/CrossingFaces.h"
 #include "Geometry/MeanOfRows.h"
+#include "Mesh/ShellLayer.h"
 #include "Private/Data/NamedSets.h"
 #include "Private/Data/Surface.h"
 #include "Private/Data/WrittenPoints.h"
@@ -154,6 +155,18 @@ Found Describe(const Pairs& pairs, const std::map<Index, std::string>& names,
       "Move the boundary less there, or along another path." };
 }
 
+namespace
+{
+Found findAmong(const morph::Mesh& rest, const morph::BoundaryFaces& faces,
+  const std::vector<std::int8_t>& orientation, vtkUnstructuredGrid* output, vtkPointSet* boundary,
+  const morph::ConstPoints& written, morph::Monitor& monitor)
+{
+  const Pairs pairs = morph::crossingFaces(rest.points, written, faces, orientation, monitor);
+  return Describe(
+    pairs, NamesOf(FacesOf(pairs), rest, faces, output, boundary), faces, faces.cells, written);
+}
+}
+
 Found Find(const morph::Mesh& rest, const morph::BoundaryFaces& faces,
   const std::vector<std::int8_t>& orientation, vtkUnstructuredGrid* output, vtkPointSet* boundary,
   morph::Monitor& monitor)
@@ -161,9 +174,17 @@ Found Find(const morph::Mesh& rest, const morph::BoundaryFaces& faces,
   return withPoints(output,
     [&](const morph::ConstPoints& written)
     {
-      const Pairs pairs = morph::crossingFaces(rest.points, written, faces, orientation, monitor);
-      return Describe(
-        pairs, NamesOf(FacesOf(pairs), rest, faces, output, boundary), faces, faces.cells, written);
+      // The sides of a layer are the edges of a plane mesh; a shell crosses itself by its faces.
+      const morph::ShellLayer& layer = rest.layer;
+      if (layer.isCurved() || morph::leavesPlane(layer, written))
+      {
+        const morph::BoundaryFaces front = morph::frontFaces(rest);
+        Found found =
+          findAmong(rest, front, morph::frontWindings(rest), output, nullptr, written, monitor);
+        found.Own.clear();
+        return found;
+      }
+      return findAmong(rest, faces, orientation, output, boundary, written, monitor);
     });
 }
 }

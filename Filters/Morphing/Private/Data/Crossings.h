@@ -31,8 +31,9 @@ struct Found
 using Pairs = std::vector<std::array<morph::Index, 2>>; ///< of faces; see crossingFaces()
 
 /// Finds them on the points of `output` as written. `rest`: the undeformed mesh, `faces`,
-/// `orientation`: of it. `boundary`: the displaced one, or null. Cost: that of crossingFaces() and,
-/// if there are any, of NamesOf().
+/// `orientation`: of it. `boundary`: the displaced one, or null. Of a shell
+/// that is curved now its own faces count, and none is Own. Cost: that of crossingFaces() and, if
+/// there are any, of NamesOf().
 Found Find(const morph::Mesh& rest, const morph::BoundaryFaces& faces,
   const std::vector<std::int8_t>& orientation, vtkUnstructuredGrid* output, vtkPointSet* boundary,
   morph::Monitor& monitor);

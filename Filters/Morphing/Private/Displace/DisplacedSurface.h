@@ -5,6 +5,7 @@
 
 class vtkPointSet;
 class vtkPolyData;
+class vtkUnstructuredGrid;
 
 namespace morph::filters
 {
@@ -20,4 +21,11 @@ namespace morph::filters::DisplacedSurface
 /// points.
 void Write(const InputBoundary& model, const Surroundings::Result& result, vtkPointSet* input,
   int precision, vtkPolyData* output);
+
+/// Adds inner nodes of a mesh to `output` as points without cells. `nodes`: ids in `grid`; `rest`,
+/// `moved`: #nodes x 3; `roles`: #nodes. Arrays that the grid has too get its values, those that
+/// the filters add theirs, and others 0.
+void AppendInner(vtkUnstructuredGrid* grid, const std::vector<morph::Index>& nodes,
+  const morph::Points& rest, const morph::Points& moved, const std::vector<signed char>& roles,
+  vtkPolyData* output);
 }

@@ -2,12 +2,15 @@
 // What Internals do with zones and layers, which have nodes inside of the mesh.
 #include "Private/Displace/Internals.h"
 
-#include "Private/Displace/InnerPoints.h"
+#include "Private/Data/GridMesh.h"
+#include "Private/Displace/DisplacedSurface.h"
 #include "Private/Pipeline/Ranks.h"
 #include "Support/Error.h"
 
 #include <vtkCellData.h>
 #include <vtkUnstructuredGrid.h>
+
+#include <optional>
 
 namespace filters = morph::filters;
 
@@ -58,9 +61,13 @@ std::vector<filters::Zones::Part> vtkDisplacementAlgorithm::vtkInternals::FindZo
   filters::Zones::Kind kind, vtkUnstructuredGrid* grid, const filters::Zones::Options& zones) const
 {
   const filters::MergedBlocks* blocks = this->Blocks.Merged();
-  return this->Whole
-           ? filters::Zones::FindOnRanks(kind, grid, *this->Whole->Volume(), blocks, zones)
-           : filters::Zones::Find(kind, grid, this->Model.mesh, blocks, zones);
+  if (this->Whole)
+  {
+    return filters::Zones::FindOnRanks(kind, grid, *this->Whole->Volume(), blocks, zones);
+  }
+  const bool isMesh = this->Model.mesh.numberOfCells() > 0; // or the faces of a shell
+  return filters::Zones::Find(
+    kind, grid, isMesh ? this->Model.mesh : filters::GridMesh::FromGrid(grid), blocks, zones);
 }
 
 void vtkDisplacementAlgorithm::vtkInternals::FindInner(const Options& options,
@@ -75,8 +82,9 @@ void vtkDisplacementAlgorithm::vtkInternals::FindInner(const Options& options,
   }
   if (!grid)
   {
-    throw morph::Error("Zones and layers have inner nodes, and the input is a surface. Give the "
-                       "volume mesh to this filter.");
+    throw morph::Error(
+      "Zones and layers have inner nodes, and a surface moves as a whole. Give the volume mesh to "
+      "this filter or, of a shell with a target, tick the edges that move.");
   }
   const auto find = [&](filters::Zones::Kind kind)
   {
@@ -87,9 +95,18 @@ void vtkDisplacementAlgorithm::vtkInternals::FindInner(const Options& options,
   mover.rigidZones = find(filters::Zones::Rigid);
   if (this->RigidTransform)
   {
-    mover.inner.rigid = [this, factor = options.ScaleFactor](
-                          const Eigen::RowVector3d& x) -> Eigen::RowVector3d
+    const double factor = options.ScaleFactor;
+    std::optional<morph::AffineMotion> part;
+    if (const auto whole = filters::Motion::OfTransform(this->RigidTransform); whole && factor != 1)
     {
+      part = morph::partOf(*whole, Eigen::RowVector3d::Zero(), factor);
+    }
+    mover.inner.rigid = [this, factor, part](const Eigen::RowVector3d& x) -> Eigen::RowVector3d
+    {
+      if (part)
+      {
+        return x + part->col(0).transpose() + x * part->rightCols<3>().transpose();
+      }
       Eigen::RowVector3d to;
       this->RigidTransform->TransformPoint(x.data(), to.data());
       return factor == 1 ? to : Eigen::RowVector3d(x + factor * (to - x));
@@ -116,7 +133,7 @@ void vtkDisplacementAlgorithm::vtkInternals::AppendInner(
   {
     roles.push_back(result.roles[node]);
   }
-  filters::InnerPoints::Append(grid, this->Mover.inner().pointsOf(this->Model, nodes),
+  filters::DisplacedSurface::AppendInner(grid, this->Mover.inner().pointsOf(this->Model, nodes),
     this->Mover.inner().rest(this->Model)(nodes, morph::allColumns),
     result.moved(nodes, morph::allColumns), roles, output);
   if (this->Whole)

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Private/Displace/Internals.h"
 
-#include "BoundaryMover/Dimension.h"
 #include "BoundaryMover/FitToTarget.h"
 #include "BoundaryMover/Patches.h"
+#include "Mesh/ShellLayer.h"
 #include "Private/Data/AffineArrays.h"
+#include "Private/Data/GridMesh.h"
 #include "Private/Data/Output.h"
 #include "Private/Data/Surface.h"
 #include "Private/Displace/DisplacedSurface.h"
@@ -26,6 +27,7 @@
 #include <array>
 #include <functional>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 namespace filters = morph::filters;
@@ -203,11 +205,45 @@ void vtkDisplacementAlgorithm::vtkInternals::Displace(const Options& options,
   }
   check();
   this->Whole.reset();
-  if (!mesh.IsElsewhere)
+  auto* grid = vtkUnstructuredGrid::SafeDownCast(input);
+  if (vtkPolyData* shell = this->WholeShell(options, grid, target))
   {
-    this->Displace(
-      options, input, vtkUnstructuredGrid::SafeDownCast(input), inputs, target, output, monitor);
+    Options whole = options;
+    whole.Moving = MOVING_EVERYTHING;
+    this->Displace(whole, shell, nullptr, inputs, target, output, monitor);
   }
+  else if (!mesh.IsElsewhere)
+  {
+    this->Displace(options, input, grid, inputs, target, output, monitor);
+  }
+}
+
+vtkPolyData* vtkDisplacementAlgorithm::vtkInternals::WholeShell(
+  const Options& options, vtkUnstructuredGrid* grid, bool hasTarget)
+{
+  const bool isWhole = options.Moving == MOVING_EVERYTHING ||
+                       (options.Moving == MOVING_SURFACES && options.Surfaces.empty());
+  if (!grid || !hasTarget || !isWhole)
+  {
+    return nullptr;
+  }
+  if (this->ShellOf != grid || this->ShellTime != grid->GetMTime())
+  {
+    const morph::Mesh mesh = filters::GridMesh::FromGrid(grid);
+    this->Shell = nullptr;
+    if (mesh.layer.nodes > 0)
+    {
+      const std::vector<std::int8_t> windings = morph::frontWindings(mesh);
+      morph::BoundaryFaces faces = morph::frontFaces(mesh);
+      faces.nodes.resize(mesh.layer.nodes); // all of the input, so that messages have its ids
+      std::iota(faces.nodes.begin(), faces.nodes.end(), morph::Index(0));
+      this->Shell = vtkSmartPointer<vtkPolyData>::New();
+      filters::Surface::Write(grid, mesh, faces, this->Shell, &windings);
+    }
+    this->ShellOf = grid;
+    this->ShellTime = grid->GetMTime();
+  }
+  return this->Shell;
 }
 
 void vtkDisplacementAlgorithm::vtkInternals::Classify(
@@ -377,11 +413,8 @@ void vtkDisplacementAlgorithm::vtkInternals::Prepare(const Options& options, vtk
     moves.Given = this->Model.points()(moves.Choice.moving, morph::allColumns) + by;
   }
   monitor.check();
-  if (movesAny && options.Displacement == DISPLACEMENT_DIMENSION)
-  {
-    this->PresentDimension = morph::dimensionOf(this->Model, moves.Choice).value;
-  }
-  moves.Targets = filters::Motion::Targets(this->Model, moves.Choice, motion);
+  moves.Targets =
+    filters::Motion::Targets(this->Model, moves.Choice, motion, &this->PresentDimension);
   if (motion.Displacement == DISPLACEMENT_ALONG_NORMALS)
   {
     // In a plane of symmetry the facets on its other side count, too.

@@ -10,7 +10,6 @@
 #include "Private/Displace/BoundaryFields.h"
 #include "Private/Displace/Chosen.h"
 #include "Private/Displace/ControlPoints.h"
-#include "Private/Displace/FittedTarget.h"
 #include "Private/Displace/InputBoundary.h"
 #include "Private/Displace/Motion.h"
 #include "Private/Displace/Pick.h"
@@ -20,6 +19,7 @@
 #include "Private/Options.h"
 #include "Private/Pipeline/Input.h"
 #include "Private/Pipeline/Monitor.h"
+#include "Private/Project/TargetData.h"
 
 #include <vtkAbstractTransform.h>
 #include <vtkDataArraySelection.h>
@@ -123,6 +123,12 @@ struct vtkDisplacementAlgorithm::vtkInternals
 
 private:
   morph::filters::Unchanged Checked; ///< the input, where it is a grid
+  /// The faces of a shell that goes to a target as a whole, and the input that they are of.
+  ///@{
+  vtkSmartPointer<vtkPolyData> Shell;
+  const vtkDataObject* ShellOf = nullptr; ///< compared, never used
+  vtkMTimeType ShellTime = 0;
+  ///@}
   morph::filters::BlockSelection Selected, ZoneSelected;
   std::vector<std::string> Warnings; ///< of the geometry, not reported yet
   vtkIdType ChosenVersion = -1;      ///< of Model, that Choice is of
@@ -149,6 +155,8 @@ private:
   };
   void Classify(const Options& options, vtkPointSet* input, morph::Monitor& monitor);
   void ListZones();
+  /// The faces of a shell that goes to a target as a whole; null for all others.
+  vtkPolyData* WholeShell(const Options& options, vtkUnstructuredGrid* grid, bool hasTarget);
   /// `input`: with the whole boundary; `grid`: the mesh, or this process's piece of it; null for a
   /// surface. `target`: null for other displacements. With Whole, collective.
   void Displace(const Options& options, vtkPointSet* input, vtkUnstructuredGrid* grid,

@@ -17,6 +17,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 namespace morph::filters
 {
@@ -92,6 +93,15 @@ Points arrayRows(vtkPointSet* input, const std::string& name, const std::vector<
   return rows;
 }
 
+/// The center that the panel's numbers are about.
+Eigen::RowVector3d centerOf(
+  const BoundaryModel& model, const Choice& choice, const Motion::Options& options)
+{
+  return options.AutoCenter
+           ? morph::centerOfMoving(model, choice)
+           : Eigen::RowVector3d(options.Center[0], options.Center[1], options.Center[2]);
+}
+
 /// The point that is the origin of the transform.
 Eigen::RowVector3d turningPoint(
   const BoundaryModel& model, const Choice& choice, const Motion::Options& options)
@@ -101,14 +111,21 @@ Eigen::RowVector3d turningPoint(
   {
     return Eigen::RowVector3d::Zero();
   }
-  return options.AutoCenter
-           ? morph::centerOfMoving(model, choice)
-           : Eigen::RowVector3d(options.Center[0], options.Center[1], options.Center[2]);
+  return centerOf(model, choice, options);
 }
 
+/// With ScaleFactor.
 morph::Placement placementOf(const Motion::Options& options)
 {
-  return { options.Translation, options.Rotation, options.Scale };
+  morph::Placement part = { options.Translation, options.Rotation, options.Scale };
+  const double factor = options.ScaleFactor;
+  for (std::size_t i = 0; factor != 1 && i < 3; ++i)
+  {
+    part.translation[i] *= factor;
+    part.rotation[i] *= factor;
+    part.scale[i] = 1 + factor * (part.scale[i] - 1);
+  }
+  return part;
 }
 
 Points positions(const BoundaryModel& model, const std::vector<Index>& nodes)
@@ -116,41 +133,46 @@ Points positions(const BoundaryModel& model, const std::vector<Index>& nodes)
   return model.points()(nodes, morph::allColumns);
 }
 
-/// The displacement of the whole motion about its turning point; nothing where it is not affine.
-std::optional<morph::AffineMotion> affineMotion(const Motion::Options& options)
+/// The displacement with ScaleFactor about its turning point; nothing where it is not affine.
+std::optional<morph::AffineMotion> affineMotion(
+  const BoundaryModel& model, const Choice& choice, const Motion::Options& options)
 {
-  morph::AffineMotion motion = morph::AffineMotion::Zero();
-  auto* linear = vtkLinearTransform::SafeDownCast(options.Transform);
   switch (options.Displacement)
   {
     case vtkDisplacementAlgorithm::DISPLACEMENT_VECTOR:
-      motion.col(0) = Eigen::Vector3d::Map(options.Vector.data());
+    {
+      morph::AffineMotion motion = morph::AffineMotion::Zero();
+      motion.col(0) = options.ScaleFactor * Eigen::Vector3d::Map(options.Vector.data());
       return motion;
+    }
     case vtkDisplacementAlgorithm::DISPLACEMENT_TRANSLATE_ROTATE_SCALE:
       return morph::affineMotion(placementOf(options));
     case vtkDisplacementAlgorithm::DISPLACEMENT_TRANSFORM:
-      break;
+    {
+      std::optional<morph::AffineMotion> motion = Motion::OfTransform(options.Transform);
+      if (motion && options.ScaleFactor != 1)
+      {
+        motion = morph::partOf(*motion,
+          centerOf(model, choice, options) - turningPoint(model, choice, options),
+          options.ScaleFactor);
+      }
+      return motion;
+    }
     default:
       return {};
   }
-  if (!linear)
-  {
-    return {};
-  }
-  linear->Update();
-  for (int i = 0; i < 3; ++i)
-  {
-    for (int j = 0; j < 3; ++j)
-    {
-      motion(i, 1 + j) = linear->GetMatrix()->GetElement(i, j) - (i == j);
-    }
-    motion(i, 0) = linear->GetMatrix()->GetElement(i, 3);
-  }
-  return motion;
 }
 
+Points moved(
+  const Points& from, const morph::AffineMotion& motion, const Eigen::RowVector3d& center)
+{
+  const Points turned = (from.rowwise() - center) * motion.rightCols<3>().transpose();
+  return from + (turned.rowwise() + motion.col(0).transpose());
+}
+
+/// With a factor of 1, but for a dimension.
 Points wholeMotion(const BoundaryModel& model, const Choice& choice, const Motion::Options& options,
-  const Points& from)
+  const Points& from, double* presentDimension)
 {
   switch (options.Displacement)
   {
@@ -161,17 +183,23 @@ Points wholeMotion(const BoundaryModel& model, const Choice& choice, const Motio
       return morph::movedAlongNormals(model, choice, options.Distance);
     case vtkDisplacementAlgorithm::DISPLACEMENT_TRANSLATE_ROTATE_SCALE:
     {
-      const Eigen::RowVector3d center = turningPoint(model, choice, options);
-      const morph::AffineMotion motion = morph::affineMotion(placementOf(options));
-      const Points about = from.rowwise() - center;
-      const Points turned = about * motion.rightCols<3>().transpose();
-      return from + (turned.rowwise() + motion.col(0).transpose());
+      Motion::Options whole = options;
+      whole.ScaleFactor = 1;
+      return moved(
+        from, morph::affineMotion(placementOf(whole)), turningPoint(model, choice, options));
     }
     case vtkDisplacementAlgorithm::DISPLACEMENT_RADIUS:
       return morph::movedByRadius(model, choice, options.RadiusChange);
     case vtkDisplacementAlgorithm::DISPLACEMENT_DIMENSION:
-      return morph::movedToDimension(
-        model, choice, options.Dimension, static_cast<morph::DimensionSide>(options.DimensionSide));
+    {
+      morph::DimensionMotion motion = morph::movedToDimension(model, choice, options.Dimension,
+        static_cast<morph::DimensionSide>(options.DimensionSide), options.ScaleFactor);
+      if (presentDimension)
+      {
+        *presentDimension = motion.present.value;
+      }
+      return std::move(motion.to);
+    }
     case vtkDisplacementAlgorithm::DISPLACEMENT_ARRAY:
     case vtkDisplacementAlgorithm::DISPLACEMENT_FIELD:
     case vtkDisplacementAlgorithm::DISPLACEMENT_TARGET:
@@ -210,14 +238,35 @@ void requireModerate(const Points& targets, const std::vector<Index>& nodes, con
 
 namespace Motion
 {
-Points Targets(const BoundaryModel& model, const Choice& choice, const Options& options)
+std::optional<morph::AffineMotion> OfTransform(vtkAbstractTransform* transform)
+{
+  auto* linear = vtkLinearTransform::SafeDownCast(transform);
+  if (!linear)
+  {
+    return {};
+  }
+  linear->Update();
+  morph::AffineMotion motion;
+  for (int i = 0; i < 3; ++i)
+  {
+    for (int j = 0; j < 3; ++j)
+    {
+      motion(i, 1 + j) = linear->GetMatrix()->GetElement(i, j) - (i == j);
+    }
+    motion(i, 0) = linear->GetMatrix()->GetElement(i, 3);
+  }
+  return motion;
+}
+
+Points Targets(const BoundaryModel& model, const Choice& choice, const Options& options,
+  double* presentDimension)
 {
   const Points from = positions(model, choice.moving);
   if (choice.moving.empty())
   {
     return from;
   }
-  Points targets = wholeMotion(model, choice, options, from);
+  Points targets = wholeMotion(model, choice, options, from, presentDimension);
   const char* names[] = { "Transform", "Vector", "Distance", "DisplacementArray", "Scale",
     "RadiusChange", "Target", "Handles", "Lattice", "FieldArray", "Dimension" };
   requireModerate(targets, choice.moving, names[options.Displacement]);
@@ -227,7 +276,14 @@ Points Targets(const BoundaryModel& model, const Choice& choice, const Options& 
   }
   if (options.ScaleFactor != 1)
   {
-    targets = from + options.ScaleFactor * (targets - from);
+    if (const auto affine = affineMotion(model, choice, options))
+    {
+      targets = moved(from, *affine, turningPoint(model, choice, options));
+    }
+    else if (options.Displacement != vtkDisplacementAlgorithm::DISPLACEMENT_DIMENSION)
+    {
+      targets = from + options.ScaleFactor * (targets - from);
+    }
     requireModerate(targets, choice.moving, "ScaleFactor");
   }
   return targets;
@@ -298,12 +354,11 @@ std::optional<morph::AffineMotion> Affine(const BoundaryModel& model, const Choi
   {
     return {};
   }
-  std::optional<morph::AffineMotion> motion = affineMotion(options);
+  std::optional<morph::AffineMotion> motion = affineMotion(model, choice, options);
   if (motion)
   {
     motion->col(0) +=
       motion->rightCols<3>() * (center - turningPoint(model, choice, options)).transpose();
-    *motion *= options.ScaleFactor;
   }
   return motion;
 }

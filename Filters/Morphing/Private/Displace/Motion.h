@@ -20,11 +20,17 @@ struct Options : DisplacementOptions
 };
 
 /// The new positions of choice.moving: #Moving x 3, none beyond 1e50. A ScaleFactor of 0 gives the
-/// current positions and 1 those of the motion, bit for bit. Normals are area-weighted over the
+/// current positions and 1 those of the motion, bit for bit; another is a factor of the numbers of
+/// the motion, of a linear transform as morph::partOf(), else of the displacements.
+/// `presentDimension` becomes that of DISPLACEMENT_DIMENSION. Normals are area-weighted over the
 /// faces that move or, at nodes without such a face, over all faces. Throws morph::Error for
 /// positions that are not finite or beyond 1e50, naming nodes, and as morph::nodeNormals() does.
 /// Cost: one pass.
-morph::Points Targets(const BoundaryModel& model, const Choice& choice, const Options& options);
+morph::Points Targets(const BoundaryModel& model, const Choice& choice, const Options& options,
+  double* presentDimension = nullptr);
+
+/// The displacement by a linear transform, fields (1, x); nothing for another one.
+std::optional<morph::AffineMotion> OfTransform(vtkAbstractTransform* transform);
 
 /// The displacements of choice.moving by `DisplacementArray`: NaN where vtkValidPointMask is 0.
 /// Throws morph::Error for an array that is missing, not numeric, or of the wrong length or number

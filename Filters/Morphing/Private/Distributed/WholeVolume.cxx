@@ -2,9 +2,8 @@
 #include "Private/Distributed/WholeVolume.h"
 
 #include "Distributed/RankCommunicator.h"
-#include "Distributed/SlidingWarp.h"
-#include "Distributed/SystemMethod.h"
 #include "Distributed/WallLayers.h"
+#include "LinearMethods/SlidingWarp.h"
 #include "Mesh/NodePartition.h"
 #include "Mesh/Polyhedra.h"
 #include "Private/Distributed/RankMesh.h"
@@ -195,7 +194,7 @@ InnerPieces::Moved WholeVolume::warp(
   const DistributedMesh& mesh = this->Surface.Pieces().Whole();
   morph::Points places;
   const std::vector<Index> prescribed = this->Place(given, places);
-  morph::distributed::FemWarp method;
+  morph::FemWarp method;
   method.prepare(mesh.mesh(), partitionOf(mesh, prescribed), monitor,
     std::make_shared<morph::distributed::RankCommunicator>(mesh));
   morph::Points moved;
@@ -247,7 +246,7 @@ std::vector<morph::NodeSliding::Round> WholeVolume::slide(const Prescribed& give
   {
     nodes.push_back(node);
   }
-  morph::distributed::SlidingWarp method;
+  morph::SlidingWarp method;
   method.prepare(mesh.mesh(), partitionOf(mesh, prescribed), monitor,
     std::make_shared<morph::distributed::RankCommunicator>(mesh));
   const morph::NodeSliding::Surfaces ofLocal = { [&](Index i, const morph::NodeSliding::Row& x)

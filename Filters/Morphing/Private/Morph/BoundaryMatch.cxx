@@ -236,6 +236,7 @@ Pairs findNodes(vtkPointSet* boundary, const morph::Mesh& rest, const std::vecto
 {
   const Points& positions = named.positions;
   const Index nodes = rest.numberOfNodes();
+  const Index own = rest.layer.nodes > 0 ? rest.layer.nodes : nodes; // without images
   const auto verified = [&](Pairs pairs)
   {
     if (!boundary->GetPointData()->HasArray(Surface::RestName)) // which FindTargets() verifies
@@ -248,14 +249,17 @@ Pairs findNodes(vtkPointSet* boundary, const morph::Mesh& rest, const std::vecto
   {
     return verified(BoundaryMatch::FindByIds(ids, nodes));
   }
-  if (positions.rows() == nodes)
+  if (positions.rows() == own)
   {
     // A warped copy of the grid: its interior says nothing about the boundary.
     Pairs pairs;
     pairs.reserve(outer.size());
     for (Index node : outer)
     {
-      pairs.emplace_back(node, node);
+      if (node < own)
+      {
+        pairs.emplace_back(node, node);
+      }
     }
     return verified(std::move(pairs));
   }
@@ -290,7 +294,7 @@ Pairs findNodes(vtkPointSet* boundary, const morph::Mesh& rest, const std::vecto
     return pairs;
   }
   throw Error("Nothing says which nodes the boundary's " + std::to_string(positions.rows()) +
-              " points are (the grid has " + std::to_string(nodes) +
+              " points are (the grid has " + std::to_string(own) +
               " points): there is no point array MorphPointId, PointIds or vtkOriginalPointIds; " +
               pointArrays(boundary) +
               ". Make the boundary with Extract Morph Boundary, or set `BoundaryIdArray`, or give "

@@ -2,11 +2,15 @@
 #pragma once
 
 #include "BoundaryMorphing/Target.h"
+#include "BoundaryMover/BoundaryModel.h"
+#include "BoundaryMover/Choice.h"
 
 #include <vtkSmartPointer.h>
+#include <vtkType.h>
 
 #include <memory>
 #include <string>
+#include <vector>
 
 class vtkPolyData;
 
@@ -21,4 +25,32 @@ std::unique_ptr<morph::Target> Make(vtkPolyData* surface, const morph::Points& m
 
 /// The triangles that count.
 vtkSmartPointer<vtkPolyData> Surface(const morph::Target& target);
+}
+
+namespace morph::filters
+{
+/// The target surface of a boundary, kept while it, the mesh and the options are the same.
+class FittedTarget
+{
+public:
+  /// Takes the target. `choice`: what moves, onto which it is aligned; null for the whole boundary.
+  /// `align`: rigidly onto the mesh first. Throws as morph::Target does.
+  void Update(vtkPolyData* target, const morph::BoundaryModel& model, const morph::Choice* choice,
+    bool align, const morph::Target::Options& options, morph::Monitor& monitor);
+
+  const std::string& GetWarning() const { return this->Warning; } ///< of the target, or empty
+  morph::Target* Get() const { return this->Place.get(); }        ///< null before Update()
+  /// The triangles that nodes go to: the target as aligned; null before Update().
+  vtkPolyData* Surface() const { return this->Triangles; }
+
+private:
+  const vtkPolyData* Input = nullptr; ///< compared, never used
+  vtkMTimeType InputTime = 0;
+  vtkIdType MotionVersion = -1;
+  bool IsAligned = false;
+  std::vector<morph::Index> AlignedOnto;
+  std::unique_ptr<morph::Target> Place;
+  std::string Warning; ///< of Place
+  vtkSmartPointer<vtkPolyData> Triangles;
+};
 }

@@ -1,17 +1,25 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Private/Displace/Preview.h"
+#include "Private/Displace/Views.h"
 
 #include "BoundaryMover/Choice.h"
 #include "Geometry/FarthestPoints.h"
+#include "Private/Data/Geometry.h"
+#include "Private/Data/Surface.h"
 #include "Private/Displace/Pick.h"
 #include "Support/Error.h"
 
 #include <vtkCellArray.h>
+#include <vtkCellData.h>
+#include <vtkCellType.h>
 #include <vtkDataArray.h>
+#include <vtkFieldData.h>
+#include <vtkIdList.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
+#include <vtkSmartPointer.h>
+#include <vtkUnstructuredGrid.h>
 
 #include <Eigen/Geometry>
 
@@ -25,6 +33,24 @@ namespace
 using morph::Index;
 using morph::Points;
 using Row = Eigen::RowVector3d;
+
+int typeOf(vtkIdType corners)
+{
+  return corners == 3 ? VTK_TRIANGLE : corners == 4 ? VTK_QUAD : VTK_POLYGON;
+}
+
+/// The number of each face's surface as active scalars of `output`.
+void addNumbers(vtkPolyData* boundary, vtkDataSet* output)
+{
+  if (vtkDataArray* surfaces = boundary->GetCellData()->GetArray(Geometry::IdName))
+  {
+    auto named = vtkSmartPointer<vtkDataArray>::Take(surfaces->NewInstance());
+    named->DeepCopy(surfaces);
+    named->SetName(Views::SurfaceName);
+    output->GetCellData()->AddArray(named);
+    output->GetCellData()->SetActiveScalars(Views::SurfaceName);
+  }
+}
 
 /// Of nodes that cover what moves evenly: at most a dozen.
 std::vector<Index> arrowsOf(const Points& from)
@@ -89,7 +115,36 @@ vtkSmartPointer<vtkPolyData> movedSurface(
 }
 }
 
-void Preview::Write(const InputBoundary& model, vtkDataArraySelection* names,
+void Views::Boundary(vtkUnstructuredGrid* grid, vtkPolyData* boundary, vtkUnstructuredGrid* output)
+{
+  output->Initialize();
+  output->SetPoints(grid->GetPoints());
+  output->GetPointData()->ShallowCopy(grid->GetPointData());
+  output->GetFieldData()->ShallowCopy(grid->GetFieldData());
+  vtkDataArray* ids = boundary->GetPointData()->GetArray(Surface::IdName);
+  output->AllocateExact(boundary->GetNumberOfPolys(), 4 * boundary->GetNumberOfPolys());
+  vtkNew<vtkIdList> corners;
+  vtkCellArray* faces = boundary->GetPolys();
+  for (vtkIdType face = 0; face < faces->GetNumberOfCells(); ++face)
+  {
+    faces->GetCellAtId(face, corners);
+    for (vtkIdType i = 0; i < corners->GetNumberOfIds(); ++i)
+    {
+      corners->SetId(i, static_cast<vtkIdType>(ids->GetComponent(corners->GetId(i), 0)));
+    }
+    output->InsertNextCell(typeOf(corners->GetNumberOfIds()), corners);
+  }
+  output->GetCellData()->AddArray(boundary->GetCellData()->GetArray("MorphCellId"));
+  addNumbers(boundary, output);
+}
+
+void Views::Boundary(vtkPolyData* boundary, vtkPolyData* output)
+{
+  output->ShallowCopy(boundary);
+  addNumbers(boundary, output);
+}
+
+void Views::Preview(const InputBoundary& model, vtkDataArraySelection* names,
   const Motion::Options& motion, vtkPolyData* output)
 {
   output->Initialize();

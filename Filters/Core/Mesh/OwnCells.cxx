@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Mesh/OwnCells.h"
+
+#include "Mesh/CellShape.h"
+#include "Mesh/FacesOfCells.h"
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+namespace morph
+{
+namespace
+{
+SubMesh ownPart(Mesh mesh, bool isWhole, const Communicator& processes)
+{
+  std::vector<Index> cells;
+  for (Index c = 0; !isWhole && c < mesh.numberOfCells(); ++c)
+  {
+    const CellShape* shape = cellShape(mesh.types[c]);
+    if (!processes.isCopy(c) && shape && shape->dimension == 3)
+    {
+      cells.push_back(c);
+    }
+  }
+  SubMesh part(mesh, cells);
+  if (isWhole)
+  {
+    part.nodes.resize(mesh.numberOfNodes());
+    std::iota(part.nodes.begin(), part.nodes.end(), Index(0));
+    part.cells.resize(mesh.numberOfCells());
+    std::iota(part.cells.begin(), part.cells.end(), Index(0));
+    part.mesh = std::move(mesh);
+  }
+  return part;
+}
+
+NodePartition partitionOf(const SubMesh& part, const NodePartition& whole)
+{
+  std::vector<Index> prescribed = part.numbersOf(whole.prescribed);
+  prescribed.erase(std::remove(prescribed.begin(), prescribed.end(), -1), prescribed.end());
+  return partitionNodes(part.mesh, prescribed);
+}
+}
+
+OwnCells::OwnCells(Mesh mesh, const NodePartition& partition,
+  const std::vector<std::int8_t>& orientation, const Communicator& processes)
+  : processes_(processes)
+  , isWhole_(!processes.bodies())
+  , part_(ownPart(std::move(mesh), this->isWhole_, processes))
+  , orientation_(this->part_.take(orientation))
+  , partition_(this->isWhole_ ? partition : partitionOf(this->part_, partition))
+  , communicator_(processes.part(this->part_.nodes))
+{
+}
+
+ConnectedComponents OwnCells::bodies(const ConnectedComponents& ofMesh) const
+{
+  ConnectedComponents result;
+  result.count = ofMesh.count;
+  result.ofCell = this->part_.take(ofMesh.ofCell);
+  std::transform(this->part_.nodes.begin(), this->part_.nodes.end(),
+    std::back_inserter(result.ofNode), [&](Index node) { return ofMesh.ofNode[node]; });
+  return result;
+}
+
+BoundaryFaces OwnCells::outerFaces(const Mesh& mesh, Monitor& monitor) const
+{
+  BoundaryFaces outer = boundaryFaces(mesh, monitor);
+  if (this->isWhole_)
+  {
+    return outer;
+  }
+  std::vector<std::pair<Index, int>> places;
+  for (std::size_t f = 0; f < outer.cells.size(); ++f)
+  {
+    const auto cell =
+      std::lower_bound(this->part_.cells.begin(), this->part_.cells.end(), outer.cells[f]);
+    if (cell != this->part_.cells.end() && *cell == outer.cells[f])
+    {
+      places.emplace_back(cell - this->part_.cells.begin(), outer.sides[f]);
+    }
+  }
+  return facesAt(this->part_.mesh, places);
+}
+
+std::vector<Index> OwnCells::gatherIds(const std::vector<Index>& cells) const
+{
+  std::vector<Index> ofMesh;
+  for (const Index cell : cells)
+  {
+    ofMesh.push_back(this->part_.cells[cell]);
+  }
+  return this->processes_.gatherCells(ofMesh);
+}
+}

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Mesh/NodePartition.h"
+#include "Mesh/SubMesh.h"
+#include "Mesh/Topology.h"
+#include "Support/Communicator.h"
+#include "Support/Monitor.h"
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace morph
+{
+/// The volume cells of a mesh that are no copies of another process's cells, as a mesh of its own:
+/// what code of one mesh and a Communicator works on. One process has its whole mesh. No polyhedra
+/// on several.
+class OwnCells
+{
+public:
+  /// `partition`, `orientation`: of `mesh`, which holds this process's cells and copies around
+  /// them. Holds `processes` by reference. Not collective.
+  OwnCells(Mesh mesh, const NodePartition& partition, const std::vector<std::int8_t>& orientation,
+    const Communicator& processes);
+
+  bool isWhole() const { return this->isWhole_; }
+  Mesh& mesh() { return this->part_.mesh; }
+  const Mesh& mesh() const { return this->part_.mesh; }
+  const std::vector<std::int8_t>& orientation() const { return this->orientation_; }
+  const NodePartition& partition() const { return this->partition_; }
+  const Communicator& communicator() const { return *this->communicator_; }
+
+  /// Returns the rows of these nodes; `all`: of all nodes.
+  Points take(const Points& all) const { return all(this->part_.nodes, allColumns); }
+  /// These nodes, by the numbers of the mesh.
+  const std::vector<Index>& nodes() const { return this->part_.nodes; }
+  /// The bodies that these nodes and cells belong to. `ofMesh`: those of the mesh.
+  ConnectedComponents bodies(const ConnectedComponents& ofMesh) const;
+  /// The outer faces of these cells. `mesh`: as before. Cost: boundaryFaces().
+  BoundaryFaces outerFaces(const Mesh& mesh, Monitor& monitor) const;
+  /// Returns the numbers in the whole mesh of these cells of all processes, ascending. Collective.
+  std::vector<Index> gatherIds(const std::vector<Index>& cells) const;
+
+private:
+  const Communicator& processes_;
+  bool isWhole_;
+  SubMesh part_;
+  std::vector<std::int8_t> orientation_;
+  NodePartition partition_;
+  std::unique_ptr<Communicator> communicator_;
+};
+}
