@@ -4,10 +4,14 @@
 The version is the same everywhere."""
 import csv
 import re
+import sys
 import unittest
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
+sys.path.insert(0, str(ROOT / "Testing/Benchmark"))
+import performance_page  # noqa: E402  (needs the path above)
+
 STUDY = ROOT / "Documentation/Study"
 RESULTS = ROOT / "Testing/Benchmark/results"
 
@@ -81,10 +85,10 @@ class Figures(unittest.TestCase):
                     self.check(cells[2 * number], row["prepare"])
                     self.check(cells[2 * number + 1], row["evaluate"])
 
-    def test_seconds_by_size(self):
-        self.check_table(table("WhatToExpect.md", "## By size"), rows(RESULTS / "by-size.csv"),
-                         lambda cells: (cells[0].replace(",", ""), cells[1]),
-                         [("nodes", "method"), "first_step_s", "later_step_s", "memory_GB"])
+    def test_performance(self):
+        text = performance_page.PAGE.read_text(encoding="utf-8")
+        self.assertEqual(text[text.index(performance_page.START):],
+                         performance_page.tables(rows(performance_page.DATA)))
 
     def test_shapes_of_cells(self):
         self.check_table(table("WhatToExpect.md", "## By the shape of cells"),
@@ -107,12 +111,6 @@ class Figures(unittest.TestCase):
         self.assertIn(f"takes {shown['mesh_picture_ms']} ms to the picture, and "
                       f"{shown['surface_picture_ms']} ms with the surface", text)
 
-    def test_direct_solvers(self):
-        self.check_table(table("WhatToExpect.md", "## Against direct solvers"),
-                         rows(RESULTS / "direct-solvers.csv"), lambda cells: (cells[0],),
-                         [("mesh",), "first_step_s", "later_step_s", "CHOLMOD_s",
-                          "CHOLMOD_solution_s", "KLU_s"])
-
     def test_gallery(self):
         self.check_table(table("Gallery.md", "## In figures"), rows(STUDY / "gallery.csv"),
                          lambda cells: tuple(cells[:2]),
@@ -132,12 +130,6 @@ class Figures(unittest.TestCase):
         self.assertEqual(set(shown) - kept, set())  # none is missing
         results = (STUDY / "Results.md").read_text(encoding="utf-8")
         self.assertEqual([path.name for path in kept - set(shown) if path.name not in results], [])
-
-    def test_openfoam(self):
-        self.check_table(table("WhatToExpect.md", "## Beside OpenFOAM"),
-                         rows(RESULTS / "openfoam.csv"), lambda cells: (cells[0],),
-                         [("motion",), "seconds", "non_orthogonality_deg", "skewness",
-                          "wrong_pyramids", "inverted_cells"])
 
 
 if __name__ == "__main__":

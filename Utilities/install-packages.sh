@@ -12,8 +12,7 @@ Does nothing where they are all installed. Exits with 77 where the registry does
   --demo        that, and what demo.sh needs (Gmsh, Xvfb)
   --numpy       also what Python's package for NumPy is built and used with (pybind11, pip, meshio)
   --solvers     also OpenFOAM and CalculiX (400 MB), which read and solve what morph-mesh writes
-  --benchmark   also what benchmarks need: solvers to compare with (SuiteSparse, OpenBLAS), and
-                xdotool
+  --benchmark   also what benchmarks need: solvers to compare with (PETSc), and xdotool
   --developer   also ccache, and what format.sh, lint.sh, check-documentation.sh and
                 design_picture.py need (clang, clang-format, clang-tidy, doxygen, graphviz)
   --site        also what site.sh and its test need (mkdocs, doxygen, chromium)
@@ -64,7 +63,7 @@ for option in "$@"; do
     --demo) basis=("${demo[@]}") ;;
     --numpy) packages+=("${numpy[@]}") ;;
     --solvers) packages+=(${solvers[@]+"${solvers[@]}"}) ;;
-    --benchmark) packages+=(libsuitesparse-dev libopenblas-dev xdotool) ;;
+    --benchmark) packages+=(python3-petsc4py xdotool) ;;
     --developer) packages+=(ccache clang clang-format clang-tidy doxygen graphviz) ;;
     --site) packages+=(mkdocs doxygen chromium chromium-driver python3-selenium) ;;
     --portable) packages+=(clang googletest g++-mingw-w64-x86-64-posix wine64 g++-aarch64-linux-gnu

@@ -11,8 +11,8 @@ inverted cell; surfaces by weighted residual, as in the paper, and exact.
     Utilities/study.sh --minutes 60 --fresh         # a piece; again for the next one
     pvpython Utilities/study.py --report            # tables and plots again, from what is there
 
-Writes to --output: results.csv (a row for each step, as it is computed), timing.csv and klu-*.csv
-(seconds per step), scaling.csv, Results.md with the tables, and figure-*.png. Resumes where an
+Writes to --output: results.csv (a row for each step, as it is computed), timing.csv (seconds per
+step), scaling.csv, Results.md with the tables, and figure-*.png. Resumes where an
 earlier run with the same output was interrupted. Validity is None: the cells that each method
 itself inverts are counted."""
 
@@ -71,15 +71,10 @@ def list_missing(arguments, records, commit):
 
 
 def time_steps(arguments, deadline):
-    """Seconds per step, and KLU's."""
+    """Seconds per step."""
     study_timing.run(arguments.output / "timing.csv", arguments.models, arguments.kinds,
                      arguments.methods, arguments.steps, arguments.small, arguments.repeats,
                      arguments.threads, deadline)
-    if arguments.klu is None:
-        print("KLU is not timed: there is no benchmark-mesh (CONTRIBUTING.md says how to build it)")
-    else:
-        study_timing.run_klu(arguments.output, arguments.klu, arguments.models, arguments.kinds,
-                             arguments.small, arguments.klu_limit, deadline)
 
 
 def parse_arguments():
@@ -105,11 +100,6 @@ def parse_arguments():
     parser.add_argument("--no-matrix", action="store_true", help="leave the series of steps out")
     parser.add_argument("--no-timing", action="store_true", help="leave the seconds per step out")
     parser.add_argument("--no-scaling", action="store_true", help="leave the bricks out")
-    parser.add_argument("--klu", type=Path, metavar="PROGRAM",
-                        help="benchmark-mesh, which times KLU (default: that under "
-                             "build/paraview, if it has been built)")
-    parser.add_argument("--klu-limit", type=int, default=600, metavar="SECONDS",
-                        help="for each of KLU's systems (default: %(default)s)")
     parser.add_argument("--fresh", action="store_true",
                         help="rows of other commits of the sources count as missing")
     parser.add_argument("--minutes", type=float, metavar="N",
@@ -121,9 +111,6 @@ def parse_arguments():
     parser.add_argument("--report", action="store_true", help="run nothing")
     add_plugin(parser)
     arguments = parser.parse_args()
-    if arguments.klu is None:
-        built = ROOT / "build" / "paraview" / "bin" / "benchmark-mesh"
-        arguments.klu = built if built.is_file() else None
     arguments.sizes, arguments.repeats = study_scaling.SIZES, study_scaling.REPEATS
     if arguments.quick:
         arguments.models, arguments.steps, arguments.small = ["bore"], 4, True

@@ -45,9 +45,6 @@ def write_report(folder, records, steps):
         timings = timing.read(folder / "timing.csv")
         for model in [name for name in paper.TABLES if any(key[0] == name for key in timings)]:
             text += _seconds_table(timings, model)
-    solved = timing.read_klu(folder)
-    if solved:
-        text += _klu_table(solved)
     if (folder / "scaling.csv").is_file():
         text += _scaling_table(folder, scaling.read(folder / "scaling.csv"))
     (folder / "Results.md").write_text("\n".join(text) + "\n", encoding="utf-8")
@@ -183,27 +180,6 @@ def _seconds_cell(timing, stepping):
     prepare, evaluate = timing[:2]
     return (f"{prepare + evaluate:.3f}" if stepping == "relative"
             else f"{evaluate:.3f} ({prepare:.3f})")
-
-
-def _klu_table(found):
-    """`found`: as study_timing.read_klu() gives it."""
-    rows = []
-    for (model, kind, method), figures in found.items():
-        row = [f"{model} {kind}", method, f"{figures['prepare']:.3f}", f"{figures['warm']:.3f}"]
-        if "KLU cold" in figures:
-            row += [f"{figures['KLU cold']:.3g}", f"{figures['KLU solve']:.3g}",
-                    f"{figures['KLU cold / warm']:,.0f}"]
-        else:
-            row += [f"> {figures['KLU, stopped at the limit']:.0f}", "-",
-                    f"> {figures['limit / warm']:,.0f}"]
-        rows.append(row)
-    return (["## The paper's direct solver", "",
-             "Seconds for the systems of FEMWARP and LBWARP: ours, and KLU's analysis, "
-             "factorization and solution (1 thread) in the same run; and that over our step, "
-             "evaluate alone. KLU has a limit of seconds a system; where it did not end, the row "
-             "has the limit.", ""]
-            + _table(["mesh", "method", "prepare", "evaluate", "KLU", "KLU, solution alone",
-                      "KLU / evaluate"], rows))
 
 
 def _scaling_table(folder, rows):

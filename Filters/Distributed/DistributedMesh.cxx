@@ -169,11 +169,6 @@ struct DistributedMesh::Builder
   std::vector<Index> exchange()
   {
     const Ranks& ranks = *this->mesh.ranks_;
-    for (int r = 0; r < ranks.count(); ++r)
-    {
-      this->mesh.bytesSent_ +=
-        this->nodes[r].size() * sizeof(Node) + this->cells[r].size() * sizeof(std::int64_t);
-    }
     const auto newNodes = ranks.exchange(this->nodes);
     const auto newCells = ranks.exchange(this->cells);
     return this->unpack(newNodes, newCells);

@@ -101,8 +101,6 @@ public:
   double size() const { return this->size_; }
   /// Volume cells of all ranks.
   Index volumeCells() const { return this->volumeCells_; }
-  /// Bytes that this rank has sent to build the ghosts.
-  std::size_t bytesSent() const { return this->bytesSent_; }
 
 private:
   struct Builder;
@@ -133,6 +131,5 @@ private:
   std::vector<Index> repeated_, touching_;
   double size_ = 0;
   Index volumeCells_ = 0;
-  std::size_t bytesSent_ = 0;
 };
 }

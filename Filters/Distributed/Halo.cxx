@@ -144,14 +144,4 @@ void Halo::minimum(const Ranks& ranks, std::vector<std::int64_t>& values) const
     { values[node] = std::min(values[node], static_cast<std::int64_t>(value)); });
   this->update(ranks, values);
 }
-
-std::size_t Halo::bytes(int columns) const
-{
-  std::size_t nodes = 0;
-  for (const std::vector<Index>& list : this->sends_)
-  {
-    nodes += list.size();
-  }
-  return nodes * columns * sizeof(double);
-}
 }

@@ -36,9 +36,6 @@ public:
   /// ghosts' to the owner's.
   void minimum(const Ranks& ranks, std::vector<std::int64_t>& values) const;
 
-  /// Bytes that this rank sends in an update of `columns` doubles a node.
-  std::size_t bytes(int columns) const;
-
 private:
   std::vector<int> targets_, sources_;
   std::vector<std::vector<Index>> sends_;    ///< a list of owned nodes for each target

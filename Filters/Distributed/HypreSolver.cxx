@@ -2,7 +2,6 @@
 #include "Distributed/HypreSolver.h"
 
 #include "Support/Error.h"
-#include "Support/Stopwatch.h"
 
 #include <HYPRE.h>
 #include <HYPRE_IJ_mv.h>
@@ -281,9 +280,7 @@ void HypreSolver::prepare(LinearEquations&& equations, Monitor&)
   const std::vector<double> zeros(rows, 0.);
   HYPRE_ParVector pb = b.set(zeros);
   HYPRE_ParVector px = x.set(zeros);
-  const morph::Stopwatch watch;
   handles.setUp(pb, px);
-  this->seconds_.setUp += watch.seconds();
 }
 
 SolveReport HypreSolver::solve(
@@ -329,9 +326,7 @@ SolveReport HypreSolver::solve(
     HYPRE_ParVector pu = u.set(column);
     if (norm > 0)
     {
-      const morph::Stopwatch watch;
       report.iterations += handles.solve(pb, pu, tolerance, maxIterations);
-      this->seconds_.solve += watch.seconds();
       u.get(column);
     }
     for (Index i = 0; i < rows; ++i)
@@ -390,9 +385,7 @@ void HypreSolver::byColumns(const Points& columns, Points& results, const Action
     HYPRE_ParVector pFrom = from.set(column);
     std::fill(column.begin(), column.end(), 0.);
     HYPRE_ParVector pTo = to.set(column);
-    const morph::Stopwatch watch;
     action(pFrom, pTo);
-    this->seconds_.solve += watch.seconds();
     to.get(column);
     results.col(j) = Eigen::Map<const Eigen::VectorXd>(column.data(), rows);
   }

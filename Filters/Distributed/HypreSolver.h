@@ -48,13 +48,6 @@ public:
   const CsrMatrix& matrix() const override { return this->none_; }
   const RowComponents& components() const override { return this->components_; }
 
-  /// Wall-clock seconds in hypre since construction, for benchmarks.
-  struct Seconds
-  {
-    double setUp = 0, solve = 0;
-  };
-  const Seconds& seconds() const { return this->seconds_; }
-
   /// The number of unknowns that hypre's integers can number.
   static std::int64_t mostUnknowns();
   /// Returns the sum of `rows` over the ranks. Throws Error on all of them where that is more than
@@ -76,7 +69,6 @@ private:
   CsrMatrix none_;
   RowComponents components_;
   mutable std::unique_ptr<HypreSolver> transposed_;
-  mutable Seconds seconds_;
   std::int64_t rows_ = 0, first_ = 0, unknowns_ = 0;
 };
 }
