@@ -265,6 +265,10 @@ TEST(ShellLayer, OtherCellsAndCellsWithoutAreaAreRefused)
   meshes::add(few, morph::Quad, { 0, 1, 2 });
   motions::kindOf([&] { morph::thicken(few); }, message);
   EXPECT_NE(message.find("wrong number of nodes"), std::string::npos) << message;
+  Mesh line = square("quads");
+  meshes::add(line, morph::Quad, { 0, 0, 1, 1 });
+  motions::kindOf([&] { morph::thicken(line); }, message);
+  EXPECT_NE(message.find("three different corners: cell 36"), std::string::npos) << message;
 }
 
 namespace

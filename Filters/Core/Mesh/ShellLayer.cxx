@@ -347,6 +347,11 @@ private:
     {
       corners.pop_back();
     }
+    if (corners.size() < 3)
+    {
+      throw Error("The mesh of faces has a cell with fewer than three different corners: cell " +
+                  std::to_string(this->mesh_.numberOfCells()) + ". Remove it.");
+    }
     this->prism(corners.size() == 3 ? Wedge : Hexahedron, corners, {});
   }
 

@@ -4,6 +4,7 @@
 #include "Energies/MeshEnergy.h"
 #include "Energies/SmoothingTargets.h"
 #include "LinearMethods/BodyMotion.h"
+#include "Mesh/Extent.h"
 #include "Quality/BoundaryDetermined.h"
 #include "Support/Error.h"
 #include "Untangling/KeepMinimum.h"
@@ -14,7 +15,7 @@ namespace morph
 {
 namespace
 {
-constexpr double Affine = 1e-9; // of the motion
+constexpr double Affine = 1e-9; // of the mesh's size: rounding of an affine motion
 }
 
 MotionSmoothing::MotionSmoothing(const Mesh& rest, const ConnectedComponents& bodies,
@@ -72,7 +73,7 @@ bool MotionSmoothing::start(const Points& prescribed, Points& points, Monitor& m
       Points(points(this->partition_.prescribed, allColumns)), points, monitor);
     Points left = prescribed;
     this->membrane_->fits.takeOff(left);
-    return left.cwiseAbs().maxCoeff() <= Affine * prescribed.cwiseAbs().maxCoeff();
+    return left.cwiseAbs().maxCoeff() <= Affine * meshSize(this->rest_);
   }
   Points followed = points;
   const bool isAffine = followAffinely(
