@@ -154,8 +154,11 @@ class LiveDrags(unittest.TestCase):
         stops = False
         filter_.SetAbortExecute(0)
         morph.Transform.Translate = [3.01, 0, 0]
+        told.clear()
         morph.UpdatePipeline()
         self.assertEqual((morph.MorphStatus, morph.InvertedCells), ("Repaired", 0))
+        repaired = [value for value in told if without_repair < value < 0.92]  # then it is written
+        self.assertGreater(max(repaired) - min(repaired), 0.05, told)  # it is what takes longest
 
     def test_the_boxes_of_a_region_and_its_motion_are_told_apart(self):
         """Both are around the whole mesh at first: each has a color, and the larger one moves."""

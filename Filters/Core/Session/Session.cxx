@@ -217,24 +217,25 @@ StepResult Session::morphStep(const Mesh& from, const BoundaryTargets& boundary,
     [&] { return makeMethod(options, *this->mesh_); } };
   validity.requireFeasible();
 
-  auto preparing = part(0.05, 0.45);
+  // A repair, where there is one, takes longest.
+  auto preparing = part(0.05, 0.3);
   this->prepareFor(from, options, preparing);
 
-  auto evaluating = part(0.45, 0.75);
+  auto evaluating = part(0.3, 0.5);
   const Stopwatch watch;
   StepResult result;
   const EvaluateReport report = this->evaluate(boundary.targets, handle, result.moved, evaluating);
   placeImages(from, result.moved); // of a sum of modes
   if (validity.isInversionFree && needsPieces(from, hanging))
   {
-    auto repairing = part(0.7, 0.75);
+    auto repairing = part(0.45, 0.5);
     const auto bad = [&](const Points& points)
     { return invertedCells(from, points, orientation, repairing); };
     repairPolyhedra(from, hanging, rest.points, partition, bad, result.moved, repairing);
   }
   if (validity.isInversionFree)
   {
-    auto untangling = part(0.74, 0.75);
+    auto untangling = part(0.49, 0.5);
     untangleHigherOrder(from, partition, orientation, result.moved, untangling);
     hanging.place(from.points, result.moved);
   }
@@ -248,13 +249,13 @@ StepResult Session::morphStep(const Mesh& from, const BoundaryTargets& boundary,
   result.statistics = report.statistics;
   if (options.postSmooth)
   {
-    auto smoothing = part(0.75, 0.85);
+    auto smoothing = part(0.5, 0.7);
     result.statistics.push_back(
       { "PostSmoothSteps", smoothAfterwards(rest, hanging, orientation, partition,
                              options.postSmoothIterations, result.moved, smoothing) });
   }
   double seconds = watch.seconds();
-  auto checking = part(options.postSmooth ? 0.85 : 0.75, 1);
+  auto checking = part(options.postSmooth ? 0.7 : 0.5, 1);
   if (options.measureAll)
   {
     result.valid = validity.ensure(result.moved, checking);

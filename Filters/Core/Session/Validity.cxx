@@ -194,10 +194,12 @@ bool Validity::repair(Points& moved, Monitor& monitor) const
   const Mesh others = leavesSome ? withoutCells(this->mesh, this->before) : Mesh();
   const NodePartition ofOthers =
     leavesSome ? partitionNodes(others, this->partition.prescribed) : NodePartition();
-  const double end[] = { 0, 0.2, 1 };
+  // The first attempt prepares little, and is mostly the last.
+  const double end[] = { 0, 0.7, 1 }, prepared[] = { 0.05, 0.3 };
   for (int attempt = 0; attempt < 2 && least > 0; ++attempt)
   {
-    const double begin = end[attempt], middle = begin + 0.3 * (end[attempt + 1] - begin);
+    const double begin = end[attempt],
+                 middle = begin + prepared[attempt] * (end[attempt + 1] - begin);
     ProgressRange first(monitor, begin, middle), second(monitor, middle, end[attempt + 1]);
     InversionFree repair;
     repair.setReference(this->reference);
@@ -300,7 +302,7 @@ Validity::Outcome Validity::ensure(Points& moved, Monitor& monitor) const
     case Mode::Repair:
     case Mode::RepairAll:
     {
-      ProgressRange first(monitor, 0, 0.5), second(monitor, 0.5, 1);
+      ProgressRange first(monitor, 0, 0.8), second(monitor, 0.8, 1);
       if (this->repair(moved, first))
       {
         return { "Repaired" };

@@ -25,9 +25,12 @@ bool KeptMesh::Take(vtkUnstructuredGrid* grid, morph::Monitor& monitor)
     this->Taken.See(grid);
     return false;
   }
+  morph::Mesh mesh = GridMesh::FromGrid(grid, GridMesh::UnknownCells::Refuse, monitor);
+  monitor.progress(0.015);
+  monitor.check();
   auto rest = std::make_shared<const morph::UndeformedMesh>(
-    GridMesh::FromGrid(grid, GridMesh::UnknownCells::Refuse, monitor),
-    sameCells ? this->Copy.get() : nullptr, monitor);
+    std::move(mesh), sameCells ? this->Copy.get() : nullptr, monitor);
+  monitor.progress(0.03);
   if (!sameCells)
   {
     MovedSurface polygons;
