@@ -385,16 +385,16 @@ TEST(BoundarySliding, ScalesAndTurnsAboutTheCenterOfWhatMoves)
   check(Row(1, 2, 3));
   filter->AutoCenterOn();
   check(Row(2, 2, 4));
-  filter->SetScaleFactor(0.5);
+  filter->SetScaleFactor(0.5); // half of the stretch, then half of the turn
   filter->Update();
   const morph::Points x = displaced::restPositions(filter->GetOutput());
   const morph::Points y = grids::points(filter->GetOutput());
   for (morph::Index i = 0; i < x.rows(); ++i)
   {
-    const Row d = x.row(i) - Row(2, 2, 4);
-    const Row half =
-      x(i, 2) == 4 ? Row(0.5 * Row(-d[1] - d[0], 0.5 * d[0] - d[1], 1)) : Row(0, 0, 0);
-    EXPECT_LE((y.row(i) - x.row(i) - half).norm(), 1e-14) << x.row(i);
+    const Row center(2, 2, 4), d = (x.row(i) - center).cwiseProduct(Row(0.75, 1, 1));
+    const Row turned = std::sqrt(0.5) * Row(d[0] - d[1], d[0] + d[1], 0);
+    const Row wanted = x(i, 2) == 4 ? Row(center + turned + Row(0, 0, 0.5)) : x.row(i);
+    EXPECT_LE((y.row(i) - wanted).norm(), 1e-14) << x.row(i);
   }
 }
 
