@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """One method on one mesh whose boundary is twisted, as whole filter, on one MPI rank or more.
 
-    [mpiexec -n 2] pvbatch --symmetric ours.py PLUGIN METHOD THREADS LATER_STEPS MESH.vtu [MOVED.vtu]
+    mpiexec -n 2 pvbatch --symmetric ours.py PLUGIN METHOD THREADS STEPS MESH.vtu [MOVED.vtu]
 
 Prints seconds of the first step and the median of later ones, with topology, preparation, quality
 and output; those of prepare and evaluate among them; peak memory in GB beside the mesh and its
-output's connectivity, of the rank that needs most; inverted cells and the minimum."""
+output's connectivity, of the rank that needs most; inverted cells and the minimum. STEPS: later
+ones."""
 
 import ctypes
 import json
