@@ -95,8 +95,8 @@ struct FitOptions
 /// nearest place of the target along the direction; what has none follows the others, but for
 /// vertices, which stay. Nodes on surfaces that slide, by their numbers in `sliding`, go to places
 /// that are on both. Of a layer the front goes there, and its images along with it. The target is
-/// oriented by the nodes that move. A warning names nodes that do not reach the target. Throws Error
-/// where none does.
+/// oriented by the nodes that move. A warning names nodes that do not reach the target. Throws
+/// Error where none does.
 Points fittedTo(Target& target, const BoundaryModel& model, const Choice& choice,
   const std::vector<Index>& sliding, const FitOptions& options, Surroundings& surroundings,
   Monitor& monitor);
