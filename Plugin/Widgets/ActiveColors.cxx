@@ -82,18 +82,21 @@ void ActiveColors::color(pqDataRepresentation* representation)
   const bool isSolid = !name || !*name;
   int association = vtkDataObject::CELL;
   vtkPVArrayInformation* scalars = activeScalars(data, association);
+  if (!this->HadScalars.contains(representation))
+  {
+    this->HadScalars[representation] = scalars || !isSolid;
+    QObject::connect(representation, &QObject::destroyed, this,
+      [this](QObject* gone) { this->HadScalars.remove(gone); });
+  }
   if (!scalars)
   {
-    if (isSolid && data->GetNumberOfCells() == 0)
-    {
-      this->Uncolored.insert(representation);
-    }
     return;
   }
-  const bool wasEmpty = this->Uncolored.remove(representation);
+  const bool isFirst = !this->HadScalars[representation];
+  this->HadScalars[representation] = true;
   const bool isThere =
     !isSolid && data->GetArrayInformation(name, colored.GetInputArrayAssociation());
-  if (isThere || (isSolid && !wasEmpty))
+  if (isThere || (isSolid && !isFirst))
   {
     if (isThere && std::string(name) == "SurfaceId")
     {

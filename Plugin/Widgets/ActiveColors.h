@@ -4,10 +4,10 @@
 
 #include "HintedResults.h"
 
-#include <QSet>
+#include <QHash>
 
 /// Keeps a filter's results colored in the window. ParaView chooses the colors when it first
-/// shows an output. Where that was empty, or had another array, later results would be white. A
+/// shows an output. Where that had no scalars, or another array, later results would be white. A
 /// filter asks for it by the hint <ActiveColors/>; its results are then colored by their active
 /// scalars, unless the user has chosen an array that is there, or a solid color.
 class ActiveColors : public HintedResults
@@ -27,7 +27,7 @@ protected:
 private:
   void color(pqDataRepresentation* representation);
 
-  QSet<QObject*> Uncolored; ///< they were empty so far
+  QHash<QObject*, bool> HadScalars; ///< of representations
 };
 
 #endif

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "LiveDrag.h"
 
+#include "SurfaceTable.h"
+
 #include <pqApplicationCore.h>
 #include <pqDataRepresentation.h>
 #include <pqOutputPort.h>
@@ -208,6 +210,10 @@ bool LiveDrag::begin(vtkSMProxy* moved, const std::vector<std::string>& properti
     this->Dragged.push_back({ property, checkedValues(property) });
   }
   this->blockPanel(true);
+  for (SurfaceTable* const table : this->panel()->findChildren<SurfaceTable*>())
+  {
+    table->hidePreview(); // the mesh itself follows
+  }
   const NoUndo noUndo;
   this->changeProperties();
   this->showInPlace();

@@ -23,19 +23,24 @@ vtkSmartPointer<vtkSMProxy> motionFor(vtkSMProxy* filter)
     filter->GetSessionProxyManager()->NewProxy("filters", "BoundaryDisplacement"));
 }
 
-void takePanelValues(vtkSMProperty* from, vtkSMProperty* to)
+/// Returns whether the panel has other values than are applied.
+bool takePanelValues(vtkSMProperty* from, vtkSMProperty* to)
 {
   if (!from || !vtkSMVectorProperty::SafeDownCast(to))
   {
-    return;
+    return false;
   }
   const vtkSMUncheckedPropertyHelper typed(from);
+  const vtkSMPropertyHelper applied(from);
   vtkSMPropertyHelper taken(to);
   taken.SetNumberOfElements(typed.GetNumberOfElements());
+  bool differs = typed.GetNumberOfElements() != applied.GetNumberOfElements();
   for (unsigned int i = 0; i < typed.GetNumberOfElements(); ++i)
   {
     taken.Set(i, typed.GetAsDouble(i));
+    differs = differs || typed.GetAsDouble(i) != applied.GetAsDouble(i);
   }
+  return differs;
 }
 }
 
@@ -48,17 +53,19 @@ MotionPreview::MotionPreview(vtkSMProxy* filter)
 
 MotionPreview::~MotionPreview() = default;
 
-void MotionPreview::takeValues()
+bool MotionPreview::takeValues()
 {
+  bool differs = false;
   for (const char* const name : Names)
   {
-    takePanelValues(this->Filter->GetProperty(name), this->Motion->GetProperty(name));
+    differs |= takePanelValues(this->Filter->GetProperty(name), this->Motion->GetProperty(name));
   }
   const vtkSMUncheckedPropertyHelper given(this->Filter, "Transform");
   vtkSMProxy* const typed = given.GetNumberOfElements() > 0 ? given.GetAsProxy() : nullptr;
   vtkSmartPointer<vtkSMProxy> transform;
   if (typed)
   {
+    differs |= typed != vtkSMPropertyHelper(this->Filter, "Transform").GetAsProxy();
     transform = vtk::TakeSmartPointer(
       this->Filter->GetSessionProxyManager()->NewProxy(typed->GetXMLGroup(), typed->GetXMLName()));
     const auto properties = vtk::TakeSmartPointer(typed->NewPropertyIterator());
@@ -66,18 +73,19 @@ void MotionPreview::takeValues()
     {
       if (properties->GetProperty()->GetInformationOnly() == 0)
       {
-        takePanelValues(properties->GetProperty(), transform->GetProperty(properties->GetKey()));
+        differs |=
+          takePanelValues(properties->GetProperty(), transform->GetProperty(properties->GetKey()));
       }
     }
     transform->UpdateVTKObjects();
     vtkSMPropertyHelper(this->Motion, "Transform").Set(transform);
   }
   this->Motion->UpdateVTKObjects();
+  return differs;
 }
 
 void MotionPreview::show(pqView* view, const QStringList& names)
 {
-  this->takeValues();
   this->Ghost.show(view, names);
 }
 

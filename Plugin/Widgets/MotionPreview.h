@@ -20,7 +20,9 @@ public:
   explicit MotionPreview(vtkSMProxy* filter);
   ~MotionPreview();
 
-  /// With the values in the panel; `names`: of the surfaces.
+  /// Takes the values in the panel. Returns whether they differ from those that are applied.
+  bool takeValues();
+  /// With the values that are taken; `names`: of the surfaces.
   void show(pqView* view, const QStringList& names);
   void hide();
 
@@ -31,8 +33,6 @@ private:
   vtkSMProxy* Filter;
   vtkSmartPointer<vtkSMProxy> Motion; ///< a filter without inputs, with the values of the panel
   SurfaceHighlight Ghost;
-
-  void takeValues();
 };
 
 #endif

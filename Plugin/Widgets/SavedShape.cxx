@@ -122,6 +122,12 @@ pqPipelineSource* copyOf(pqPipelineSource* filter, pqOutputPort* mesh)
 }
 }
 
+bool SavedShape::HasMotion(vtkSMProxy* filter)
+{
+  const std::string status = vtkSMPropertyHelper(filter, "MorphStatus").GetAsString();
+  return status != "None" && status != "Failed" && status != "Cancelled";
+}
+
 void SavedShape::Save(pqPropertyWidget* widget)
 {
   pqApplicationCore* const core = pqApplicationCore::instance();
@@ -136,6 +142,12 @@ void SavedShape::Save(pqPropertyWidget* widget)
   if (filter->modifiedState() != pqProxy::UNMODIFIED)
   {
     panel->apply();
+  }
+  vtkSMSourceProxy::SafeDownCast(filter->getProxy())->UpdatePipeline(); // where no view shows it
+  if (!HasMotion(filter->getProxy()))
+  {
+    END_UNDO_SET();
+    return;
   }
   pqPipelineSource* const copy = copyOf(filter, mesh);
   pqPipelineSource* shapes = shapesOn(mesh);

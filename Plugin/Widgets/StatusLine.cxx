@@ -6,16 +6,21 @@
 #include "QualityBar.h"
 #include "SavedShape.h"
 
+#include <pqApplicationCore.h>
 #include <pqCoreUtilities.h>
+#include <pqPipelineSource.h>
+#include <pqServerManagerModel.h>
 #include <vtkCommand.h>
 #include <vtkPVXMLElement.h>
 #include <vtkSMProperty.h>
 #include <vtkSMPropertyHelper.h>
 #include <vtkSMProxy.h>
 
+#include <QApplication>
 #include <QEvent>
 #include <QHBoxLayout>
 #include <QLabel>
+#include <QPalette>
 #include <QPushButton>
 #include <QStringList>
 #include <QTimer>
@@ -67,13 +72,16 @@ StatusLine::StatusLine(vtkSMProxy* filter, vtkSMProperty* advice, QWidget* paren
   vtkPVXMLElement* const hints = filter->GetHints();
   if (hints && hints->FindNestedElementByName("SavesShapes"))
   {
-    auto* const save = new QPushButton(tr("Save as Shape"), this);
-    save->setObjectName("SaveAsShape");
-    save->setToolTip(
-      tr("Makes a Morph Shapes filter with this result as a shape; a press later adds "
-         "the next one"));
-    QObject::connect(save, &QPushButton::clicked, this, [this] { SavedShape::Save(this); });
-    buttons->addWidget(save);
+    this->Save = new QPushButton(tr("Save as Shape"), this);
+    this->Save->setObjectName("SaveAsShape");
+    QPalette gray; // ParaView shows what belongs to a result in black
+    gray.setColor(QPalette::Disabled, QPalette::ButtonText,
+      QApplication::palette().color(QPalette::Disabled, QPalette::ButtonText));
+    this->Save->setPalette(gray);
+    QObject::connect(this->Save, &QPushButton::clicked, this, [this] { SavedShape::Save(this); });
+    buttons->addWidget(this->Save);
+    QObject::connect(this->source(), SIGNAL(modifiedStateChanged(pqServerManagerModelItem*)), this,
+      SLOT(showLater()));
   }
   layout->addLayout(buttons);
   layout->addWidget(this->Messages);
@@ -112,6 +120,28 @@ QString StatusLine::text(const char* result) const
 {
   const vtkSMPropertyHelper helper(this->proxy(), result);
   return helper.GetNumberOfElements() > 0 ? helper.GetAsString() : "None";
+}
+
+pqPipelineSource* StatusLine::source() const
+{
+  return pqApplicationCore::instance()->getServerManagerModel()->findItem<pqPipelineSource*>(
+    this->proxy());
+}
+
+void StatusLine::offerShape()
+{
+  if (!this->Save)
+  {
+    return;
+  }
+  // What is not applied yet, the button applies first.
+  const bool isApplied = this->source()->modifiedState() == pqProxy::UNMODIFIED;
+  this->Save->setEnabled(!isApplied || SavedShape::HasMotion(this->proxy()));
+  this->Save->setToolTip(
+    this->Save->isEnabled()
+      ? tr("Makes a Morph Shapes filter with this result as a shape; a press later adds the next "
+           "one")
+      : tr("Nothing has moved: change what moves, or by how much"));
 }
 
 void StatusLine::showLater()
@@ -190,4 +220,5 @@ void StatusLine::showStatus()
   this->Text->setText(advice == "None" ? QString() : advice);
   this->Messages->showMessages();
   this->Text->setVisible(advice != "None" && !advice.isEmpty());
+  this->offerShape();
 }

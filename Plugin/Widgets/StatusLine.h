@@ -6,9 +6,11 @@
 
 class BadCells;
 class QLabel;
+class QPushButton;
 class MessageList;
 class QualityBar;
 class QWidget;
+class pqPipelineSource;
 
 /// How the last execution ended, on a ground of its color: green where the mesh is valid, orange
 /// where it has made a part of the motion, red where it is not valid or there is none. Below it the
@@ -42,6 +44,9 @@ private:
   double number(const char* result) const;
   QString text(const char* result) const;
   void showStatus();
+  pqPipelineSource* source() const;
+  /// The button is for a result that has moved the mesh, or that Apply may still make.
+  void offerShape();
 
   QLabel* Status;
   QLabel* Details;
@@ -49,7 +54,8 @@ private:
   QualityBar* Minimum;
   BadCells* Bad;
   MessageList* Messages;
-  bool IsDue = false; ///< showStatus()
+  QPushButton* Save = nullptr; ///< null without the hint
+  bool IsDue = false;          ///< showStatus()
 };
 
 #endif

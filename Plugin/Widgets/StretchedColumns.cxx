@@ -31,6 +31,7 @@ StretchedColumns::StretchedColumns(vtkPVXMLElement* hint, pqPropertyWidget* widg
     header->setSectionResizeMode(QHeaderView::Stretch);
     table->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
     table->viewport()->installEventFilter(this);
+    QObject::disconnect(table, SIGNAL(editPastLastRow()), nullptr, nullptr);
   }
 }
 

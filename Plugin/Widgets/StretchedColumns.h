@@ -5,7 +5,9 @@
 #include <pqPropertyWidgetDecorator.h>
 
 /// Fits all columns of a property's table into the panel: ParaView leaves the last ones behind a
-/// scroll bar. A number that is cut off is the cell's tool tip. With a label above:
+/// scroll bar. A number that is cut off is the cell's tool tip. Tab in the last cell goes to the
+/// first one; ParaView's would copy the last row, though only one row may be at a place. With a
+/// label above:
 ///
 ///     <PropertyWidgetDecorator type="StretchedColumns"/>
 ///     <PropertyWidgetDecorator type="PanelLabel" text="Handles"/>

@@ -574,6 +574,7 @@ void SurfaceTable::setRole(const QStringList& names, Role role)
   {
     this->What->setCurrentIndex(0);
   }
+  this->Message->hide();
   Q_EMIT this->changeAvailable();
   Q_EMIT this->changeFinished();
 }
@@ -593,7 +594,8 @@ void SurfaceTable::apply()
   this->Rows->clearSelection();
   this->Rows->clear(); // what moves comes first
   this->fillLater();
-  this->Preview->hide();
+  this->hidePreview();
+  this->Message->hide();
 }
 
 void SurfaceTable::reset()
@@ -604,6 +606,12 @@ void SurfaceTable::reset()
     this->listOf(role)->ClearUncheckedElements();
   }
   this->fillLater();
+  this->hidePreview();
+  this->Message->hide();
+}
+
+void SurfaceTable::hidePreview()
+{
   this->Preview->hide();
 }
 
@@ -617,7 +625,7 @@ void SurfaceTable::deselect()
 {
   this->Superclass::deselect();
   this->Highlight->hide();
-  this->Preview->hide();
+  this->hidePreview();
 }
 
 void SurfaceTable::setView(pqView* view)
@@ -626,12 +634,18 @@ void SurfaceTable::setView(pqView* view)
   this->highlight();
 }
 
+bool SurfaceTable::areMovesNew() const
+{
+  vtkSMProperty* const list = this->listOf(Moves);
+  return pqSMAdaptor::getSelectionProperty(list, pqSMAdaptor::UNCHECKED) !=
+         pqSMAdaptor::getSelectionProperty(list, pqSMAdaptor::CHECKED);
+}
+
 void SurfaceTable::highlight()
 {
   QStringList names = this->selectedNames();
   // What is applied already, the view shows in another way.
-  if (pqSMAdaptor::getSelectionProperty(this->listOf(Moves), pqSMAdaptor::UNCHECKED) !=
-      pqSMAdaptor::getSelectionProperty(this->listOf(Moves), pqSMAdaptor::CHECKED))
+  if (this->areMovesNew())
   {
     names += this->namesOf(Moves);
   }
@@ -663,14 +677,19 @@ void SurfaceTable::preview()
       this->proxy());
   const QStringList names = this->namesOf(Moves);
   const bool isList = vtkSMUncheckedPropertyHelper(this->named("Moving")).GetAsInt() == 0;
-  const bool isPending = filter && filter->modifiedState() != pqProxy::UNMODIFIED;
+  const bool isMotionNew = this->Preview->takeValues();
+  // What is applied, the mesh itself shows.
+  const bool isPending =
+    filter &&
+    (filter->modifiedState() == pqProxy::UNINITIALIZED ||
+      (filter->modifiedState() == pqProxy::MODIFIED && (isMotionNew || this->areMovesNew())));
   if (this->isSelected() && this->view() && isPending && isList && !names.isEmpty())
   {
     this->Preview->show(this->view(), names);
   }
   else
   {
-    this->Preview->hide();
+    this->hidePreview();
   }
 }
 

@@ -50,6 +50,8 @@ public:
   void reset() override;
   void select() override;
   void deselect() override;
+  /// Of the motion that is not applied, until the panel changes again.
+  void hidePreview();
 
   /// Adds the roles of the surface at a place of the view, in pixels from the left and the top, to
   /// `menu`, if the panel shows a table of the filter that is there, or of a filter of that.
@@ -91,6 +93,8 @@ private:
   vtkSMProperty* named(const char* property) const;
   vtkSMProperty* listOf(Role role) const;
   QStringList namesOf(Role role) const;
+  /// Whether the panel's list of what moves is another one than is applied.
+  bool areMovesNew() const;
   /// Of those that do not follow.
   QHash<QString, Role> roles() const;
   QVector<Surface> surfaces() const;

@@ -199,6 +199,11 @@ TEST(BoundarySliding, ACylinderStaysACylinderWhereItsEndMoves)
   // The two planes of the sector cannot follow in themselves.
   ASSERT_EQ(listener.Warnings.size(), 1u);
   EXPECT_NE(listener.Warnings[0].find(" % of the largest displacement"), std::string::npos);
+  // Those that stay follow nothing, though their edges move.
+  filter->AddFixedSurface(surface(grid, [](const Row& x) { return isAt(x[0], 0); }).c_str());
+  filter->AddFixedSurface(surface(grid, [](const Row& x) { return isAt(x[1], 0); }).c_str());
+  filter->Update();
+  EXPECT_EQ(listener.Warnings.size(), 1u);
 }
 
 TEST(BoundarySliding, NodesOfABumpySurfaceStayWhereNothingMoves)

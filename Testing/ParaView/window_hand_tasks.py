@@ -115,6 +115,21 @@ class HandTasks(unittest.TestCase):
         self.assertTrue(done(status(wider)))
         hands.wait(STATUS, status(wider).__eq__)
 
+    def test_tab_behind_a_handle_adds_no_row(self):
+        hands = self.hands
+        self.open(CANISTER)
+        hands.button("Morph Mesh")
+        hands.choose(PANEL + "Displacement/ComboBox", "Handles")
+        hands.press(PANEL + "Handles/Add")
+        hands.press(PANEL + "Handles/Table", x=20, y=0.5)
+        numbers = [1, 0, 1.1, 0.1, 0, 0, 0.5]  # place, displacement, radius
+        for number in numbers:
+            hands.type(str(number), "Tab")
+        hands.button("Apply")
+        one = MorphMesh(Input=simple.OpenDataFile(str(CANISTER)), Displacement="Handles",
+                        Handles=numbers)
+        self.assertEqual(self.ended(), status(one))  # two at one place would be an error
+
     def test_boss(self):
         hands = self.hands
         self.open(COURIER)

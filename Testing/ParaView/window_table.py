@@ -10,7 +10,7 @@ import unittest
 
 from paraview import simple
 
-from window_events import MAIN, PANEL
+from window_events import MAIN, PANEL, VIEW
 from window_morph_mesh import BOX
 from window_rows import Panels
 
@@ -115,8 +115,10 @@ class Table(Panels):
         self.look("normals")
         self.events.apply()
         self.look("applied")
-        ticked, box, vector, normals, applied = self.play()
-        for panel in (ticked, applied):
+        self.events.set("Surroundings/ComboBox", "set_string", "Stay")
+        self.look("no other motion")
+        ticked, box, vector, normals, applied, other = self.play()
+        for panel in (ticked, applied, other):
             self.assertEqual([one for one in panel["ghosts"] if one[0] <= one[1]], [])
         for panel, bounds in ((box, (-1, 1, -1, 1, 2.2, 2.7)),
                               (vector, (-1, 1.25, -1, 1, 2.2, 2.2)),
@@ -124,6 +126,23 @@ class Table(Panels):
             ghost, = panel["ghosts"]
             for got, wanted in zip(ghost, bounds):
                 self.assertAlmostEqual(got, wanted, delta=0.05)  # heads of arrows have a width
+
+    def test_no_ghost_stands_beside_a_live_drag(self):
+        self.events.filter("MorphMesh")
+        self.press(3, x=12)
+        self.events.apply()
+        self.events.set("Displacement/LiveDrag/CheckBox", "set_boolean", "true")
+        self.events.set(BOX + "translateX", "set_string", "0.5")
+        self.look("typed")
+        self.events.do(VIEW, "mousePress", "(0.5,0.5,4,4,0)")
+        for step in range(1, 9):
+            self.events.do(VIEW, "mouseMove", f"({0.5 + 0.004 * step:.3f},0.5,0,4,0)")
+        self.look("dragged")
+        self.events.do(VIEW, "mouseRelease", "(0.532,0.5,4,0,0)")
+        typed, dragged = ([one for one in panel["ghosts"] if one[0] <= one[1]]
+                          for panel in self.play())
+        self.assertEqual((len(typed), dragged), (1, []))
+        self.assertGreater(self.loaded("dragged").Transform.Translate[0], 0.5)  # it follows
 
     def test_the_view_gives_a_surface_its_role(self):
         self.events.filter("MorphMesh")

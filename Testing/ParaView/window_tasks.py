@@ -216,6 +216,19 @@ class WindowTasks(unittest.TestCase):
         self.assertEqual(morph.InvertedCells, 0)
         return morph
 
+    def goes_on(self, events):
+        """After an error: with the hole in place of the lid, which comes first in the table."""
+        message = f"{PANEL}SurfaceTable/Message"
+        events.press("SurfaceTable/AddSelected")
+        events.expect(message, "true", "visible")  # nothing is selected
+        for row in (0, 1):
+            events.tick("SurfaceTable/Rows", row)
+        events.expect(f"{PANEL}Advice/SaveAsShape", "true", "enabled")  # it applies
+        events.apply()
+        events.expect(COLORS, "ScaledJacobian", "currentText")
+        events.expect(message, "false", "visible")
+        events.expect(f"{PANEL}Advice/SaveAsShape", "true", "enabled")
+
     def row(self, surface):
         return self.names.index(surface)
 
@@ -298,6 +311,8 @@ class WindowTasks(unittest.TestCase):
             events.done()
             events.expect(f"{PANEL}InvertedCells/Number", "-1")
             events.expect(f"{PANEL}RadiusChange/Message0/Text", NEITHER)
+            events.expect(f"{PANEL}Advice/SaveAsShape", "false", "enabled")
+            self.goes_on(events)
 
             # Last: its window covers the other.
             events.task("open the filter's page")

@@ -288,6 +288,7 @@ std::vector<Index> Surroundings::ableToSlide(const BoundaryModel& model,
   for (const Index s : surfaces)
   {
     double given = 0, all = 0;
+    bool follows = false; // else it stays but for its edge, as it was asked to
     for (const Index node : model.geometry.surfaces[s].nodes)
     {
       if (result.roles[node] == Moves || result.roles[node] == Follows)
@@ -296,13 +297,14 @@ std::vector<Index> Surroundings::ableToSlide(const BoundaryModel& model,
         const double distance = (this->slid(model, { s }, node, to) - to).norm();
         all = std::max(all, distance);
         given = std::max(given, result.roles[node] == Moves ? distance : 0);
+        follows |= result.roles[node] == Follows;
       }
     }
     if (given <= OffShape * largest)
     {
       able.push_back(s);
     }
-    else
+    else if (follows)
     {
       names << (off.tellp() > 0 ? ", " : "") << "'Surface " << model.geometry.surfaces[s].id << "'";
       off << (off.tellp() > 0 ? ", " : "") << "Surface " << model.geometry.surfaces[s].id << " by "
