@@ -74,10 +74,10 @@ StatusLine::StatusLine(vtkSMProxy* filter, vtkSMProperty* advice, QWidget* paren
   {
     this->Save = new QPushButton(tr("Save as Shape"), this);
     this->Save->setObjectName("SaveAsShape");
-    QPalette gray; // ParaView shows what belongs to a result in black
-    gray.setColor(QPalette::Disabled, QPalette::ButtonText,
-      QApplication::palette().color(QPalette::Disabled, QPalette::ButtonText));
-    this->Save->setPalette(gray);
+    // ParaView shows what belongs to a result in black.
+    this->Save->setStyleSheet(
+      "QPushButton:disabled { color: " +
+      QApplication::palette().color(QPalette::Disabled, QPalette::ButtonText).name() + " }");
     QObject::connect(this->Save, &QPushButton::clicked, this, [this] { SavedShape::Save(this); });
     buttons->addWidget(this->Save);
     QObject::connect(this->source(), SIGNAL(modifiedStateChanged(pqServerManagerModelItem*)), this,
