@@ -200,18 +200,6 @@ bool haveReplacedCells(vtkUnstructuredGrid* grid, const morph::Mesh& mesh)
 
 constexpr const char* LayerName = "MorphShellLayer";
 
-morph::ShellLayer layerOf(vtkUnstructuredGrid* grid)
-{
-  vtkDataArray* mark = grid->GetFieldData()->GetArray(LayerName);
-  if (!mark || mark->GetNumberOfValues() != 5)
-  {
-    return {};
-  }
-  const auto nodes = static_cast<morph::Index>(mark->GetComponent(0, 0));
-  return { 2 * nodes <= grid->GetNumberOfPoints() ? nodes : 0, mark->GetComponent(1, 0),
-    { mark->GetComponent(2, 0), mark->GetComponent(3, 0), mark->GetComponent(4, 0) } };
-}
-
 /// Unknown cells pass the core's checks as poly-vertices; their node ids are still checked.
 void validateKnown(morph::Mesh& mesh)
 {
@@ -257,8 +245,20 @@ morph::Mesh FromGrid(vtkUnstructuredGrid* grid, UnknownCells unknown, morph::Mon
   }
   morph::replaceCollapsedCells(mesh);
   morph::orientPolyhedra(mesh);
-  mesh.layer = layerOf(grid);
+  mesh.layer = LayerOf(grid);
   return mesh;
+}
+
+morph::ShellLayer LayerOf(vtkUnstructuredGrid* grid)
+{
+  vtkDataArray* mark = grid->GetFieldData()->GetArray(LayerName);
+  if (!mark || mark->GetNumberOfValues() != 5)
+  {
+    return {};
+  }
+  const auto nodes = static_cast<morph::Index>(mark->GetComponent(0, 0));
+  return { 2 * nodes <= grid->GetNumberOfPoints() ? nodes : 0, mark->GetComponent(1, 0),
+    { mark->GetComponent(2, 0), mark->GetComponent(3, 0), mark->GetComponent(4, 0) } };
 }
 
 void MarkLayer(const morph::ShellLayer& layer, vtkUnstructuredGrid* grid)

@@ -33,6 +33,8 @@ morph::Mesh FromGrid(vtkUnstructuredGrid* grid, UnknownCells unknown = UnknownCe
 /// Marks a grid as the layer of a mesh of faces, in its field data, for FromGrid(). A layer without
 /// nodes: removes the mark.
 void MarkLayer(const morph::ShellLayer& layer, vtkUnstructuredGrid* grid);
+/// The layer that a grid is marked as; one without nodes if it is none. Cost: none.
+morph::ShellLayer LayerOf(vtkUnstructuredGrid* grid);
 
 /// Copies `points` as double, #points x 3. A null pointer gives 0 x 3.
 morph::Points FromPoints(vtkPoints* points);

@@ -223,23 +223,19 @@ vtkPolyData* vtkDisplacementAlgorithm::vtkInternals::WholeShell(
 {
   const bool isWhole = options.Moving == MOVING_EVERYTHING ||
                        (options.Moving == MOVING_SURFACES && options.Surfaces.empty());
-  if (!grid || !hasTarget || !isWhole)
+  if (!grid || !hasTarget || !isWhole || filters::GridMesh::LayerOf(grid).nodes == 0)
   {
     return nullptr;
   }
   if (this->ShellOf != grid || this->ShellTime != grid->GetMTime())
   {
     const morph::Mesh mesh = filters::GridMesh::FromGrid(grid);
-    this->Shell = nullptr;
-    if (mesh.layer.nodes > 0)
-    {
-      const std::vector<std::int8_t> windings = morph::frontWindings(mesh);
-      morph::BoundaryFaces faces = morph::frontFaces(mesh);
-      faces.nodes.resize(mesh.layer.nodes); // all of the input, so that messages have its ids
-      std::iota(faces.nodes.begin(), faces.nodes.end(), morph::Index(0));
-      this->Shell = vtkSmartPointer<vtkPolyData>::New();
-      filters::Surface::Write(grid, mesh, faces, this->Shell, &windings);
-    }
+    const std::vector<std::int8_t> windings = morph::frontWindings(mesh);
+    morph::BoundaryFaces faces = morph::frontFaces(mesh);
+    faces.nodes.resize(mesh.layer.nodes); // all of the input, so that messages have its ids
+    std::iota(faces.nodes.begin(), faces.nodes.end(), morph::Index(0));
+    this->Shell = vtkSmartPointer<vtkPolyData>::New();
+    filters::Surface::Write(grid, mesh, faces, this->Shell, &windings);
     this->ShellOf = grid;
     this->ShellTime = grid->GetMTime();
   }
