@@ -3,6 +3,7 @@
 
 #include "vtkSMConnectedArrayListDomain.h"
 #include "vtkSMKeptArraySelectionDomain.h"
+#include "vtkSMKnownBoundsDomain.h"
 #include "vtkSMReportingSourceProxy.h"
 
 #include <vtkClientServerInterpreter.h>
@@ -26,6 +27,7 @@ void MeshMorphingRegisterServerManagerClasses()
         "vtkSMConnectedArrayListDomain", make<vtkSMConnectedArrayListDomain>);
       interpreter->AddNewInstanceFunction(
         "vtkSMKeptArraySelectionDomain", make<vtkSMKeptArraySelectionDomain>);
+      interpreter->AddNewInstanceFunction("vtkSMKnownBoundsDomain", make<vtkSMKnownBoundsDomain>);
       interpreter->AddNewInstanceFunction(
         "vtkSMReportingSourceProxy", make<vtkSMReportingSourceProxy>);
     });

@@ -395,8 +395,8 @@ def domain(row):
     if row["box"]:
         kind = {"corner": 'mode="normal" default_mode="min"',
                 "lengths": 'mode="extents" default_mode="max"'}[row["box"]]
-        return (f'<BoundsDomain name="range" {kind}><RequiredProperties>'
-                '<Property function="Input" name="Input"/></RequiredProperties></BoundsDomain>')
+        return (f'<KnownBoundsDomain name="range" {kind}><RequiredProperties>'
+                '<Property function="Input" name="Input"/></RequiredProperties></KnownBoundsDomain>')
     if (low, high) == (None, None):
         return ""
     kind = "Int" if row.kind.startswith("integer") else "Double"
