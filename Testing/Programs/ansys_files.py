@@ -56,13 +56,15 @@ class Ansys(solver_files.SolverFiles):
         path, out = self.folder / "m.cdb", self.folder / "out.cdb"
         brick, lid = (1, 2, 4, 3, 5, 6, 8, 7), (5, 6, 8, 7)
         rest = ("CMBLOCK,TOP     ,NODE,       2  ! users node component definition\n(8i10)\n"
-                "         5        -8\nCMBLOCK,LID,ELEM,       1\n(8i10)\n        12\n")
+                "         5        -8\nCMBLOCK,LID,ELEM,       1\n(8i10)\n        12\n"
+                "CMBLOCK,PATCH,AREA,       1\n(8i10)\n        11\n")
         for options in ({}, {"ints": 8, "real": (16, 9, 2)}):
             with self.subTest(**options):
                 path.write_text(self.cdb(self.CORNERS, ((1, brick), (3, lid), (4, lid)), rest=rest,
                                          **options))
                 listed = run("--list-surfaces", path)
                 self.assertIn("Elements of the type 170 are left out", listed.stderr)
+                self.assertNotIn("PATCH", listed.stdout)
                 for name, faces in (("Material 1", 6), ("TOP", 1), ("LID", 1)):
                     self.assertRegex(listed.stdout, f"(?m)^{name} +{faces} ")
                 for name, move, rounding in (("LID", "0,0,0.25", 1e-13), ("TOP", "0.1,0,0", 1e-9)):

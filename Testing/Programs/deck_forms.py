@@ -8,6 +8,8 @@ import re
 import unittest
 
 import solver_files
+import solver_models
+import vtk_pieces
 from solver_files import run
 
 
@@ -38,7 +40,7 @@ class DeckForms(solver_files.SolverFiles):
 
     @staticmethod
     def center(row):
-        return [float(x) for x in row.split("  ")[-1].split(",")]
+        return [float(x) for x in re.search(r"(\S+), (\S+), (\S+)", row).groups()]
 
     LID = r"1 +1  0\.5, 0\.5, 1"
 
@@ -76,6 +78,25 @@ class DeckForms(solver_files.SolverFiles):
 
     GRIDS = "".join(f"GRID,{i + 1},,{i & 1}.,{i >> 1 & 1}.,{i >> 2}.\n" for i in range(8))
     NASTRAN = GRIDS + "CHEXA,1,1,1,2,4,3,5,6,\n,8,7\nCQUAD4,2,9,5,6,8,7\n"
+
+    def test_a_set_of_nodes_and_elements_inside_is_an_inner_surface(self):
+        """As CAE writes the picked face between two cells."""
+        nodes = "".join(f"{i + 1}, {i % 3}, {i // 3 % 3}, {i // 9 * 2}\n" for i in range(27))
+        corners = [n + a for n in (1, 2, 4, 5, 10, 11, 13, 14) for a in (0, 1, 4, 3, 9, 10, 13, 12)]
+        cells = "".join(f"{i + 1}, {', '.join(map(str, corners[8 * i:8 * i + 8]))}\n"
+                        for i in range(8))
+        text = ("*NODE\n" + nodes + "*ELEMENT, TYPE=C3D8\n" + cells +
+                "*NSET, NSET=Top, GENERATE\n10, 18, 1\n*ELSET, ELSET=Top\n1, 2, 3, 4\n")
+        self.check("m.inp", text, {"Top": "4 +4  1, 1, 2 +inner"})
+
+    def test_what_defines_entries_by_others_is_named(self):
+        """And elements of any number of nodes; a deck that CalculiX's preprocessor calls .msh."""
+        path = self.folder / "m.bdf"
+        path.write_text("GRID,1,,0.,0.,0.\n=,*1,=,*1.,==\n=3\n")
+        self.refuse("line 2: it has a replication", "list", path)
+        said = self.check("m.msh", self.CUBE + self.BRICK + "*ELEMENT, TYPE=C3D15V\n" + ", ".join(
+            map(str, range(2, 18))) + "\n18, 19, 20\n" + self.TOP % "Top", {"Top": self.LID})
+        self.assertIn("Elements of the type 'C3D15V' are left out", said)
 
     def test_byte_order_marks(self):
         mark, node = b"\xef\xbb\xbf", "%8d%16.3f%16.3f%16.3f\n"
@@ -117,7 +138,7 @@ class DeckForms(solver_files.SolverFiles):
     def test_middle_nodes_that_are_left_out(self):
         """The others go along with their edge, and zeros stand for blanks."""
         grids = self.GRIDS + "GRID,9,,0.5,0.,0.\nGRID,10,,0.,0.5,1.\n"
-        for fields in (",,,,,,,,,,,", "0,0,0,0,0,0,0,0,0,0,0,0", "9,,,,,,,,,,,10", "9,,,,,0,0,,,,,10"):
+        for fields in ("," * 11, ",".join("0" * 12), "9,,,,,,,,,,,10", "9,,,,,0,0,,,,,10"):
             with self.subTest(fields=fields):
                 brick = "CHEXA,1,1,1,2,4,3,5,6,8,7," + fields
                 path, out = self.folder / "m.bdf", self.folder / "out.bdf"
@@ -140,17 +161,20 @@ class DeckForms(solver_files.SolverFiles):
 
     def test_fields_of_ten_columns_of_ls_dyna(self):
         top = "*SET_NODE_LIST_TITLE\nTop\n         1\n         5         6         7         8\n"
-        for options in ({}, {"head": "*KEYWORD I10=Y", "width": 10}, {"keyword": " %", "width": 10}):
+        for options in ({}, {"head": "*KEYWORD I10=Y", "width": 10},
+                        {"keyword": " %", "width": 10}):
             self.check("m.k", self.dyna(top, **options), {"Top": self.LID})
 
     def test_titles_of_ls_dyna(self):
         """Empty ones, and those of several; a line without content counts where one belongs."""
         text = self.dyna("*ELEMENT_SHELL_THICKNESS\n1,8,5,6,8,7\n\n2,9,1,2,4,3\n\n"
                          "*PART\n\n7,1,1\nlid\n8,1,1\nlid\n9,1,1\n"
-                         "*SET_NODE_LIST_TITLE\n\n1\n5,6,7,8\n*SET_NODE_LIST_TITLE\nlid\n2\n5,6,7,8\n")
+                         "*SET_NODE_LIST_TITLE\n\n1\n5,6,7,8\n"
+                         "*SET_NODE_LIST_TITLE\nlid\n2\n5,6,7,8\n")
         bottom = r"1 +1  0\.5, 0\.5, 0"
         self.check("m.k", text, {"PID 7": "6 .*", "lid (PID 8)": self.LID, "lid (PID 9)": bottom,
-                                 "Node set 1": self.LID, "lid (Node set 2)": self.LID}, "Node set 1")
+                                 "Node set 1": self.LID, "lid (Node set 2)": self.LID},
+                   "Node set 1")
 
     def test_the_end_of_an_included_file_of_ls_dyna(self):
         (self.folder / "nodes.k").write_text(self.dyna().split("   \n")[0] + "*END\nno deck\n")
@@ -169,6 +193,23 @@ class DeckForms(solver_files.SolverFiles):
         path = self.folder / "m.msh"
         path.write_text("$NOD\n1\n1 0 0 0\n$ENDNOD\n$ELM\n0\n$ENDELM\n")
         self.refuse("Let Gmsh write version 4.1 or 2.2", "list", path)
+
+    def test_named_blocks_of_vtm(self):
+        """Each is a name, and so is the interface of two."""
+        model, _ = solver_models.random_model("blocks")
+        path, out = (self.folder / name / "m.vtm" for name in ("in", "out"))
+        for folder in (path.parent, out.parent):
+            folder.mkdir()
+        vtk_pieces.write(model, path, ("low", "high"))
+        rows, said = self.listed(path)
+        self.assertEqual(said, "")
+        for name in ("low", "high", "low | high"):
+            self.assertRegex(rows.get(name, f"not among {list(rows)}"), "^[1-9]", name)
+        moved = run("--move", "low | high", "--translate", "0,0,0.01", path, out)
+        self.assertEqual(moved.returncode, 0, moved.stderr)
+        shift = [b - a for a, b in zip(*(self.center(self.listed(file)[0]["low | high"])
+                                         for file in (path, out)))]
+        self.assertAlmostEqual(shift[2], 0.01, 4)
 
     def test_tables_of_excel(self):
         """A line that names the separator, and lines of an old Macintosh; encodings and nodes that

@@ -104,6 +104,10 @@ constexpr Family Families[] = {
 
 AbaqusElement abaqusElement(const std::string& type)
 {
+  if (type.rfind("C3D15V", 0) == 0)
+  {
+    return {}; // has 15 to 18 nodes
+  }
   for (const Family& family : Families)
   {
     if (type.rfind(family.start, 0) == 0)

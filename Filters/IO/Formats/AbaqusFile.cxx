@@ -745,7 +745,9 @@ void AbaqusFile::finish()
 
 bool isAbaqusFile(const std::string& path)
 {
-  if (extensionOf(path) != ".inp")
+  // CalculiX's preprocessor writes decks as .msh.
+  const std::string extension = extensionOf(path);
+  if (extension != ".inp" && extension != ".msh")
   {
     return false;
   }

@@ -76,8 +76,8 @@ bool isRefused(const std::string& command)
   return commands.count(command) > 0;
 }
 
-/// Whether a type has volume elements (1), shells or plane elements (2), lines of two nodes and one that orients them
-/// (3), or is left out (0).
+/// Whether a type has volume elements (1), shells or plane elements (2), lines of two nodes and one
+/// that orients them (3), or is left out (0).
 int kindOf(Index type)
 {
   static const std::set<Index> solids = { 45, 64, 65, 70, 87, 90, 92, 95, 185, 186, 187, 226, 227,
@@ -225,7 +225,8 @@ void AnsysFile::readComponent(Lines& lines, const std::vector<Span>& command)
   { return std::string(i < command.size() ? command[i].of(this->text()) : std::string_view()); };
   Component component;
   component.name = word(1);
-  component.isOfNodes = upperCase(word(2)).rfind("NODE", 0) == 0;
+  const std::string kind = upperCase(word(2)).substr(0, 4);
+  component.isOfNodes = kind == "NODE";
   const std::string countText = word(3).substr(0, word(3).find('!'));
   const int count = std::atoi(countText.c_str());
   this->readWidths(lines);
@@ -256,7 +257,10 @@ void AnsysFile::readComponent(Lines& lines, const std::vector<Span>& command)
       ++found;
     }
   }
-  this->components_.push_back(std::move(component));
+  if (kind == "NODE" || kind == "ELEM") // others are of the geometry
+  {
+    this->components_.push_back(std::move(component));
+  }
 }
 
 /// "N,R5.3,LOC,number,,,x,y,z", as CDWRITE has it unblocked, or "N,number,x,y,z". A number of -1

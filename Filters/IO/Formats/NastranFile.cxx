@@ -235,6 +235,12 @@ void NastranFile::parse(std::size_t part, int depth)
     {
       return;
     }
+    else if (!card.name.empty() && card.name[0] == '=')
+    {
+      this->failAt(part, card.at,
+        "it has a replication (=), which defines an entry by the one before it. Write a deck that "
+        "lists all entries.");
+    }
     else if (card.name == "GRID")
     {
       this->takeGrid(part, card);
