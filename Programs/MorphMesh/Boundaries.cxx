@@ -114,7 +114,9 @@ Displacements displacementsOfTable(
   const auto points =
     nodeNumbers ? pointOfNumber(numbersOf(grid)) : std::map<vtkIdType, vtkIdType>();
   Displacements result;
-  for (const NumberLine& line : readNumbers(path, { "id", "dx", "dy", "dz" }))
+  std::map<vtkIdType, const NumberLine*> lines;
+  const std::vector<NumberLine> table = readNumbers(path, { "id", "dx", "dy", "dz" });
+  for (const NumberLine& line : table)
   {
     const std::vector<double>& values = line.numbers;
     const auto given = static_cast<vtkIdType>(values[0]);
@@ -125,6 +127,13 @@ Displacements displacementsOfTable(
       std::ostringstream number;
       number << values[0];
       throw Failure(line.where + "the grid has no node '" + number.str() + "'.");
+    }
+    const auto [first, isNew] = lines.emplace(id, &line);
+    if (!isNew && first->second->numbers != values)
+    {
+      throw Failure(line.where + "the node " + std::to_string(given) +
+                    " has another displacement than in " + first->second->where +
+                    "Leave one of them out.");
     }
     result.push_back({ id, { values[1], values[2], values[3] } });
   }

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
+#include <sstream>
 
 namespace morph_mesh
 {
@@ -91,15 +92,29 @@ std::vector<std::string> splitLine(const std::string& line, char separator)
 
 std::vector<TableLine> readLines(const std::string& path)
 {
-  std::ifstream file(path);
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream whole;
+  whole << file.rdbuf();
+  std::string content = whole.str();
+  if (content.find('\0') != std::string::npos)
+  {
+    throw Failure(
+      "Cannot read " + path + ": it is no text in UTF-8. Save it as CSV UTF-8 (comma delimited).");
+  }
+  if (content.rfind("\xef\xbb\xbf", 0) == 0) // byte order mark of UTF-8
+  {
+    content.erase(0, 3);
+  }
   std::vector<TableLine> lines;
   char separator = ',';
+  std::istringstream rest(content);
+  const char end = content.find('\n') == std::string::npos ? '\r' : '\n';
   std::string text;
-  for (int number = 1; std::getline(file, text); ++number)
+  for (int number = 1; std::getline(rest, text, end); ++number)
   {
-    if (number == 1 && text.rfind("\xef\xbb\xbf", 0) == 0) // byte order mark of UTF-8
+    if (number == 1 && text.rfind("sep=", 0) == 0)
     {
-      text.erase(0, 3);
+      continue; // what Excel has before the table
     }
     if (lines.empty())
     {

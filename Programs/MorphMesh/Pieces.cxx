@@ -9,11 +9,14 @@
 
 #include <vtkAppendFilter.h>
 #include <vtkCellData.h>
+#include <vtkFieldData.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
+#include <vtkStringArray.h>
 #include <vtkStructuredGrid.h>
+#include <vtkUnsignedCharArray.h>
 #include <vtkUnstructuredGrid.h>
 #include <vtkXMLDataElement.h>
 #include <vtkXMLPolyDataWriter.h>
@@ -37,8 +40,14 @@ namespace
 namespace fs = std::filesystem;
 namespace io = morph::io;
 
-/// The names of files in an element and those below it.
-void collectSources(vtkXMLDataElement* element, std::vector<std::string>& sources)
+/// A piece's file, and the name of its block in a .vtm, or empty.
+struct Source
+{
+  std::string file, block;
+};
+
+/// Of an element and those below it.
+void collectSources(vtkXMLDataElement* element, std::vector<Source>& sources)
 {
   const bool isPiece = std::strcmp(element->GetName(), "Piece") == 0;
   const bool isDataSet = std::strcmp(element->GetName(), "DataSet") == 0;
@@ -47,7 +56,8 @@ void collectSources(vtkXMLDataElement* element, std::vector<std::string>& source
                                    : nullptr;
   if (source)
   {
-    sources.emplace_back(source);
+    const char* name = element->GetAttribute("name");
+    sources.push_back({ source, isDataSet && name ? name : "" });
   }
   for (int i = 0; i < element->GetNumberOfNestedElements(); ++i)
   {
@@ -55,13 +65,13 @@ void collectSources(vtkXMLDataElement* element, std::vector<std::string>& source
   }
 }
 
-std::vector<std::string> sourcesOf(const std::string& path)
+std::vector<Source> sourcesOf(const std::string& path)
 {
   const std::string text = io::readFile(path);
   ConsoleMessages inner; // the parser's
   const auto root =
     vtkSmartPointer<vtkXMLDataElement>::Take(vtkXMLUtilities::ReadElementFromString(text.c_str()));
-  std::vector<std::string> sources;
+  std::vector<Source> sources;
   if (root)
   {
     collectSources(root, sources);
@@ -71,12 +81,12 @@ std::vector<std::string> sourcesOf(const std::string& path)
     throw Failure("Cannot read " + path +
                   ": the file is damaged, or not what its extension says: it names no piece.");
   }
-  for (const std::string& source : sources)
+  for (const auto& [file, block] : sources)
   {
-    if (isListOfPieces(source))
+    if (isListOfPieces(file))
     {
-      throw Failure("Cannot read " + path + ": it names " + source +
-                    ", a list of pieces again. Give that file.");
+      throw Failure(
+        "Cannot read " + path + ": it names " + file + ", a list of pieces again. Give that file.");
     }
   }
   return sources;
@@ -113,7 +123,10 @@ struct Renaming
 Renaming renamingOf(const std::string& original, const std::string& path)
 {
   Renaming result;
-  result.from = sourcesOf(original);
+  for (const Source& source : sourcesOf(original))
+  {
+    result.from.push_back(source.file);
+  }
   const std::string oldStem = fs::path(original).stem().string(),
                     newStem = fs::path(path).stem().string();
   for (const std::string& source : result.from)
@@ -217,10 +230,52 @@ bool isListOfPieces(const std::string& path)
 
 std::vector<std::string> piecesOf(const std::string& path)
 {
-  std::vector<std::string> pieces = sourcesOf(path);
-  std::transform(pieces.begin(), pieces.end(), pieces.begin(),
-    [&](const std::string& source) { return beside(path, source); });
+  std::vector<std::string> pieces;
+  for (const Source& source : sourcesOf(path))
+  {
+    pieces.push_back(beside(path, source.file));
+  }
   return pieces;
+}
+
+namespace
+{
+/// Marks the cells of a block by an array of its name; those of the other blocks by 0.
+void markBlock(vtkDataSet* piece, const std::string& own, const std::vector<std::string>& all)
+{
+  for (const std::string& name : all)
+  {
+    vtkNew<vtkUnsignedCharArray> array;
+    array->SetName(name.c_str());
+    array->SetNumberOfValues(piece->GetNumberOfCells());
+    array->FillValue(name == own ? 1 : 0);
+    piece->GetCellData()->AddArray(array);
+  }
+}
+
+/// The names of blocks, each once, but those of the pieces' own arrays.
+std::vector<std::string> blocksOf(
+  const std::vector<Source>& sources, const std::vector<vtkSmartPointer<vtkDataObject>>& pieces)
+{
+  std::vector<std::string> names;
+  for (const Source& source : sources)
+  {
+    const char* name = source.block.c_str();
+    const bool isTaken = std::any_of(pieces.begin(), pieces.end(),
+      [name](vtkDataObject* piece)
+      {
+        auto* data = vtkDataSet::SafeDownCast(piece);
+        return data &&
+               (data->GetCellData()->HasArray(name) || data->GetPointData()->HasArray(name));
+      });
+    const bool isNew = std::find(names.begin(), names.end(), source.block) == names.end();
+    if (isNew && !source.block.empty() && !isTaken)
+    {
+      names.push_back(source.block);
+    }
+  }
+  return names;
+}
 }
 
 vtkSmartPointer<vtkUnstructuredGrid> mergedPieces(const std::string& path, const Part& part)
@@ -228,26 +283,43 @@ vtkSmartPointer<vtkUnstructuredGrid> mergedPieces(const std::string& path, const
   vtkNew<vtkAppendFilter> append;
   append->MergePointsOn();
   append->AddInputData(vtkNew<vtkUnstructuredGrid>()); // a rank may have no piece
-  const std::vector<std::string> pieces = piecesOf(path);
-  for (std::size_t i = 0; i < pieces.size(); ++i)
+  const std::vector<Source> sources = sourcesOf(path);
+  std::vector<vtkSmartPointer<vtkDataObject>> pieces(sources.size());
+  for (std::size_t i = 0; i < sources.size(); ++i)
   {
-    if (!part.has(i, pieces.size()))
+    if (part.has(i, sources.size()))
     {
-      continue;
+      pieces[i] = readFile(beside(path, sources[i].file));
     }
-    const vtkSmartPointer<vtkDataObject> data = readFile(pieces[i]);
+  }
+  const std::vector<std::string> blocks = blocksOf(sources, pieces);
+  for (std::size_t i = 0; i < sources.size(); ++i)
+  {
+    vtkDataObject* data = pieces[i];
     if (auto* grid = vtkUnstructuredGrid::SafeDownCast(data))
     {
       grid->RemoveGhostCells();
     }
-    if (vtkDataSet::SafeDownCast(data))
+    if (auto* piece = vtkDataSet::SafeDownCast(data))
     {
-      append->AddInputDataObject(data);
+      markBlock(piece, sources[i].block, blocks);
+      append->AddInputDataObject(piece);
     }
   }
   Messages messages(append);
   messages.update("Cannot read " + path);
-  return append->GetOutput();
+  vtkSmartPointer<vtkUnstructuredGrid> merged = append->GetOutput();
+  if (!blocks.empty())
+  {
+    vtkNew<vtkStringArray> names;
+    names->SetName("SurfaceNames");
+    for (const std::string& name : blocks)
+    {
+      names->InsertNextValue(name);
+    }
+    merged->GetFieldData()->AddArray(names);
+  }
+  return merged;
 }
 
 void requireWritablePieces(const std::string& original, const std::string& path)

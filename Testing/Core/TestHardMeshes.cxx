@@ -12,6 +12,8 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include <cmath>
 
 using namespace morph;
@@ -301,4 +303,18 @@ TEST(Misuse, OffsetsThatFallAreRefusedBeforeTheyAreUsed)
   mesh.types.assign(2, PolyVertex);
   mesh.offsets = { 0, 100000, 16 };
   EXPECT_THROW(validate(mesh), Error);
+}
+
+TEST(Misuse, NodesOfNoCellThatAreNotFiniteAreToBeRemoved)
+{
+  Mesh mesh = meshes::hexes(1, 1, 1);
+  mesh.points.conservativeResize(9, 3);
+  mesh.points.row(8).setConstant(std::numeric_limits<double>::quiet_NaN());
+  std::string message;
+  motions::kindOf([&] { validate(mesh); }, message);
+  EXPECT_NE(message.find("node ids 8. No cell has these nodes: remove them."), std::string::npos)
+    << message;
+  mesh.points(3, 0) = mesh.points(8, 0);
+  motions::kindOf([&] { validate(mesh); }, message);
+  EXPECT_EQ(message.find("remove"), std::string::npos) << message;
 }

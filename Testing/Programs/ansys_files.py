@@ -56,13 +56,15 @@ class Ansys(solver_files.SolverFiles):
         path, out = self.folder / "m.cdb", self.folder / "out.cdb"
         brick, lid = (1, 2, 4, 3, 5, 6, 8, 7), (5, 6, 8, 7)
         rest = ("CMBLOCK,TOP     ,NODE,       2  ! users node component definition\n(8i10)\n"
-                "         5        -8\nCMBLOCK,LID,ELEM,       1\n(8i10)\n        12\n")
+                "         5        -8\nCMBLOCK,LID,ELEM,       1\n(8i10)\n        12\n"
+                "CMBLOCK,PATCH,AREA,       1\n(8i10)\n        11\n")
         for options in ({}, {"ints": 8, "real": (16, 9, 2)}):
             with self.subTest(**options):
                 path.write_text(self.cdb(self.CORNERS, ((1, brick), (3, lid), (4, lid)), rest=rest,
                                          **options))
                 listed = run("--list-surfaces", path)
                 self.assertIn("Elements of the type 170 are left out", listed.stderr)
+                self.assertNotIn("PATCH", listed.stdout)
                 for name, faces in (("Material 1", 6), ("TOP", 1), ("LID", 1)):
                     self.assertRegex(listed.stdout, f"(?m)^{name} +{faces} ")
                 for name, move, rounding in (("LID", "0,0,0.25", 1e-13), ("TOP", "0.1,0,0", 1e-9)):
@@ -137,6 +139,30 @@ class Ansys(solver_files.SolverFiles):
             corners.append(tuple((p + q) / 2 for p, q in zip(x, y)))
         path.write_text(self.unblocked(corners, ((2, self.BRICK + tuple(range(9, 21))),)))
         self.check_by_reading(path, out, "--move", "Surface 0", "--translate", "0,0,0.01")
+
+    def test_types_in_a_block_and_plane_elements(self):
+        """ETBLOCK, as Workbench writes it, in place of ET; PLANE183 with one triangle."""
+        path, out = self.folder / "m.cdb", self.folder / "out.cdb"
+        square = [c for c in self.CORNERS if c[2] == 0] + [(2., 0., 0.)]
+        for elements, name in ((((1, self.BRICK),), "Surface 5"),
+                               (((2, (1, 2, 4, 3)), (2, (2, 5, 4, 4))), "Surface 0")):
+            corners = square if len(elements) > 1 else self.CORNERS
+            text = re.sub("ET,1,185.*?ET,4,170\n", "ETBLOCK,        2,        2\n(2i9,19a9)\n"
+                          "        1      185\n        2      182\n       -1\n",
+                          self.cdb(corners, elements), flags=re.S)
+            path.write_text(text)
+            self.check_by_reading(path, out, "--move", name, "--translate", "0.125,0.25,0")
+        path.write_text(text.replace("        2      182\n", ""))
+        self.refuse("element 11 is of type 2, which no ET or ETBLOCK defines", "list", path)
+
+    def test_middle_nodes_that_are_left_out(self):
+        """0 stands for them; those that are there go along with their edge."""
+        path, out = self.folder / "m.cdb", self.folder / "out.cdb"
+        corners = [*self.CORNERS, (0.5, 0., 0.)]
+        nodes = self.BRICK + (9,) + (0,) * 11
+        path.write_text(self.cdb(corners, ((2, nodes),)))
+        points = self.check_by_reading(path, out, "--move", "Material 2", "--scale", "2,1,3")
+        self.assertEqual(tuple(points[-3:]), (0.5, 0, -1))
 
     def test_damaged_archives_are_refused_with_their_line(self):
         cdb = self.cdb([(1., 0., 0.), (2., 0., 0.), (1., 1., 0.), (1., 0., 1.)],

@@ -559,10 +559,10 @@ class SolverFiles(unittest.TestCase):
             path.write_text("BEGIN BULK\n" + corners + middles + "CHEXA," + line)
             listed = run("--list-surfaces", path)
             self.assertRegex(listed.stdout, f"PID 3 +{faces} ", listed.stderr)
-        for more in (1, 11):  # of an element of 8 nodes, or of 20: one is missing
+        for more in (1, 11):  # left out between corners
             path.write_text("BEGIN BULK\n" + corners + middles +
                             f"CHEXA,7,3,1,2,4,3,5,6,8,7,{rest}"[:-3 * more] + "\n")
-            self.refuse(f"CHEXA 7 has {20 - more} nodes", "--list-surfaces", path)
+            self.assertRegex(run("--list-surfaces", path).stdout, "PID 3 +6 ")
 
     def test_nodes_are_chosen_by_the_numbers_of_the_file(self):
         for extension in (".inp", ".su2", ".msh"):
@@ -696,9 +696,8 @@ class SolverFiles(unittest.TestCase):
             ("m.bdf", "BEGIN BULK\nGRDSET,,9\n" + grids + tetra, "coordinate system 9, which"),
             ("m.bdf", grids.replace("1.,0.,0.", "1.,x,0.") + tetra, "line 3: 'x' is no number"),
             ("m.bdf", grids + tetra.replace("3,4", "3,44"), "element 1 has the node 44"),
-            ("m.bdf", grids + tetra.replace("3,4", "3"), "line 6: CTETRA 1 has 3 nodes"),
+            ("m.bdf", grids + tetra.replace("3,4", "3"), "line 6: CTETRA 1 lacks its corner 4"),
             ("m.bdf", grids + tetra + "GRID,2,,0.,0.,0.\n", "more than one node .* 2"),
-            ("m.bdf", grids + "GRID           5\t\t1.0\n" + tetra, "line 6: .*tabs"),
             ("m.bdf", grids + "GRID*                  5\n" + tetra, "line 6: .*continuation line"),
             ("m.bdf", "BEGIN BULK\nINCLUDE 'none.bdf'\n", "none.bdf: there is no such file"),
             ("m.k", dyna.replace("1.,0.,0.", "1.,x,0."), "line 4: 'x' is no number"),

@@ -27,8 +27,9 @@ def grid(model, cells):
             + "</Cells>\n</Piece></UnstructuredGrid>\n</VTKFile>\n")
 
 
-def write(model, path):
-    """`path`, a .pvtu or a .vtm, and two pieces beside it; returns their names."""
+def write(model, path, blocks=None):
+    """`path`, a .pvtu or a .vtm, and two pieces beside it; returns their names. `blocks`: two
+    names, for a .vtm."""
     half = len(model.cells) // 2
     names = [f"{path.stem}_{i}.vtu" for i in range(2)]
     for name, cells in zip(names, (model.cells[:half], model.cells[half:])):
@@ -39,7 +40,8 @@ def write(model, path):
         lines += [f'<Piece Source="{name}"/>' for name in names]
     else:
         kind, lines = "vtkMultiBlockDataSet", [
-            f'<DataSet index="{i}" file="{name}"/>' for i, name in enumerate(names)]
+            f'<DataSet index="{i}" file="{name}"' + (f' name="{blocks[i]}"/>' if blocks else "/>")
+            for i, name in enumerate(names)]
     path.write_text("\n".join([f'<VTKFile type="{kind}" version="1.0">', f"<{kind}>", *lines,
                                f"</{kind}>", "</VTKFile>", ""]))
     return names

@@ -24,14 +24,19 @@ bool areLast(const std::vector<Index>& faces, const BoundaryFaces& all, std::siz
          std::all_of(faces.begin(), faces.end(), [first](Index face) { return face >= first; });
 }
 
-/// Which faces the marked cells have; a volume cell those on the boundary alone.
+/// Which faces the marked cells have; a volume cell those on the boundary alone, and none where
+/// `hasNodes`: then these say what the surface is.
 std::vector<Index> facesOfCells(const Mesh& mesh, const BoundaryFaces& faces, std::size_t inside,
-  const std::vector<std::uint8_t>& isMarked)
+  const std::vector<std::uint8_t>& isMarked, bool hasNodes)
 {
   const bool isMesh = mesh.numberOfCells() > 0;
   const std::map<Corners, int> flat = isMesh ? flatCells(mesh, isMarked) : std::map<Corners, int>();
   const std::size_t count = faces.offsets.size() - 1;
   std::vector<Index> result;
+  if (isMesh && flat.empty() && hasNodes)
+  {
+    return result;
+  }
   for (std::size_t f = 0; f < (flat.empty() ? count - inside : count); ++f)
   {
     const Index behind = isMesh ? faces.cells[f] : static_cast<Index>(f);
@@ -88,15 +93,6 @@ NamedSet boundarySet(const std::string& name, const Mesh& mesh, const BoundaryFa
   NamedSet set;
   set.name = name;
   const auto begin = faces.connectivity.begin();
-  if (!isCell.empty())
-  {
-    set.faces = facesOfCells(mesh, faces, inside, isCell);
-    for (const Index face : set.faces)
-    {
-      set.nodes.insert(
-        set.nodes.end(), begin + faces.offsets[face], begin + faces.offsets[face + 1]);
-    }
-  }
   if (!isNode.empty())
   {
     const std::size_t outer = faces.offsets.size() - 1 - inside;
@@ -120,6 +116,15 @@ NamedSet boundarySet(const std::string& name, const Mesh& mesh, const BoundaryFa
       {
         set.faces.push_back(static_cast<Index>(f));
       }
+    }
+  }
+  if (!isCell.empty())
+  {
+    for (const Index face : facesOfCells(mesh, faces, inside, isCell, !set.nodes.empty()))
+    {
+      set.faces.push_back(face);
+      set.nodes.insert(
+        set.nodes.end(), begin + faces.offsets[face], begin + faces.offsets[face + 1]);
     }
   }
   sortUnique(set.nodes);

@@ -24,8 +24,8 @@ struct NamedSet
 
 /// Returns what a set of nodes and cells has of a boundary. A node of an outer face belongs to it
 /// if it is marked, and an outer face if all of its corners are. A face belongs, too, if a marked
-/// two-dimensional cell lies on it. Where no two-dimensional cell is marked, an outer face does if
-/// the volume cell behind it is. The `inside` last faces are not outer ones. `isNode`: #nodes,
+/// two-dimensional cell lies on it. Without these and without marked boundary nodes, an outer face
+/// does if the volume cell behind it is. The `inside` last faces are not outer. `isNode`: #nodes,
 /// `isCell`: #cells or, of a boundary alone, #faces; either may be empty.
 NamedSet boundarySet(const std::string& name, const Mesh& mesh, const BoundaryFaces& faces,
   std::size_t inside, const std::vector<std::uint8_t>& isNode,

@@ -85,8 +85,16 @@ void validate(const Mesh& mesh)
   }
   if (!notFinite.empty())
   {
-    throw Error(
-      "Coordinates that are not finite (NaN or infinite) at node ids " + listIds(notFinite) + ".");
+    const auto isUsed = [&](Index node)
+    {
+      const std::vector<Index>& list = mesh.connectivity;
+      return std::find(list.begin(), list.end(), node) != list.end();
+    };
+    throw Error("Coordinates that are not finite (NaN or infinite) at node ids " +
+                listIds(notFinite) +
+                (std::any_of(notFinite.begin(), notFinite.end(), isUsed)
+                    ? "."
+                    : ". No cell has these nodes: remove them."));
   }
 }
 }

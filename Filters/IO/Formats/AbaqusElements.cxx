@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Formats/AbaqusElements.h"
 
+#include <cctype>
 #include <cstdlib>
 #include <cstring>
 
@@ -49,6 +50,13 @@ AbaqusElement surface(int nodes)
   }
 }
 
+AbaqusElement plane(int nodes)
+{
+  AbaqusElement element = surface(nodes);
+  element.isPlane = true;
+  return element;
+}
+
 AbaqusElement line(int nodes)
 {
   return nodes == 3 ? AbaqusElement{ QuadraticEdge, 3 } : AbaqusElement{ Line, 2 };
@@ -63,16 +71,16 @@ struct Family
 
 /// The first that fits is taken: SC8 and STRI3 are no S.
 constexpr Family Families[] = {
-  { "CPEG", surface },
-  { "CPE", surface },
-  { "CPS", surface },
-  { "CAX", surface },
-  { "CGAX", surface },
-  { "DC2D", surface },
-  { "DCAX", surface },
-  { "AC2D", surface },
-  { "ACAX", surface },
-  { "F2D", surface },
+  { "CPEG", plane },
+  { "CPE", plane },
+  { "CPS", plane },
+  { "CAX", plane },
+  { "CGAX", plane },
+  { "DC2D", plane },
+  { "DCAX", plane },
+  { "AC2D", plane },
+  { "ACAX", plane },
+  { "F2D", plane },
   { "C3D", volume },
   { "DC3D", volume },
   { "AC3D", volume },
@@ -96,6 +104,10 @@ constexpr Family Families[] = {
 
 AbaqusElement abaqusElement(const std::string& type)
 {
+  if (type.rfind("C3D15V", 0) == 0)
+  {
+    return {}; // has 15 to 18 nodes
+  }
   for (const Family& family : Families)
   {
     if (type.rfind(family.start, 0) == 0)
@@ -106,7 +118,8 @@ AbaqusElement abaqusElement(const std::string& type)
   return {};
 }
 
-std::vector<int> abaqusFace(std::uint8_t cellType, int face)
+std::optional<std::vector<int>> abaqusSide(
+  std::uint8_t cellType, bool isPlane, const std::string& side)
 {
   static const std::vector<std::vector<int>> tetra = { { 0, 1, 2 }, { 0, 3, 1 }, { 1, 3, 2 },
     { 2, 3, 0 } };
@@ -121,7 +134,24 @@ std::vector<int> abaqusFace(std::uint8_t cellType, int face)
                       : cellType == Wedge || cellType == QuadraticWedge           ? &wedge
                       : cellType == Pyramid                                       ? &pyramid
                                                                                   : nullptr;
-  const bool exists = faces && face >= 1 && face <= static_cast<int>(faces->size());
-  return exists ? (*faces)[static_cast<std::size_t>(face - 1)] : std::vector<int>();
+  const bool hasNumber = side.size() == 2 && std::isdigit(static_cast<unsigned char>(side[1]));
+  const int number = hasNumber ? side[1] - '0' : 0;
+  if (faces)
+  {
+    const bool isFace = number >= 1 && number <= static_cast<int>(faces->size()) && side[0] == 'S';
+    return isFace         ? std::make_optional((*faces)[static_cast<std::size_t>(number - 1)])
+           : side.empty() ? std::make_optional(std::vector<int>())
+                          : std::nullopt;
+  }
+  const CellShape* shape = cellShape(cellType);
+  const bool isOneSided = isPlane || side[0] == 'E';
+  if (!shape || shape->dimension < 2 || number == 0 || (!isOneSided && number <= 2))
+  {
+    return std::vector<int>();
+  }
+  const int edge = isOneSided ? number - 1 : number - 3;
+  return edge < shape->numberOfCorners
+           ? std::make_optional(std::vector<int>{ edge, (edge + 1) % shape->numberOfCorners })
+           : std::nullopt;
 }
 }

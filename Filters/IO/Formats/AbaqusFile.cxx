@@ -60,6 +60,7 @@ private:
     std::vector<NodePlace> places;
     std::vector<std::vector<Index>> elementNodes; ///< node numbers of each cell
     std::vector<std::uint8_t> elementTypes;
+    std::vector<std::uint8_t> arePlane; ///< of each element, not a shell's
     std::vector<Index> elementNumbers;
     AbaqusSets sets;
     /// What couplings and rigid bodies tie to each other: numbers of nodes, and names of sets or
@@ -440,6 +441,7 @@ void AbaqusFile::endInstance(std::size_t part, Span span)
     }
     this->all_.elementNodes.push_back(std::move(nodes));
     this->all_.elementTypes.push_back(model.elementTypes[e]);
+    this->all_.arePlane.push_back(model.arePlane[e]);
     this->all_.elementNumbers.push_back(model.elementNumbers[e] + shift.elements);
     whole->numbers.push_back(this->all_.elementNumbers.back());
     next.elements = std::max(next.elements, this->all_.elementNumbers.back());
@@ -498,7 +500,7 @@ std::string AbaqusFile::shifted(std::string_view entry, Index own, bool isNodes)
   {
     return std::to_string(*number + own);
   }
-  const std::string name = this->instance_ + upperCase(entry);
+  const std::string name = this->instance_ + upperCase(unquoted(entry));
   const std::size_t dot = name.rfind('.');
   const auto found = this->shifts_.find(name.substr(0, std::min(dot, name.size())));
   const bool hasDot = dot != std::string::npos && dot > 0;
@@ -593,6 +595,7 @@ void AbaqusFile::takeElement(std::size_t part)
     {
       this->model_->elementNumbers.push_back(this->pending_.front());
       this->model_->elementTypes.push_back(this->element_.cellType);
+      this->model_->arePlane.push_back(this->element_.isPlane);
       this->model_->elementNodes.emplace_back(this->pending_.begin() + 1, this->pending_.end());
       if (this->entries_)
       {
@@ -730,7 +733,7 @@ void AbaqusFile::finish()
     }
     this->mesh_.addCell(this->all_.elementTypes[e], nodes, this->all_.elementNumbers[e]);
   }
-  this->all_.sets.addTo(this->mesh_, positions);
+  this->all_.sets.addTo(this->mesh_, positions, this->all_.arePlane);
   this->addLinks(positions);
   for (const std::string& type : this->unknownTypes_)
   {
@@ -742,7 +745,9 @@ void AbaqusFile::finish()
 
 bool isAbaqusFile(const std::string& path)
 {
-  if (extensionOf(path) != ".inp")
+  // CalculiX's preprocessor writes decks as .msh.
+  const std::string extension = extensionOf(path);
+  if (extension != ".inp" && extension != ".msh")
   {
     return false;
   }

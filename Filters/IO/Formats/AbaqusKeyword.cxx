@@ -16,6 +16,13 @@ std::string upperCase(std::string_view text)
   return result;
 }
 
+std::string unquoted(std::string_view label)
+{
+  std::string result(label);
+  result.erase(std::remove(result.begin(), result.end(), '"'), result.end());
+  return result;
+}
+
 std::string AbaqusKeyword::value(const std::string& parameter, bool upper) const
 {
   const auto found = this->parameters.find(parameter);
@@ -41,15 +48,10 @@ AbaqusKeyword parseAbaqusKeyword(std::string_view line)
   {
     const std::string_view part = parts[i].of(line);
     const std::size_t equals = part.find('=');
-    std::string_view value =
-      equals == std::string_view::npos ? std::string_view() : trimmed(part.substr(equals + 1));
-    if (value.size() >= 2 && value.front() == '"' && value.back() == '"')
-    {
-      value = value.substr(1, value.size() - 2);
-    }
     if (!part.empty())
     {
-      keyword.parameters[upperCase(trimmed(part.substr(0, equals)))] = value;
+      keyword.parameters[upperCase(trimmed(part.substr(0, equals)))] =
+        equals == std::string_view::npos ? "" : unquoted(trimmed(part.substr(equals + 1)));
     }
   }
   return keyword;

@@ -22,4 +22,6 @@ struct AbaqusKeyword
 AbaqusKeyword parseAbaqusKeyword(std::string_view line);
 
 std::string upperCase(std::string_view text);
+/// A label without its quotes, which it needs where it has blanks: "my part"."my set".
+std::string unquoted(std::string_view label);
 }

@@ -3,9 +3,11 @@
 
 #include "Formats/AbaqusElements.h"
 #include "Formats/AbaqusKeyword.h"
+#include "Support/Error.h"
 #include "Text/NumberText.h"
 
 #include <algorithm>
+#include <iterator>
 
 namespace morph::io
 {
@@ -186,8 +188,8 @@ std::vector<Index> AbaqusSets::nodesOf(const std::string& name, const SolverMesh
 }
 
 void AbaqusSets::addSurface(const NamedSurface& surface, SolverMesh& mesh,
-  const std::unordered_map<Index, Index>& nodes,
-  const std::unordered_map<Index, Index>& elements) const
+  const std::unordered_map<Index, Index>& nodes, const std::unordered_map<Index, Index>& elements,
+  const std::vector<std::uint8_t>& arePlane) const
 {
   std::vector<Index> cells, points;
   for (const auto& [what, face] : surface.lines)
@@ -206,19 +208,28 @@ void AbaqusSets::addSurface(const NamedSurface& surface, SolverMesh& mesh,
     for (const Index element : chosen)
     {
       const auto at = static_cast<std::size_t>(element);
-      const auto digit = face.size() == 2 && face[0] == 'S' ? face[1] - '0' : 0;
-      const std::vector<int> corners = abaqusFace(mesh.cellTypes[at], digit);
-      if (corners.empty())
+      const auto corners = abaqusSide(mesh.cellTypes[at], arePlane[at] != 0, face);
+      if (!corners)
+      {
+        mesh.warnings.push_back("The surface '" + surface.name + "' names the side " + face +
+                                " of element " + std::to_string(mesh.cellNumbers[at]) +
+                                ", which has no such side, and is left out.");
+        return;
+      }
+      if (corners->empty())
       {
         cells.push_back(element); // a shell, or the whole outside of volume elements
         continue;
       }
-      std::vector<Index> faceNodes;
-      for (const int corner : corners)
+      std::vector<Index> sideNodes;
+      for (const int corner : *corners)
       {
-        faceNodes.push_back(mesh.connectivity[static_cast<std::size_t>(mesh.offsets[at] + corner)]);
+        sideNodes.push_back(mesh.connectivity[static_cast<std::size_t>(mesh.offsets[at] + corner)]);
       }
-      cells.push_back(mesh.addCell(corners.size() == 3 ? Triangle : Quad, faceNodes, -1));
+      const std::uint8_t type = sideNodes.size() == 2   ? Line
+                                : sideNodes.size() == 3 ? Triangle
+                                                        : Quad;
+      cells.push_back(mesh.addCell(type, sideNodes, -1));
     }
   }
   NamedSet& set = mesh.set(surface.name);
@@ -254,7 +265,8 @@ std::string AbaqusSets::missing(const NamedSurface& surface) const
   return result;
 }
 
-void AbaqusSets::addTo(SolverMesh& mesh, const std::unordered_map<Index, Index>& nodes) const
+void AbaqusSets::addTo(SolverMesh& mesh, const std::unordered_map<Index, Index>& nodes,
+  const std::vector<std::uint8_t>& arePlane) const
 {
   const auto elements = positionsOf(mesh.cellNumbers, "element", "the file");
   const auto isWhole = [&mesh](const std::string& name, const std::string& missing)
@@ -270,7 +282,15 @@ void AbaqusSets::addTo(SolverMesh& mesh, const std::unordered_map<Index, Index>&
   {
     if (isWhole(set.name, this->missing(this->nodeSets_, key)))
     {
-      std::vector<Index> found = this->nodesOf(key, mesh, nodes, elements);
+      std::vector<Index> found = this->nodesOf(key, mesh, nodes, elements), undefined;
+      const std::vector<Index>& numbers = set.entries.numbers;
+      std::copy_if(numbers.begin(), numbers.end(), std::back_inserter(undefined),
+        [&nodes](Index number) { return nodes.count(number) == 0; });
+      if (!undefined.empty())
+      {
+        mesh.warnings.push_back("The set '" + set.name + "' names nodes that the file does not " +
+                                "define: numbers " + listIds(undefined) + ".");
+      }
       mesh.set(set.name).nodes = std::move(found);
     }
   }
@@ -285,7 +305,7 @@ void AbaqusSets::addTo(SolverMesh& mesh, const std::unordered_map<Index, Index>&
   {
     if (isWhole(surface.name, this->missing(surface)))
     {
-      this->addSurface(surface, mesh, nodes, elements);
+      this->addSurface(surface, mesh, nodes, elements, arePlane);
     }
   }
 }

@@ -37,10 +37,12 @@ public:
   void addNodesOf(const std::string& elementSet, const std::string& nodeSet);
 
   /// Adds all sets to a mesh, with the faces of surfaces as cells. `nodes`: positions of node
-  /// numbers. Numbers that the file does not define are left out, as they may belong to elements
-  /// that are left out. So are sets and surfaces that name a set that the file does not define;
-  /// a warning of the mesh says so.
-  void addTo(SolverMesh& mesh, const std::unordered_map<Index, Index>& nodes) const;
+  /// numbers. `arePlane`: see AbaqusElement, of each cell. Numbers of elements that the file does
+  /// not define are left out, as they may be of a type that is. So are numbers of nodes, surfaces
+  /// with a side that its element lacks, and sets and surfaces that name a set that the file does
+  /// not define; a warning of the mesh says so.
+  void addTo(SolverMesh& mesh, const std::unordered_map<Index, Index>& nodes,
+    const std::vector<std::uint8_t>& arePlane) const;
 
 private:
   struct NamedEntries
@@ -72,8 +74,8 @@ private:
     const std::unordered_map<Index, Index>& nodes,
     const std::unordered_map<Index, Index>& elements) const;
   void addSurface(const NamedSurface& surface, SolverMesh& mesh,
-    const std::unordered_map<Index, Index>& nodes,
-    const std::unordered_map<Index, Index>& elements) const;
+    const std::unordered_map<Index, Index>& nodes, const std::unordered_map<Index, Index>& elements,
+    const std::vector<std::uint8_t>& arePlane) const;
 
   Sets nodeSets_, elementSets_;
   std::list<NamedSurface> surfaces_;

@@ -51,6 +51,7 @@ private:
   void readNodes(Lines& lines);
   void readElements(Lines& lines);
   void readComponent(Lines& lines, const std::vector<Span>& command);
+  void readTypes(Lines& lines);
   void readNodeCommand(Span line);
   void readElementCommand(Span line);
   void finish();
@@ -75,13 +76,14 @@ bool isRefused(const std::string& command)
   return commands.count(command) > 0;
 }
 
-/// Whether a type has volume elements (1), shells (2), lines of two nodes and one that orients them
-/// (3), or is left out (0).
+/// Whether a type has volume elements (1), shells or plane elements (2), lines of two nodes and one
+/// that orients them (3), or is left out (0).
 int kindOf(Index type)
 {
   static const std::set<Index> solids = { 45, 64, 65, 70, 87, 90, 92, 95, 185, 186, 187, 226, 227,
     278, 279, 285, 291 };
-  static const std::set<Index> shells = { 41, 57, 63, 93, 131, 132, 157, 181, 281 };
+  static const std::set<Index> shells = { 2, 25, 35, 41, 42, 55, 57, 63, 75, 77, 78, 82, 83, 93,
+    131, 132, 157, 181, 182, 183, 223, 281, 292, 293 };
   static const std::set<Index> lines = { 4, 8, 14, 44, 180, 184, 188 };
   return solids.count(type) > 0 ? 1 : shells.count(type) > 0 ? 2 : lines.count(type) > 0 ? 3 : 0;
 }
@@ -173,6 +175,19 @@ void AnsysFile::readNodes(Lines& lines)
   }
 }
 
+/// The number of each element type, and that of its kind: 1, 185.
+void AnsysFile::readTypes(Lines& lines)
+{
+  this->readWidths(lines);
+  while (this->nextOfBlock(lines, "ETBLOCK"))
+  {
+    if (const std::vector<Index> numbers = this->integersOf(lines.span()); numbers.size() >= 2)
+    {
+      this->types_[numbers[0]] = numbers[1];
+    }
+  }
+}
+
 /// Of the form SOLID: material, type, and so on, the number of nodes (9th), the element's number
 /// (11th), its nodes.
 void AnsysFile::readElements(Lines& lines)
@@ -210,7 +225,8 @@ void AnsysFile::readComponent(Lines& lines, const std::vector<Span>& command)
   { return std::string(i < command.size() ? command[i].of(this->text()) : std::string_view()); };
   Component component;
   component.name = word(1);
-  component.isOfNodes = upperCase(word(2)).rfind("NODE", 0) == 0;
+  const std::string kind = upperCase(word(2)).substr(0, 4);
+  component.isOfNodes = kind == "NODE";
   const std::string countText = word(3).substr(0, word(3).find('!'));
   const int count = std::atoi(countText.c_str());
   this->readWidths(lines);
@@ -241,7 +257,10 @@ void AnsysFile::readComponent(Lines& lines, const std::vector<Span>& command)
       ++found;
     }
   }
-  this->components_.push_back(std::move(component));
+  if (kind == "NODE" || kind == "ELEM") // others are of the geometry
+  {
+    this->components_.push_back(std::move(component));
+  }
 }
 
 /// "N,R5.3,LOC,number,,,x,y,z", as CDWRITE has it unblocked, or "N,number,x,y,z". A number of -1
@@ -348,6 +367,10 @@ void AnsysFile::parse()
     {
       this->readComponent(lines, fields);
     }
+    else if (command == "ETBLOCK")
+    {
+      this->readTypes(lines);
+    }
     else if (command == "ET" && fields.size() > 2)
     {
       const std::string name = word(2);
@@ -396,7 +419,14 @@ void AnsysFile::finish()
   std::map<Index, std::vector<Index>> materials;
   for (const Element& element : this->elements_)
   {
-    const Index type = this->types_[element.type];
+    const auto defined = this->types_.find(element.type);
+    if (defined == this->types_.end())
+    {
+      this->failAt(0, element.at,
+        "element " + std::to_string(element.number) + " is of type " +
+          std::to_string(element.type) + ", which no ET or ETBLOCK defines.");
+    }
+    const Index type = defined->second;
     const int kind = kindOf(type);
     if (kind == 0)
     {
@@ -415,8 +445,15 @@ void AnsysFile::finish()
         "element " + std::to_string(element.number) + " of type " + std::to_string(type) + " has " +
           std::to_string(element.nodes.size()) + " nodes, which is not supported.");
     }
-    for (Index& node : nodes)
+    const CellShape* shape = cellShape(cellType);
+    for (std::size_t i = 0; i < nodes.size(); ++i)
     {
+      Index& node = nodes[i];
+      if (node == 0 && static_cast<int>(i) >= shape->numberOfCorners)
+      {
+        node = -1; // between corners, left out
+        continue;
+      }
       const auto found = positions.find(node);
       if (found == positions.end())
       {

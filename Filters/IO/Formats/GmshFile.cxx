@@ -391,7 +391,8 @@ bool isGmshFile(const std::string& path)
     return false;
   }
   const std::string head = readHead(path, 1 << 12);
-  return head.rfind("$MeshFormat", 0) == 0 || head.find("\n$MeshFormat") != std::string::npos;
+  return head.rfind("$NOD", 0) == 0 || head.rfind("$MeshFormat", 0) == 0 ||
+         head.find("\n$MeshFormat") != std::string::npos;
 }
 
 std::unique_ptr<SolverFile> readGmshFile(const std::string& path)

@@ -155,6 +155,11 @@ GmshSections::GmshSections(const std::string& content, const std::string& path)
   : content_(content)
   , path_(path)
 {
+  if (content.rfind("$NOD", 0) == 0)
+  {
+    throw Error("Cannot read " + path +
+                ": its version 1 is not supported. Let Gmsh write version 4.1 or 2.2.");
+  }
   std::size_t at = 0;
   while (at < content.size())
   {

@@ -68,7 +68,8 @@ private:
     std::vector<Index> members;
   };
 
-  bool parse(std::size_t part, int depth);
+  void parse(std::size_t part, int depth);
+  bool takesBlank() const;
   void takeKeyword(std::size_t part, Span span);
   void takeCard(std::size_t part, Span span);
   void takeElement(std::size_t part, Span span);
@@ -82,10 +83,13 @@ private:
   void addElements();
   void addSet(const Set& set, const std::map<Index, Index>& nodes);
   void addRigidBodies();
+  void makeNamesUnique();
   void finish();
 
   Block block_ = Block::Other;
-  bool isLong_ = false, isLongBlock_ = false, hasTitle_ = false, isRange_ = false;
+  bool isLong_ = false, isLongBlock_ = false; ///< all fields have 20 columns
+  bool isWide_ = false, isWideBlock_ = false; ///< fields of 8 columns have 10
+  bool hasTitle_ = false, isRange_ = false;
   bool isFirstAlone_ = false;     ///< of the cards of rigid bodies
   int line_ = 0;                  ///< of the block, from 0
   bool isOpen_ = false;           ///< the nodes of an element are on the next line
@@ -115,7 +119,7 @@ std::vector<NumberField> LsDynaFile::fieldsOf(
   for (std::size_t i = 0, column = 0; i < count; ++i)
   {
     const std::size_t own = widths.begin()[std::min(i, widths.size() - 1)];
-    const std::size_t width = this->isLongBlock_ ? 20 : own;
+    const std::size_t width = this->isLongBlock_ ? 20 : this->isWideBlock_ && own == 8 ? 10 : own;
     fields.push_back(fixedField(text, span, column, width));
     column += width;
   }
@@ -135,23 +139,30 @@ std::vector<Index> LsDynaFile::integersOf(
   return numbers;
 }
 
-/// Returns whether lines follow: not after *END.
-bool LsDynaFile::parse(std::size_t part, int depth)
+/// Whether a line without content is a title, or one that an element has beside its nodes.
+bool LsDynaFile::takesBlank() const
+{
+  return (this->block_ == Block::Part && this->line_ % 2 == 0) ||
+         (this->hasTitle_ && this->line_ == 0) || this->skip_ > 0;
+}
+
+/// Up to *END, which ends one file alone.
+void LsDynaFile::parse(std::size_t part, int depth)
 {
   const std::string& text = this->parts_[part].text;
   Lines lines(text);
   while (lines.next())
   {
     const std::string_view line = lines.line();
-    if (line.empty() || line[0] == '$')
+    if (trimmed(line).empty() ? !this->takesBlank() : line[0] == '$')
     {
       continue;
     }
-    if (line[0] == '*')
+    if (!line.empty() && line[0] == '*')
     {
       if (upperCase(trimmed(line)) == "*END")
       {
-        return false;
+        return;
       }
       this->takeKeyword(part, lines.span());
     }
@@ -167,10 +178,7 @@ bool LsDynaFile::parse(std::size_t part, int depth)
       {
         this->failAt(part, at, "files include each other more than 20 levels deep.");
       }
-      if (!this->parse(this->addIncluded(part, name), depth + 1))
-      {
-        return false;
-      }
+      this->parse(this->addIncluded(part, name), depth + 1);
       this->block_ = Block::Include;
     }
     else
@@ -178,7 +186,6 @@ bool LsDynaFile::parse(std::size_t part, int depth)
       this->takeCard(part, lines.span());
     }
   }
-  return true;
 }
 
 void LsDynaFile::takeKeyword(std::size_t part, Span span)
@@ -202,7 +209,9 @@ void LsDynaFile::takeKeyword(std::size_t part, Span span)
     { "_PID", 1 }, { "_SECTION", 1 } };
   std::string name = upperCase(trimmed(span.of(this->parts_[part].text).substr(1)));
   this->isLong_ = this->isLong_ || name.find("LONG=Y") != std::string::npos;
-  name = name.substr(0, name.find_first_of(" ,"));
+  this->isWide_ = this->isWide_ || name.find("I10=Y") != std::string::npos;
+  this->isWideBlock_ = this->isWide_ || name.find('%') != std::string::npos;
+  name = name.substr(0, name.find_first_of(" ,%"));
   this->isLongBlock_ = this->isLong_;
   if (!name.empty() && (name.back() == '+' || name.back() == '-'))
   {
@@ -334,14 +343,8 @@ void LsDynaFile::takeSet(std::size_t part, Span span)
   }
   if (line == (this->hasTitle_ ? 1 : 0))
   {
-    static const std::map<Block, std::string> kinds = { { Block::NodeSet, "Node set " },
-      { Block::SegmentSet, "Segment set " }, { Block::SolidSet, "Solid set " },
-      { Block::ThickShellSet, "Thick shell set " }, { Block::ShellSet, "Shell set " },
-      { Block::BeamSet, "Beam set " }, { Block::PartSet, "Part set " } };
     const Index number = this->integersOf(part, span, 10, 1)[0];
-    this->sets_.push_back({ this->block_, number,
-      this->title_.empty() ? kinds.at(this->block_) + std::to_string(number) : this->title_,
-      this->isRange_, {} });
+    this->sets_.push_back({ this->block_, number, this->title_, this->isRange_, {} });
     return;
   }
   const bool isSegment = this->block_ == Block::SegmentSet;
@@ -481,6 +484,32 @@ void LsDynaFile::addRigidBodies()
   }
 }
 
+/// Parts and sets without a title have their numbers as names, and so have those that share one.
+void LsDynaFile::makeNamesUnique()
+{
+  static const std::map<Block, std::string> kinds = { { Block::NodeSet, "Node set " },
+    { Block::SegmentSet, "Segment set " }, { Block::SolidSet, "Solid set " },
+    { Block::ThickShellSet, "Thick shell set " }, { Block::ShellSet, "Shell set " },
+    { Block::BeamSet, "Beam set " }, { Block::PartSet, "Part set " } };
+  std::map<std::string, std::vector<std::pair<std::string*, std::string>>> byTitle;
+  for (const auto& [part, cells] : this->cellsOfPart_)
+  {
+    std::string& title = this->titles_[part];
+    byTitle[title].emplace_back(&title, "PID " + std::to_string(part));
+  }
+  for (Set& set : this->sets_)
+  {
+    byTitle[set.name].emplace_back(&set.name, kinds.at(set.kind) + std::to_string(set.number));
+  }
+  for (const auto& [title, owners] : byTitle)
+  {
+    for (const auto& [name, number] : owners)
+    {
+      *name = title.empty() ? number : owners.size() > 1 ? title + " (" + number + ")" : title;
+    }
+  }
+}
+
 void LsDynaFile::finish()
 {
   if (this->mesh_.nodes() == 0)
@@ -489,10 +518,10 @@ void LsDynaFile::finish()
   }
   this->positions_ = positionsOf(this->mesh_.nodeNumbers, "node", this->path());
   this->addElements();
+  this->makeNamesUnique();
   for (const auto& [part, cells] : this->cellsOfPart_)
   {
-    const std::string& title = this->titles_[part];
-    this->mesh_.set(title.empty() ? "PID " + std::to_string(part) : title).cells = cells;
+    this->mesh_.set(this->titles_[part]).cells = cells;
   }
   std::map<Index, Index> nodes;
   if (std::any_of(this->sets_.begin(), this->sets_.end(),

@@ -8,13 +8,13 @@ namespace morph::io
 {
 namespace
 {
-constexpr std::size_t NameWidth = 8;
+constexpr std::size_t NameWidth = 8, LineWidth = 80;
 
 /// The name of an entry, in upper case, with the star of the large format.
 std::string nameOf(std::string_view line)
 {
-  const std::size_t comma = line.find(',');
-  std::string name(trimmed(line.substr(0, std::min(comma, NameWidth))));
+  const std::size_t end = line.find_first_of(",\t");
+  std::string name(trimmed(line.substr(0, std::min(end, NameWidth))));
   std::transform(name.begin(), name.end(), name.begin(),
     [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
   return name;
@@ -69,7 +69,8 @@ bool NastranCards::next(NastranCard& card)
   do
   {
     const std::string_view line = this->line_.of(this->text_);
-    card.isFree = line.find(',') != std::string_view::npos;
+    // What comes after the ten fields of a line is a comment.
+    card.isFree = line.substr(0, LineWidth).find(',') != std::string_view::npos;
     const std::string start = nameOf(line);
     card.isLarge = !start.empty() && (start.back() == '*' || start.front() == '*');
     this->addFields(card, this->line_);
@@ -103,7 +104,7 @@ void NastranCards::addFixed(NastranCard& card, Span line) const
   const std::size_t width = card.isLarge ? 16 : 8, most = card.isLarge ? 4 : 8;
   for (std::size_t i = 0; i < most; ++i)
   {
-    card.fields.push_back(fixedField(this->text_, line, NameWidth + i * width, width));
+    card.fields.push_back(tabbedField(this->text_, line, NameWidth + i * width, width));
   }
 }
 }

@@ -2,6 +2,7 @@
 #include "Formats/NastranFile.h"
 
 #include "Files/ReadFile.h"
+#include "Formats/AbaqusKeyword.h"
 #include "Formats/NastranCard.h"
 #include "Formats/TextFile.h"
 
@@ -9,6 +10,7 @@
 #include <array>
 #include <cctype>
 #include <map>
+#include <set>
 
 namespace morph::io
 {
@@ -30,12 +32,24 @@ const std::map<std::string, Kind>& kinds()
     { "CPENTA", { { { 6, Wedge }, { 15, QuadraticWedge } }, 2 } },
     { "CHEXA", { { { 8, Hexahedron }, { 20, QuadraticHexahedron } }, 2 } },
     { "CTRIA3", { { { 3, Triangle } }, 2 } },
-    { "CTRIA6", { { { 6, QuadraticTriangle } }, 2 } },
+    { "CTRIA6", { { { 3, Triangle }, { 6, QuadraticTriangle } }, 2 } },
     { "CTRIAR", { { { 3, Triangle } }, 2 } },
+    { "CTRAX3", { { { 3, Triangle } }, 2 } },
+    { "CTRAX6", { { { 3, Triangle }, { 6, QuadraticTriangle } }, 2 } },
+    { "CPLSTN3", { { { 3, Triangle } }, 2 } },
+    { "CPLSTN6", { { { 3, Triangle }, { 6, QuadraticTriangle } }, 2 } },
+    { "CPLSTS3", { { { 3, Triangle } }, 2 } },
+    { "CPLSTS6", { { { 3, Triangle }, { 6, QuadraticTriangle } }, 2 } },
     { "CQUAD4", { { { 4, Quad } }, 2 } },
     { "CQUADR", { { { 4, Quad } }, 2 } },
     { "CSHEAR", { { { 4, Quad } }, 2 } },
-    { "CQUAD8", { { { 8, QuadraticQuad } }, 2 } },
+    { "CQUADX4", { { { 4, Quad } }, 2 } },
+    { "CPLSTN4", { { { 4, Quad } }, 2 } },
+    { "CPLSTS4", { { { 4, Quad } }, 2 } },
+    { "CQUAD8", { { { 4, Quad }, { 8, QuadraticQuad } }, 2 } },
+    { "CQUADX8", { { { 4, Quad }, { 8, QuadraticQuad } }, 2 } },
+    { "CPLSTN8", { { { 4, Quad }, { 8, QuadraticQuad } }, 2 } },
+    { "CPLSTS8", { { { 4, Quad }, { 8, QuadraticQuad } }, 2 } },
     { "CBAR", { { { 2, Line } }, 2 } },
     { "CBEAM", { { { 2, Line } }, 2 } },
     { "CROD", { { { 2, Line } }, 2 } },
@@ -131,6 +145,7 @@ private:
   std::vector<Index> systemOf_; ///< of each node; -1: that of GRDSET
   Index defaultSystem_ = 0;
   std::unordered_map<Index, Index> positions_; ///< of node numbers
+  std::set<std::string> unknownTypes_;
 };
 
 /// The file that a statement names: INCLUDE 'name', which may go over several lines. `at`: after
@@ -165,20 +180,41 @@ bool startsWith(const std::string& text, const char* start)
   return text.rfind(start, 0) == 0;
 }
 
+/// After the line BEGIN BULK, which ends executive and case control; 0 without one.
+std::size_t beginOfBulk(std::string_view text)
+{
+  Lines lines(text);
+  std::vector<Span> words;
+  while (lines.next())
+  {
+    splitAtBlanks(text, lines.span(), words);
+    if (words.size() >= 2 && upperCase(words[0].of(text)) == "BEGIN" &&
+        startsWith(upperCase(words[1].of(text)), "BULK"))
+    {
+      return lines.at();
+    }
+  }
+  return 0;
+}
+
+/// Elements of types that are not read.
+bool isUnknownElement(const std::string& name)
+{
+  for (const char* start : { "CQUAD", "CTRIA", "CTRAX", "CPLST", "CTETRA", "CPYR", "CPENTA", "CHEX",
+         "CHAC", "CIF", "CBEND", "CWELD", "CFAST", "CSEAM" })
+  {
+    if (startsWith(name, start))
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
 void NastranFile::parse(std::size_t part, int depth)
 {
   const std::string& text = this->parts_[part].text;
-  // Executive and case control come before BEGIN BULK, in the file itself.
-  std::string upper = text;
-  std::transform(upper.begin(), upper.end(), upper.begin(),
-    [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
-  std::size_t at = 0;
-  if (part == 0)
-  {
-    const std::size_t bulk = upper.find("BEGIN BULK");
-    at = bulk == std::string::npos ? 0 : std::min(text.find('\n', bulk), text.size());
-  }
-  NastranCards cards(text, at);
+  NastranCards cards(text, part == 0 ? beginOfBulk(text) : 0);
   NastranCard card;
   while (cards.next(card))
   {
@@ -198,6 +234,12 @@ void NastranFile::parse(std::size_t part, int depth)
     else if (startsWith(card.name, "ENDDATA"))
     {
       return;
+    }
+    else if (!card.name.empty() && card.name[0] == '=')
+    {
+      this->failAt(part, card.at,
+        "it has a replication (=), which defines an entry by the one before it. Write a deck that "
+        "lists all entries.");
     }
     else if (card.name == "GRID")
     {
@@ -219,6 +261,10 @@ void NastranFile::parse(std::size_t part, int depth)
     {
       this->takeLink(part, card, link->second);
     }
+    else if (isUnknownElement(card.name))
+    {
+      this->unknownTypes_.insert(card.name);
+    }
   }
 }
 
@@ -230,13 +276,6 @@ Index NastranFile::integerIn(std::size_t part, const NastranCard& card, std::siz
 
 void NastranFile::takeGrid(std::size_t part, const NastranCard& card)
 {
-  const std::string& text = this->parts_[part].text;
-  const std::string_view line =
-    std::string_view(text).substr(card.at, card.fields.back().place.begin - card.at);
-  if (!card.isFree && line.find('\t') != std::string_view::npos)
-  {
-    this->failAt(part, card.at, "there are tabs between its fields. Write blanks.");
-  }
   if (card.fields.size() < 5)
   {
     this->failAt(part, card.at, "GRID has no third coordinate: a continuation line is missing.");
@@ -365,21 +404,22 @@ void NastranFile::takeElement(std::size_t part, const NastranCard& card, const K
   element.number = this->integerIn(part, card, 0);
   element.property = this->integerIn(part, card, 1);
   const std::size_t most = kind.cellTypes.rbegin()->first;
-  for (std::size_t i = kind.firstNode;
-       i < card.fields.size() && element.nodes.size() < most && card.fields[i].span.size() > 0; ++i)
+  const std::size_t corners = kind.cellTypes.begin()->first;
+  for (std::size_t i = 0; i < most; ++i)
   {
-    element.nodes.push_back(this->integerAt(part, card.fields[i].span));
+    element.nodes.push_back(this->integerIn(part, card, kind.firstNode + i));
   }
-  const auto type = kind.cellTypes.find(element.nodes.size());
-  if (type == kind.cellTypes.end())
+  // A blank or 0 stands for a node between corners that is left out.
+  const auto middles = element.nodes.begin() + static_cast<std::ptrdiff_t>(corners);
+  if (const auto corner = std::find(element.nodes.begin(), middles, 0); corner != middles)
   {
     this->failAt(part, card.at,
-      card.name + " " + std::to_string(element.number) + " has " +
-        std::to_string(element.nodes.size()) +
-        " nodes. Elements with some of their nodes "
-        "between corners are not supported.");
+      card.name + " " + std::to_string(element.number) + " lacks its corner " +
+        std::to_string(corner - element.nodes.begin() + 1) + ".");
   }
-  element.type = type->second;
+  const bool isLinear = std::all_of(middles, element.nodes.end(), [](Index n) { return n == 0; });
+  element.nodes.resize(isLinear ? corners : most);
+  element.type = kind.cellTypes.at(element.nodes.size());
   toVtkOrder(element.type, element.nodes);
   this->elements_.push_back(std::move(element));
 }
@@ -467,6 +507,11 @@ void NastranFile::finish()
     }
     for (const Index number : element.nodes)
     {
+      if (number == 0)
+      {
+        nodes.push_back(-1);
+        continue;
+      }
       const auto found = positions.find(number);
       if (found == positions.end())
       {
@@ -483,6 +528,11 @@ void NastranFile::finish()
   for (auto& [property, cells] : properties)
   {
     this->mesh_.set("PID " + std::to_string(property)).cells = std::move(cells);
+  }
+  for (const std::string& type : this->unknownTypes_)
+  {
+    this->mesh_.warnings.push_back(
+      "Elements of the type '" + type + "' are left out of the mesh; they stay in the file.");
   }
 }
 }
@@ -501,7 +551,7 @@ bool isNastranFile(const std::string& path)
     std::string line(lines.line().substr(0, 10));
     std::transform(line.begin(), line.end(), line.begin(),
       [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
-    for (const char* start : { "GRID ", "GRID,", "GRID*", "BEGIN BULK", "INCLUDE " })
+    for (const char* start : { "GRID ", "GRID,", "GRID*", "GRID\t", "BEGIN BULK", "INCLUDE " })
     {
       if (startsWith(line, start))
       {

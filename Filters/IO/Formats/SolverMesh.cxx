@@ -6,6 +6,8 @@
 #include "Support/Error.h"
 
 #include <algorithm>
+#include <array>
+#include <map>
 
 namespace morph::io
 {
@@ -15,8 +17,50 @@ void SolverMesh::addNode(Index number, double x, double y, double z)
   this->coordinates.insert(this->coordinates.end(), { x, y, z });
 }
 
+namespace
+{
+/// The linear cell of a quadratic one, and the edges that its further nodes are on.
+struct Edges
+{
+  std::uint8_t linear;
+  std::vector<std::array<std::size_t, 2>> ends;
+};
+
+const Edges& edgesOf(std::uint8_t quadratic)
+{
+  static const std::map<std::uint8_t, Edges> table = {
+    { QuadraticTriangle, { Triangle, { { 0, 1 }, { 1, 2 }, { 2, 0 } } } },
+    { QuadraticQuad, { Quad, { { 0, 1 }, { 1, 2 }, { 2, 3 }, { 3, 0 } } } },
+    { QuadraticTetra, { Tetra, { { 0, 1 }, { 1, 2 }, { 2, 0 }, { 0, 3 }, { 1, 3 }, { 2, 3 } } } },
+    { QuadraticPyramid, { Pyramid, { { 0, 1 }, { 1, 2 }, { 2, 3 }, { 3, 0 }, { 0, 4 }, { 1, 4 },
+                                     { 2, 4 }, { 3, 4 } } } },
+    { QuadraticWedge, { Wedge, { { 0, 1 }, { 1, 2 }, { 2, 0 }, { 3, 4 }, { 4, 5 }, { 5, 3 },
+                                 { 0, 3 }, { 1, 4 }, { 2, 5 } } } },
+    { QuadraticHexahedron,
+      { Hexahedron, { { 0, 1 }, { 1, 2 }, { 2, 3 }, { 3, 0 }, { 4, 5 }, { 5, 6 }, { 6, 7 },
+                      { 7, 4 }, { 0, 4 }, { 1, 5 }, { 2, 6 }, { 3, 7 } } } },
+  };
+  return table.at(quadratic);
+}
+}
+
 Index SolverMesh::addCell(std::uint8_t type, const std::vector<Index>& nodes, Index number)
 {
+  if (std::find(nodes.begin(), nodes.end(), -1) != nodes.end())
+  {
+    const Edges& edges = edgesOf(type);
+    const auto middles = nodes.end() - static_cast<std::ptrdiff_t>(edges.ends.size());
+    const Index cell = this->addCell(edges.linear, { nodes.begin(), middles }, number);
+    for (std::size_t i = 0; i < edges.ends.size(); ++i)
+    {
+      const auto& [first, last] = edges.ends[i];
+      if (const Index middle = middles[static_cast<std::ptrdiff_t>(i)]; middle >= 0)
+      {
+        this->addCell(QuadraticEdge, { nodes[first], nodes[last], middle }, -1);
+      }
+    }
+    return cell;
+  }
   if (type == QuadraticPyramid && nodes.size() == 14)
   {
     const Index cell = this->addCell(type, { nodes.begin(), nodes.end() - 1 }, number);

@@ -52,6 +52,8 @@ struct SolverMesh
   void addNode(Index number, double x, double y, double z);
   /// Adds a cell; returns its position. A quadratic pyramid may have a 14th node, in the middle of
   /// its base, which VTK's type lacks: a face without a number, of nine nodes, then follows it.
+  /// Nodes after the corners of a quadratic cell may be -1, as solvers leave them out. Then the
+  /// cell is linear, and quadratic edges without numbers follow it, which have the other nodes.
   Index addCell(std::uint8_t type, const std::vector<Index>& nodes, Index number);
   /// Adds a polyhedron; returns its position. `faces`: their nodes, outward.
   Index addPolyhedron(const std::vector<std::vector<Index>>& faces, Index number);

@@ -220,7 +220,11 @@ void Su2File::parse()
       {
         this->failAt(0, span.begin, "MARKER_ELEMS comes before its MARKER_TAG.");
       }
-      this->takeMarker(lines, this->countOf(value), markers.back().second);
+      // SEND_RECEIVE lists what partitions exchange: the lines after it belong to no surface.
+      if (markers.back().first != "SEND_RECEIVE")
+      {
+        this->takeMarker(lines, this->countOf(value), markers.back().second);
+      }
     }
   }
   if (!hasPoints || elements.empty())

@@ -37,6 +37,12 @@ std::size_t TextFile::addPart(const std::string& path, const std::string& name)
                           std::to_string(MostIncludes) + " files. Join them."));
   }
   this->parts_.push_back({ path, name, readFile(path) });
+  const std::string& text = this->parts_.back().text;
+  if (text.find('\n') == std::string::npos && text.find('\r') != std::string::npos)
+  {
+    throw Error(printable("Cannot read " + path + ": its lines end with carriage returns alone. " +
+                          "Convert them to line feeds."));
+  }
   return this->parts_.size() - 1;
 }
 
@@ -196,7 +202,12 @@ std::vector<NewFile> TextFile::withCoordinates(
       const auto changesAt = [&](std::size_t k) { return !isKept[3 * node + k]; };
       // Where a line ends too soon, what is written there needs what comes before.
       const auto isShort = [&](std::size_t k)
-      { return place.numbers[k].missing > 0 || place.numbers[k].length < place.rules.width; };
+      {
+        const NumberPlace& number = place.numbers[k];
+        const bool hasTab = number.length > 0 &&
+                            this->parts_[place.part].text[number.begin + number.length - 1] == '\t';
+        return number.missing > 0 || (number.length < place.rules.width && !hasTab);
+      };
       bool isNeeded = changesAt(j);
       for (std::size_t k = j + 1; k < 3 && isShort(j); ++k)
       {

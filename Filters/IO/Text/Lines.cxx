@@ -13,6 +13,16 @@ bool isBlank(char c)
 }
 }
 
+Lines::Lines(std::string_view text, std::size_t at)
+  : text_(text)
+  , next_(at)
+{
+  if (at == 0 && text.substr(0, 3) == "\xef\xbb\xbf")
+  {
+    this->next_ = 3;
+  }
+}
+
 bool Lines::next()
 {
   if (this->next_ >= this->text_.size())

@@ -20,15 +20,11 @@ struct Span
 };
 
 /// Goes through the lines of a text. Lines end with a line feed, or with a carriage return and a
-/// line feed; neither belongs to the line.
+/// line feed; neither belongs to the line, nor does a byte order mark at the beginning.
 class Lines
 {
 public:
-  explicit Lines(std::string_view text, std::size_t at = 0)
-    : text_(text)
-    , next_(at)
-  {
-  }
+  explicit Lines(std::string_view text, std::size_t at = 0);
   /// Moves to the next line; false after the last one.
   bool next();
   Span span() const { return this->span_; }

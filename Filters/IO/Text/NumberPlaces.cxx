@@ -86,6 +86,27 @@ NumberField fixedField(std::string_view text, Span line, std::size_t column, std
   return field;
 }
 
+NumberField tabbedField(std::string_view text, Span line, std::size_t column, std::size_t width)
+{
+  if (line.of(text).find('\t') == std::string_view::npos)
+  {
+    return fixedField(text, line, column, width);
+  }
+  std::size_t at = line.begin, reached = 0;
+  const auto goTo = [&](std::size_t aim)
+  {
+    for (; at < line.end && reached < aim; ++at)
+    {
+      reached = text[at] == '\t' ? (reached / 8 + 1) * 8 : reached + 1;
+    }
+    return at;
+  };
+  const std::size_t begin = goTo(column), missing = column - std::min(column, reached);
+  NumberField field = fixedField(text, { begin, goTo(column + width) }, 0, width);
+  field.place.missing = static_cast<std::uint32_t>(missing);
+  return field;
+}
+
 std::vector<NumberField> freeFields(std::string_view text, Span line, std::size_t least)
 {
   std::vector<Span> parts;

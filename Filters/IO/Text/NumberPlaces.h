@@ -28,6 +28,8 @@ struct NumberField
 
 /// The field of a line that begins at a column, from 0 on; the line may end before it.
 NumberField fixedField(std::string_view text, Span line, std::size_t column, std::size_t width);
+/// The same in a line with tabs, each of which goes on to the next column that 8 divides.
+NumberField tabbedField(std::string_view text, Span line, std::size_t column, std::size_t width);
 /// The fields of a line between commas; those beyond it are empty, up to `least` of them.
 std::vector<NumberField> freeFields(std::string_view text, Span line, std::size_t least);
 

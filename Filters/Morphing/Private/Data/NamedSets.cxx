@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Private/Data/NamedSets.h"
 
+#include "Mesh/CellShape.h"
+
 #include <vtkCellData.h>
+#include <vtkCellType.h>
 #include <vtkDataArray.h>
 #include <vtkFieldData.h>
 #include <vtkNew.h>
@@ -76,8 +79,14 @@ std::vector<morph::NamedNodes> NodeSets(vtkPointSet* input)
   {
     const Flags isCell = marks(input->GetCellData(), name.c_str(), input->GetNumberOfCells());
     Flags isNode = marks(input->GetPointData(), name.c_str(), input->GetNumberOfPoints());
-    if (!isNode.empty() &&
-        std::count(isCell.begin(), isCell.end(), 0) == std::ptrdiff_t(isCell.size()))
+    bool hasFaces = false;
+    for (std::size_t c = 0; c < isCell.size() && !isNode.empty(); ++c)
+    {
+      const auto type = isCell[c] ? input->GetCellType(static_cast<vtkIdType>(c)) : VTK_EMPTY_CELL;
+      const morph::CellShape* shape = morph::cellShape(static_cast<std::uint8_t>(type));
+      hasFaces = hasFaces || (isCell[c] && (!shape || shape->dimension < 3));
+    }
+    if (std::find(isNode.begin(), isNode.end(), 1) != isNode.end() && !hasFaces)
     {
       result.push_back({ name, std::move(isNode) });
     }

@@ -20,7 +20,8 @@ std::vector<std::string> NamesOfSets(vtkPointSet* input);
 /// For each cell of the input whether a set that its field data `SurfaceNames` lists has it.
 std::vector<std::uint8_t> CellsOfNamedSets(vtkPointSet* input);
 
-/// The sets of points alone that the input's field data `SurfaceNames` lists.
+/// The sets of points that the input's field data `SurfaceNames` lists. Those that have volume
+/// cells, too, are among them; those of other cells are not.
 std::vector<morph::NamedNodes> NodeSets(vtkPointSet* input);
 
 /// The sets that the input's field data `SurfaceNames` (vtkStringArray) lists, by the point and
