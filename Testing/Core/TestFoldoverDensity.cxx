@@ -24,7 +24,8 @@ using Kernel = morph::foldover::Matrix3<double>;
 Kernel toKernel(const Matrix& A)
 {
   Kernel result;
-  Eigen::Map<Matrix>(&result[0][0]) = A;
+  Eigen::Map<Matrix> view(&result[0][0]);
+  view = A;
   return result;
 }
 Eigen::Map<const Matrix> toEigen(const Kernel& A)
