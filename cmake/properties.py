@@ -4,8 +4,8 @@
     python3 cmake/properties.py cxx FOLDER   vtkX.h of vtkX.h.in, Options.h and Properties.cxx
     python3 cmake/properties.py xml FOLDER   ParaView's XML (X.xml.in of Plugin/X.xml.in)
     python3 cmake/properties.py options FILE the table of morph-mesh's options (PropertyTable.cxx)
-    python3 cmake/properties.py tests FILE   what is one number, for the tests (PropertyRows.h), and beside it
-                                             the results of Results.txt (ResultRows.h)
+    python3 cmake/properties.py tests FILE   what is one number, for the tests (PropertyRows.h),
+                                             and the results of Results.txt beside it (ResultRows.h)
     python3 cmake/properties.py pages FOLDER the reference of each filter, for the site
     python3 cmake/properties.py python FILE  the methods of Python's package for NumPy (_methods.py)
 
@@ -24,6 +24,7 @@ LISTS = {"surfaces": "Surface", "zones": "Zone"}  # sets of names that a list of
 OPEN = ("What moves", "How it moves", "Boundary", "Method", "Motion", "Shapes")
 KINDS = ("number", "numbers", "integer", "integers", "flag", "choice", "text", "array", *LISTS,
          "own")
+
 
 class Row:
     """A property of a class: its keys, those for the class or its superclass first."""
@@ -73,6 +74,7 @@ class Row:
             return None
         return self["option"] or "--" + self.words.lower().replace(" ", "-")
 
+
 def read():
     table = configparser.ConfigParser(interpolation=None, delimiters=("=",))
     table.optionxform = str
@@ -80,16 +82,19 @@ def read():
         table.read_file(file)
     return table
 
+
 def rows(table, classes):
     """Of a class, given with its superclasses, derived classes first."""
     return [Row(name, table[name], classes) for name in table.sections()
             if set(table[name]["filters"].split()) & set(classes)]
+
 
 def proxy_rows(table, proxy, cls, superclasses):
     """Of a proxy of the plugin: those that name it or, if none does, all of its class."""
     classes = [proxy, cls, *superclasses]
     named = {row.name for row in rows(table, [proxy])} if proxy != cls else set()
     return [row for row in rows(table, classes) if not named or row.name in named]
+
 
 def panel_order(own):
     """The groups that are always open, and the rows with these first, each group together."""
@@ -98,6 +103,7 @@ def panel_order(own):
     groups.sort(key=lambda group: group not in opened)
     place = {group: i for i, group in enumerate(groups)}
     return opened, sorted(own, key=lambda row: place.get(row["group"], -1))
+
 
 def bases():
     """The superclasses of each class, the nearest first, without vtk."""
@@ -114,48 +120,59 @@ def bases():
         chains[cls] = chain
     return chains
 
+
 def write(path, text):
     if not path.exists() or path.read_text(encoding="utf-8") != text:
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(text, encoding="utf-8")
 
+
 # ---------------------------------------------------------------------------------------- C++
+
 
 def constant(text):
     """Follow everywhere: FOLLOW_EVERYWHERE; SurfaceMethod: SURFACE_METHOD"""
     text = re.sub(r"(?<=[a-z])(?=[A-Z])", "_", text)
     return re.sub(r"[^A-Z0-9]+", "_", text.upper())
 
+
 def camel(text):
     """Follow everywhere: FollowEverywhere"""
     return "".join(word[0].upper() + word[1:] for word in re.split(r"[^A-Za-z0-9]+", text) if word)
+
 
 def constants(row):
     if row["prefix"] == "-":
         return []
     return [f"{row['prefix'] or constant(row.name)}_{constant(value)}" for value in row.values]
 
+
 CXX_TYPES = {"number": "double", "integer": "int", "flag": "bool", "choice": "int",
              "text": "std::string", "array": "std::string",
              **dict.fromkeys(LISTS, "std::set<std::string>")}
 
+
 def component_type(row):
     """Of kinds numbers and integers."""
     return CXX_TYPES[row.kind[:-1]]
+
 
 def cxx_type(row):
     if row.kind in ("numbers", "integers"):
         return f"std::array<{component_type(row)}, {row.count}>"
     return CXX_TYPES[row.kind]
 
+
 def integer_bounds(row):
     low, high = row.range
     return low or "VTK_INT_MIN", high or "VTK_INT_MAX"
+
 
 def bounds_text(row):
     if row.kind not in ("number", "numbers", "integer", "integers") or row.range == [None, None]:
         return ""
     return ", range [{}, {}]".format(*integer_bounds(row))
+
 
 def comment(row):
     """The documentation in the header."""
@@ -171,6 +188,7 @@ def comment(row):
     last = textwrap.wrap(f"{lines.pop()} Default {default}{bounds_text(row)}.", 95)
     text = "\n".join(f"   * {line}".rstrip() for line in lines + last)
     return f"  ///@{{\n  /**\n{text}\n   */\n"
+
 
 def declarations(row):
     name = row.name
@@ -205,6 +223,7 @@ def declarations(row):
         text += f"  void Set{name}To{camel(value)}() {{ this->Set{name}({i}); }}\n"
     return text + "  ///@}\n\n"
 
+
 def member(row):
     default = row.default_number
     if row.kind == "flag":
@@ -215,6 +234,7 @@ def member(row):
         return f"  {cxx_type(row)} {row.name};\n"
     return f"  {cxx_type(row)} {row.name} = {default};\n"
 
+
 def struct(name, all_rows):
     members = "".join(member(row) for row in all_rows)
     equal = " &&\n      ".join(f"a.{row.name} == b.{row.name}" for row in all_rows)
@@ -223,6 +243,7 @@ def struct(name, all_rows):
             f"    return {equal};\n  }}\n"
             f"  friend bool operator!=(const {name}& a, const {name}& b) {{ return !(a == b); }}\n"
             "};\n")
+
 
 def definitions(cls, options, row):
     name, kept = row.name, f"this->{options}->{row.name}"
@@ -258,6 +279,7 @@ def definitions(cls, options, row):
         call = f"this, {kept}, value"
     return (f"void {cls}::Set{name}({cxx_type(row)} value)\n{{\n  Property::Set({call});\n}}\n"
             f"{cxx_type(row)} {cls}::Get{name}() const\n{{\n  return {kept};\n}}\n")
+
 
 def make_cxx(folder):
     table = read()
@@ -301,10 +323,13 @@ def make_cxx(folder):
           "namespace Property = morph::filters::Property;\n\n"
           + "\n".join(sources))
 
+
 # ---------------------------------------------------------------------------------------- XML
+
 
 def escaped(text):
     return text.replace("&", "&amp;").replace("<", "&lt;").replace('"', "&quot;")
+
 
 def condition(text, find):
     """PROPERTY: VALUE / VALUE, with & and | between several, as a decorator."""
@@ -331,12 +356,14 @@ def condition(text, find):
                 f"{made}</PropertyWidgetDecorator>")
     return made
 
+
 def with_parts(text):
     """Parts that several properties or proxies have in common: @Inputs@ is Morph/Inputs.xml."""
     for _ in range(2):  # a part may have parts
         for part in (PROJECT / "Plugin" / "Morph").glob("*.xml"):
             text = text.replace(f"@{part.stem}@\n", part.read_text(encoding="utf-8"))
     return text
+
 
 def own_xml(row, classes, find):
     for name in [f"{cls}.{row.name}.xml" for cls in classes] + [f"{row.name}.xml"]:
@@ -345,6 +372,7 @@ def own_xml(row, classes, find):
             text = with_parts(path.read_text(encoding="utf-8"))
             return text.replace("@Shown@", condition(row["shown"], find) if row["shown"] else "")
     raise SystemExit(f"Plugin/Properties has no {row.name}.xml")
+
 
 def domain(row):
     low, high = row["slider"].split() if " " in row["slider"] else row.range
@@ -376,6 +404,7 @@ def domain(row):
     least = f' min="{" ".join([low] * row.count)}"' if low else ""
     most = f' max="{" ".join([high] * row.count)}"' if high else ""
     return f'<{kind}RangeDomain name="range"{least}{most}/>'
+
 
 def property_xml(row, find, more=""):
     kind = {"number": "Double", "numbers": "Double", "integer": "Int", "integers": "Int",
@@ -413,6 +442,7 @@ def property_xml(row, find, more=""):
     return (f'      <{kind}VectorProperty name="{row.name}" {what}{animated}{visible}{more}>\n'
             f"        {domain(row)}\n        <Documentation>\n{text}\n        </Documentation>\n"
             f"        {hint}\n      </{kind}VectorProperty>\n")
+
 
 def make_xml(folder):
     table = read()
@@ -452,14 +482,18 @@ def make_xml(folder):
                       lambda m: property_xml(find(m[1]), find, ' override="1"'), text)
         write(folder / template.name, text)
 
+
 # ------------------------------------------------------------------------------ command line
+
 
 PROGRAM_CLASSES = ("DisplacementAlgorithm", "MorphMesh", "MorphAlgorithm", "FEMWarpMorph",
                    "LBWarpMorph", "WeightedResidualMorph", "SimplexNaturalNeighborMorph",
                    "RadialBasisMorph", "SmoothingMorph", "InversionFreeMorph", "MorphShapes")
 
+
 def quoted(text):
     return '"' + text.replace("\\", "\\\\").replace('"', '\\"') + '"'
+
 
 def implied(row):
     """What an option sets, too: that on which the panel shows it."""
@@ -467,6 +501,7 @@ def implied(row):
         return []
     pairs = [[p.strip() for p in part.split(":")] for part in row["shown"].split("&")]
     return [(name, value) for name, value in pairs if "/" not in value]
+
 
 def setter(row, cls):
     value = {"number": "value.numbers[0]", "numbers": "value.numbers.data()",
@@ -478,6 +513,7 @@ def setter(row, cls):
     elif row.kind in LISTS:
         call = f"Add{row.name[:-1]}({value})"
     return f"on<vtk{cls}>(filter, [&](auto* one) {{ one->{call}; }})"
+
 
 def make_options(path):
     table = read()
@@ -517,7 +553,9 @@ def make_options(path):
           "".join(f"  filter->Set{row.name}({row.default_number});\n" for row in repairs) +
           "}\n}\n")
 
+
 # ----------------------------------------------------------------------------------- tests
+
 
 def make_tests(path):
     table = read()
@@ -591,6 +629,7 @@ inline const std::vector<Row> Rows = {
 """ + "".join(lines) + "};\n}\n")
     make_result_tests(path.with_name("ResultRows.h"))
 
+
 def make_result_tests(path):
     lines, cls = [], ""
     for line in (MODULE / "Results.txt").read_text(encoding="utf-8").splitlines():
@@ -626,7 +665,9 @@ struct Row
 inline const std::vector<Row> Rows = {
 """ + "".join(lines) + "};\n}\n")
 
+
 # ----------------------------------------------------------------------------------- pages
+
 
 def accepted(row):
     low, high = row.range
@@ -638,6 +679,7 @@ def accepted(row):
     if low or high:
         kind += f" from {low or 'any'}" + (f" to {high}" if high else "")
     return kind + (f" ({row['unit']})" if row["unit"] else "")
+
 
 def make_pages(folder):
     table = read()
@@ -663,13 +705,16 @@ def make_pages(folder):
                      for line in ["", textwrap.dedent(paragraph).strip()]]
         write(folder / f"{proxy}.md", "\n".join(page) + "\n")
 
+
 # ---------------------------------------------------------------------------- Python, NumPy
+
 
 #: The methods of the package meshmorphing, and the beginnings of their filters' names.
 METHODS = {"FEMWARP": "FEMWarp", "LBWARP": "LBWarp", "WeightedResidual": "WeightedResidual",
            "SimplexLinear": "SimplexLinear", "SimplexNaturalNeighbor": "SimplexNaturalNeighbor",
            "RadialBasis": "RadialBasis", "Smoothing": "Smoothing",
            "InversionFree": "InversionFree"}
+
 
 def option_of(row):
     """Its name in Python, type, default, and what Method checks: kind, least or choices, most."""
@@ -682,6 +727,7 @@ def option_of(row):
         return name, "Optional[ArrayLike]", "None", '("array", None, None)'
     return name, {"number": "float", "integer": "int"}[row.kind], row.default, (
         f'("{row.kind}", {low}, {high})')
+
 
 def make_python(path):
     table = read()
@@ -708,6 +754,7 @@ def make_python(path):
                         f"    def __init__(self, *, {arguments}) -> None:\n"
                         f"        super().__init__({passed})\n")
     write(path, "\n".join(made))
+
 
 MAKERS = {"cxx": make_cxx, "xml": make_xml, "options": make_options, "tests": make_tests,
           "pages": make_pages, "python": make_python}

@@ -456,7 +456,7 @@ TEST(CompositeBlocks, StructuredBlocksMove)
   EXPECT_EQ(boundaryFaces(data, 0), 2 * 4 + 4 * 16);
 
   auto whole = box(8, 2, 2);
-  markLeft(whole);
+  grids::mark(whole, "Left", [](const Row& x) { return x[0] == 0; });
   auto expected = lifting(whole);
   auto filter = lifting(data);
   expected->Update();
@@ -559,7 +559,7 @@ TEST(CompositeBlocks, CellsOfTwoBlocksAreOne)
 TEST(CompositeBlocks, FlagsOfThreeComponentsAreNoGhosts)
 {
   auto whole = box(2, 2, 2);
-  markLeft(whole);
+  grids::mark(whole, "Left", [](const Row& x) { return x[0] == 0; });
   vtkNew<vtkUnsignedCharArray> flags;
   flags->SetName(vtkDataSetAttributes::GhostArrayName());
   flags->SetNumberOfComponents(3);
@@ -580,7 +580,7 @@ TEST(CompositeBlocks, FlagsOfThreeComponentsAreNoGhosts)
 TEST(CompositeBlocks, EmptyBlocksAndOneBlock)
 {
   auto whole = box(2, 2, 2);
-  markLeft(whole);
+  grids::mark(whole, "Left", [](const Row& x) { return x[0] == 0; });
   auto expected = lifting(whole);
   expected->Update();
   for (const auto& data : { withBlocks({ { "only", whole } }),

@@ -378,9 +378,10 @@ MORPH_SIMD_INLINE void projectedHessian(const Matrix3<T>& U, const Matrix3<T>& V
 }
 
 /// The second derivative without its negative eigenvalues, for displacements of a tetrahedron's
-/// corners 1 to 3. `g`: its columns are the shape function gradients of these corners. `block`[a][b],
-/// by columns: 3 x 3, for corners a <= b. Closed form by the singular values (Smith, de Goes, Kim,
-/// ACM Trans. Graph. 38(1) (2019)). Accurate to about 1e-7, enough for search directions.
+/// corners 1 to 3. `g`: its columns are the shape function gradients of these corners.
+/// `block`[a][b], by columns: 3 x 3, for corners a <= b. Closed form by the singular values (Smith,
+/// de Goes, Kim, ACM Trans. Graph. 38(1) (2019)). Accurate to about 1e-7, enough for search
+/// directions.
 template <typename T>
 MORPH_SIMD_INLINE void hessian(const Parameters<T>& parameters, const Matrix3<T>& J,
   const Matrix3<T>& g, Matrix3<T> (&block)[3][3])
