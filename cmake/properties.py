@@ -4,7 +4,8 @@
     python3 cmake/properties.py cxx FOLDER   vtkX.h of vtkX.h.in, Options.h and Properties.cxx
     python3 cmake/properties.py xml FOLDER   ParaView's XML (X.xml.in of Plugin/X.xml.in)
     python3 cmake/properties.py options FILE the table of morph-mesh's options (PropertyTable.cxx)
-    python3 cmake/properties.py tests FILE   what is one number, for the tests (PropertyRows.h)
+    python3 cmake/properties.py tests FILE   what is one number, for the tests (PropertyRows.h),
+                                             and the results of Results.txt beside it (ResultRows.h)
     python3 cmake/properties.py pages FOLDER the reference of each filter, for the site
     python3 cmake/properties.py python FILE  the methods of Python's package for NumPy (_methods.py)
 
@@ -623,6 +624,43 @@ vtkSmartPointer<vtkAlgorithm> make()
 {
   return vtkSmartPointer<Filter>::New();
 }
+
+inline const std::vector<Row> Rows = {
+""" + "".join(lines) + "};\n}\n")
+    make_result_tests(path.with_name("ResultRows.h"))
+
+
+def make_result_tests(path):
+    lines, cls = [], ""
+    for line in (MODULE / "Results.txt").read_text(encoding="utf-8").splitlines():
+        words = line.split()
+        if line.startswith("["):
+            cls = line.strip("[]")
+        elif words and words[0] != "#" and words[1] != "counts":
+            name, kind, none, field = words[:4]
+            lines.append(
+                f'  {{ "{cls}", "{name}", "{kind}", "{none}", "{field}", [](vtkObject* o)\n'
+                f"    {{ return vtkVariant({cls}::SafeDownCast(o)->Get{name}()); }} }},\n")
+    includes = "".join(f"#include <{cls}.h>\n" for cls in dict.fromkeys(
+        line.split('"')[1] for line in lines))
+    write(path, "// Made by cmake/properties.py from Results.txt.\n#pragma once\n\n" + includes +
+          """
+#include <vtkVariant.h>
+
+#include <string>
+#include <vector>
+
+/// The results of all filters; Results.txt explains the columns.
+namespace result_rows
+{
+struct Row
+{
+  std::string Filter, Name, Kind, None, Field;
+  vtkVariant (*Get)(vtkObject*);
+  bool IsField() const { return this->Field != "-"; }
+  bool IsAlways() const { return this->Field.back() == '*'; }
+  int Place() const { return std::stoi(this->Field); }
+};
 
 inline const std::vector<Row> Rows = {
 """ + "".join(lines) + "};\n}\n")

@@ -357,6 +357,12 @@ void transform(Mesh& mesh, const std::function<Eigen::RowVector3d(const Eigen::R
   }
 }
 
+Mesh shifted(Mesh mesh, const Eigen::RowVector3d& by)
+{
+  mesh.points.rowwise() += by;
+  return mesh;
+}
+
 Mesh renumbered(const Mesh& mesh, const std::vector<Index>& order)
 {
   Mesh result = mesh;

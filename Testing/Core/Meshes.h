@@ -63,6 +63,8 @@ Mesh ring(int around, int height, double first);
 void jitterInterior(Mesh& mesh, double amount, unsigned seed);
 /// Applies `map` to every node.
 void transform(Mesh& mesh, const std::function<Eigen::RowVector3d(const Eigen::RowVector3d&)>& map);
+/// The mesh moved by `by`.
+Mesh shifted(Mesh mesh, const Eigen::RowVector3d& by);
 /// The same mesh with node i renamed to order[i].
 Mesh renumbered(const Mesh& mesh, const std::vector<Index>& order);
 

@@ -29,6 +29,17 @@ Row twist(const Row& x, double w, double h, double angle)
     1.5 * x[2] };
 }
 
+Map twistOf(double size, double angle)
+{
+  return [=](const Row& x) { return twist(x, size, size, angle); };
+}
+
+Row bend(const Row& x)
+{
+  return { x[0] + .3 * std::sin(x[1]), x[1] + .1 * x[2] * x[0],
+    1.2 * x[2] + .2 * std::cos(2 * x[0]) };
+}
+
 Points mapped(const Points& points, const Map& map)
 {
   Points result(points.rows(), 3);
@@ -56,6 +67,19 @@ std::vector<std::pair<std::string, Mesh>> jittered()
   for (auto& [name, mesh] : list)
   {
     meshes::jitterInterior(mesh, name == "hexes, pyramids and tets" ? 0.1 : 0.15, meshes::seed());
+  }
+  return list;
+}
+
+std::vector<std::pair<std::string, Mesh>> inGeneralPosition()
+{
+  auto list = meshes::all(4, 4, 4);
+  std::mt19937 random(meshes::seed());
+  std::uniform_real_distribution<double> shift(-.1, .1);
+  for (auto& entry : list)
+  {
+    entry.second.points =
+      entry.second.points.unaryExpr([&](double x) { return x + shift(random); });
   }
   return list;
 }
@@ -103,6 +127,19 @@ bool identical(const Points& a, const Points& b)
          (a.size() == 0 || std::memcmp(a.data(), b.data(), sizeof(double) * a.size()) == 0);
 }
 
+Index count(const EvaluateReport& report, const std::string& name)
+{
+  for (const Statistic& statistic : report.statistics)
+  {
+    if (statistic.name == name)
+    {
+      return statistic.value;
+    }
+  }
+  ADD_FAILURE() << "no count " << name;
+  return -1;
+}
+
 Error::Kind kindOf(const std::function<void()>& call, std::string& message)
 {
   try
@@ -116,6 +153,19 @@ Error::Kind kindOf(const std::function<void()>& call, std::string& message)
   }
   ADD_FAILURE() << "no error";
   return Error::Kind::InvalidInput;
+}
+
+void expectError(const std::function<void()>& call, const std::string& part)
+{
+  const std::string message = messageOf(call);
+  EXPECT_NE(message.find(part), std::string::npos) << part << " is not in " << message;
+}
+
+void expectError(Error::Kind kind, const std::function<void()>& call, const std::string& part)
+{
+  std::string message;
+  EXPECT_EQ(kindOf(call, message), kind) << part;
+  EXPECT_NE(message.find(part), std::string::npos) << part << " is not in " << message;
 }
 
 std::string messageOf(const std::function<void()>& call)

@@ -82,12 +82,6 @@ struct Bent
   }
 };
 
-Index countOf(const EvaluateReport& report, const std::string& name)
-{
-  const auto found = std::find_if(report.statistics.begin(), report.statistics.end(),
-    [&](const Statistic& count) { return count.name == name; });
-  return found == report.statistics.end() ? -1 : found->value;
-}
 }
 
 TEST(CommonPoint, TheInsideOfATetrahedronIsFoundAndNothingBeyondIt)
@@ -242,9 +236,9 @@ TEST(InversionFree, GivesUpOnAFoldedBoundaryAfterAFewTimesTheStepsOfAMorph)
     method.prepare(bent.mesh, bent.partition, monitor);
     Points moved;
     const EvaluateReport report = method.evaluate(bent.target(impossible ? -1 : 1), moved, monitor);
-    EXPECT_EQ(countOf(report, "Untangled"), 1 - impossible);
-    steps[impossible] = countOf(report, "NewtonSteps");
-    evaluations[impossible] = countOf(report, "EnergyEvaluations");
+    EXPECT_EQ(motions::count(report, "Untangled"), 1 - impossible);
+    steps[impossible] = motions::count(report, "NewtonSteps");
+    evaluations[impossible] = motions::count(report, "EnergyEvaluations");
   }
   EXPECT_LE(steps[1], 200) << "a morph that succeeds: " << steps[0];
   EXPECT_LE(evaluations[1], 400) << "a morph that succeeds: " << evaluations[0];

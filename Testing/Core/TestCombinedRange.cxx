@@ -3,9 +3,7 @@
 // quality on random motions.
 #include "Mesh/Topology.h"
 #include "Meshes.h"
-#include "Quality/ScaledJacobian.h"
 #include "Quality/ValidRange.h"
-#include "RandomMeshes.h"
 #include "Support/Error.h"
 #include "ValidRangeCases.h"
 #include "WatchingMonitor.h"
@@ -23,7 +21,7 @@ constexpr int Cases = 200;
 
 struct Case : RangeCase
 {
-  Points straight, first[2], second[2];
+  Points straight, others[2]; ///< of the second turn
 
   double searched(double far) const
   {
@@ -37,18 +35,18 @@ void makeCase(Case& result, const std::string& kind, int number)
   std::uniform_real_distribution<double> one(-1, 1);
   Mesh& mesh = result.mesh;
   mesh = meshes::randomMesh(kind, number, random);
-  const auto noise = [&](double amount)
-  { return meshes::noise(mesh.points.rows(), amount, random); };
   result.orientation = cellSigns(mesh, connectedComponents(mesh));
-  result.straight = noise(.3);
-  result.motion.base = &mesh.points;
-  result.motion.straight = &result.straight;
-  for (int turn = 0; turn < 1 + number % 2; ++turn)
+  for (Points* part :
+    { &result.straight, &result.first, &result.second, &result.others[0], &result.others[1] })
   {
-    result.first[turn] = noise(.3);
-    result.second[turn] = noise(.3);
-    result.motion.turns.push_back({ &result.first[turn], &result.second[turn],
-      std::copysign(1 + one(random) / 2, one(random)) });
+    *part = meshes::noise(mesh.points.rows(), .3, random);
+  }
+  const auto angle = [&] { return std::copysign(1 + one(random) / 2, one(random)); };
+  result.motion = { &mesh.points, &result.straight,
+    { { &result.first, &result.second, angle() } } };
+  if (number % 2 == 1)
+  {
+    result.motion.turns.push_back({ &result.others[0], &result.others[1], angle() });
   }
 }
 
@@ -57,11 +55,11 @@ void turnAndShift(Case& problem)
 {
   const Points& x = problem.mesh.points;
   problem.straight = Points::Ones(x.rows(), 3);
-  problem.first[0] = problem.second[0] = Points::Zero(x.rows(), 3);
-  problem.first[0].col(0) = -x.col(1);
-  problem.first[0].col(1) = x.col(0);
-  problem.second[0].leftCols(2) = -x.leftCols(2);
-  problem.motion = { &x, &problem.straight, { { &problem.first[0], &problem.second[0], .5 } } };
+  problem.first = problem.second = Points::Zero(x.rows(), 3);
+  problem.first.col(0) = -x.col(1);
+  problem.first.col(1) = x.col(0);
+  problem.second.leftCols(2) = -x.leftCols(2);
+  problem.motion = { &x, &problem.straight, { { &problem.first, &problem.second, .5 } } };
 }
 
 class CombinedRanges : public testing::TestWithParam<std::string>
@@ -83,9 +81,7 @@ TEST_P(CombinedRanges, AreThoseOfASearch)
       continue;
     }
     ++made;
-    Monitor monitor;
-    const ValidRange found =
-      validRange(problem.mesh, problem.motion, problem.orientation, {}, monitor);
+    const ValidRange found = problem.range();
     EXPECT_EQ(found.highestCell >= 0, std::isfinite(found.highest));
     if (isQuadratic)
     {
@@ -111,11 +107,7 @@ TEST_P(CombinedRanges, AreThoseOfASearch)
     }
     for (int threads : isQuadratic ? std::vector<int>{ 3 } : std::vector<int>{ 2, 3 })
     {
-      meshes::ThreadedMonitor threaded(threads);
-      const ValidRange again =
-        validRange(problem.mesh, problem.motion, problem.orientation, {}, threaded);
-      EXPECT_EQ(again.highest, found.highest);
-      EXPECT_EQ(again.highestCell, found.highestCell);
+      problem.expectRangeInThreads(found, threads);
     }
   }
   EXPECT_EQ(made, Cases);
@@ -137,13 +129,12 @@ TEST(CombinedRange, OfARigidTurnWithAShiftHasNoEnd)
   Case problem;
   problem.mesh = meshes::hexes(3, 2, 2);
   turnAndShift(problem);
-  Monitor monitor;
-  ValidRange found = validRange(problem.mesh, problem.motion, {}, {}, monitor);
+  ValidRange found = problem.range();
   EXPECT_EQ(found.highest, HUGE_VAL);
   EXPECT_EQ(found.highestCell, -1);
 
   problem.mesh.points.row(0) << 5, 5, 5; // inverted at 0
-  found = validRange(problem.mesh, problem.motion, {}, {}, monitor);
+  found = problem.range();
   EXPECT_TRUE(std::isnan(found.highest));
   EXPECT_EQ(found.highestCell, 0);
 }
@@ -154,11 +145,10 @@ TEST(CombinedRange, OfFlatCellsIsFoundInFewSteps)
   problem.mesh = meshes::tets(2, 2, 2);
   problem.mesh.points.col(0) *= 1e-9; // as flat as that
   turnAndShift(problem);
-  Monitor monitor;
-  EXPECT_EQ(validRange(problem.mesh, problem.motion, {}, {}, monitor).highest, HUGE_VAL);
+  EXPECT_EQ(problem.range().highest, HUGE_VAL);
 
   problem.straight.col(1) = problem.mesh.points.col(2); // they shear too, and stay valid
-  const double factor = validRange(problem.mesh, problem.motion, {}, {}, monitor).highest;
+  const double factor = problem.range().highest;
   EXPECT_GE(factor, 0); // on the safe side
   EXPECT_LT(factor, 1);
 }

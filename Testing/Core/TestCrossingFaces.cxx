@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Boundary/CrossingFaces.h"
+#include "BoundaryShapes.h"
 #include "Meshes.h"
 
 #include <Eigen/Geometry>
@@ -19,24 +20,6 @@ using morph::Mesh;
 using morph::Points;
 using Row = Eigen::RowVector3d;
 using Map = std::function<Row(const Row&)>;
-
-/// Two bodies that share no node.
-Mesh together(const Mesh& first, const Mesh& second)
-{
-  Mesh both = first;
-  both.points.conservativeResize(first.numberOfNodes() + second.numberOfNodes(), 3);
-  both.points.bottomRows(second.numberOfNodes()) = second.points;
-  for (Index c = 0; c < second.numberOfCells(); ++c)
-  {
-    std::vector<Index> nodes(second.cell(c), second.cell(c) + second.cellSize(c));
-    for (Index& node : nodes)
-    {
-      node += first.numberOfNodes();
-    }
-    meshes::add(both, second.types[c], nodes);
-  }
-  return both;
-}
 
 Mesh mapped(Mesh mesh, const Map& map)
 {
@@ -73,7 +56,7 @@ TEST(CrossingFaces, OfTwoBodiesThatOverlapAndNotOfTwoThatTouch)
   // Both have one cross-section: their sides lie in one plane, and no edge passes through a face.
   for (const auto& [name, box] : meshes::all(2, 2, 2))
   {
-    const Mesh both = together(box, mapped(box, shift(3, 0, 0)));
+    const Mesh both = shapes::together(box, mapped(box, shift(3, 0, 0)));
     for (const double way : { 0.5, 1., 1.25, 1.5, 2. })
     {
       const auto found = crossings(both, moved(both, box.numberOfNodes(), shift(way, 0, 0)));
@@ -86,7 +69,7 @@ TEST(CrossingFaces, NotOfBodiesThatStayInContact)
 {
   const Mesh box = meshes::hexes(3, 3, 3), finer = meshes::tets(4, 4, 4);
   const Mesh on = mapped(finer, [](const Row& p) { return Row(0.75 * p + Row(0, 0, 3)); });
-  const Mesh both = together(together(box, on), mapped(box, shift(3, 0, 0)));
+  const Mesh both = shapes::together(shapes::together(box, on), mapped(box, shift(3, 0, 0)));
   std::mt19937 random(meshes::seed());
   std::uniform_real_distribution<double> any(-1, 1);
   for (int i = 0; i < 20; ++i)
@@ -114,7 +97,7 @@ TEST(CrossingFaces, OfBodiesThatOverlapByLessThanACell)
       {
         const Mesh other = mapped(meshes::hexes(3, 3, 3),
           [&](const Row& p) { return Row(p * 2 * size / 3 + Row(2 + gap, 0.1, 0)); });
-        const Mesh both = together(box, other);
+        const Mesh both = shapes::together(box, other);
         for (const double way : { -0.5, 0.5 * gap, gap + 0.06, gap + 0.1, gap + 0.5 })
         {
           const auto found = crossings(both, moved(both, box.numberOfNodes(), shift(way, 0, 0)));
@@ -140,7 +123,7 @@ TEST(CrossingFaces, NotOfAShaftThatTurnsInItsHole)
   };
   for (const auto& [inside, outside] : { std::pair<Index, Index>(20, 32), { 32, 20 }, { 24, 24 } })
   {
-    const Mesh shaft = ring(inside, 1, 2), both = together(shaft, ring(outside, 2, 3));
+    const Mesh shaft = ring(inside, 1, 2), both = shapes::together(shaft, ring(outside, 2, 3));
     const auto turn = [](double angle, double x)
     {
       return [=](const Row& p)
@@ -164,7 +147,7 @@ TEST(CrossingFaces, NotOfMatchingBodiesThatBendTogether)
   // Their faces have the same places, and other first corners.
   const Mesh box = meshes::hexes(4, 4, 2);
   const Mesh both =
-    together(box, mapped(box, [](const Row& p) { return Row(p[1], 4 - p[0], p[2] + 2); }));
+    shapes::together(box, mapped(box, [](const Row& p) { return Row(p[1], 4 - p[0], p[2] + 2); }));
   const Mesh bent = mapped(both, [](const Row& p)
     { return Row(p + Row(0, 0, 0.3 * std::sin(p[0]) * std::cos(2 * p[1]) + 0.1 * p[0] * p[1])); });
   EXPECT_TRUE(crossings(both, bent.points).empty());
@@ -175,7 +158,7 @@ TEST(CrossingFaces, NotOfAnAffineMapOfBodiesInContact)
   std::mt19937 engine(3);
   std::uniform_real_distribution<double> number(-1, 1);
   const Mesh box = meshes::hexes(1, 1, 1);
-  const Mesh rest = together(box, mapped(box, shift(1, 0, 0)));
+  const Mesh rest = shapes::together(box, mapped(box, shift(1, 0, 0)));
   for (int i = 0; i < 500; ++i)
   {
     Eigen::Matrix3d A;
@@ -190,7 +173,7 @@ TEST(CrossingFaces, NotOfAnAffineMapOfBodiesInContact)
 TEST(CrossingFaces, NotOfPairsThatCrossedAtRest)
 {
   const Mesh box = meshes::hexes(2, 2, 2);
-  const Mesh both = together(box, mapped(box, shift(1.3, 0.2, 0.4)));
+  const Mesh both = shapes::together(box, mapped(box, shift(1.3, 0.2, 0.4)));
   const Mesh turned = mapped(both, [](const Row& p) { return Row(-p[1], p[0], p[2] + 7); });
   EXPECT_TRUE(crossings(both, both.points).empty());
   EXPECT_TRUE(crossings(both, turned.points).empty());
@@ -318,7 +301,7 @@ TEST(CrossingFaces, AgreeWithSeparatingAxesForRandomBoxes)
             .transpose();
         });
     };
-    const Mesh both = together(put(first, a), put(second, b));
+    const Mesh both = shapes::together(put(first, a), put(second, b));
     Mesh rest = both;
     rest.points.topRows(first.numberOfNodes()).rowwise() += Row(100, 0, 0);
     EXPECT_EQ(!crossings(rest, both.points).empty(), depth > 0)
@@ -332,7 +315,7 @@ TEST(CrossingFaces, AgreeWithSeparatingAxesForRandomBoxes)
 TEST(CrossingFaces, DependNeitherOnThreadsNorOnNumbers)
 {
   const Mesh box = meshes::hexes(6, 6, 6);
-  const Mesh both = together(box, mapped(meshes::tets(5, 5, 5), shift(8, 0.3, 0.2)));
+  const Mesh both = shapes::together(box, mapped(meshes::tets(5, 5, 5), shift(8, 0.3, 0.2)));
   const Points points = moved(both, box.numberOfNodes(), shift(4.1, 0, 0));
   const auto one = crossings(both, points, 1);
   EXPECT_FALSE(one.empty());

@@ -112,12 +112,6 @@ protected:
   }
 };
 
-Mesh shifted(Mesh mesh, const Row& by)
-{
-  mesh.points.rowwise() += by;
-  return mesh;
-}
-
 /// What rounding makes of coordinates this far out, beside what holds everywhere.
 double tolerance(const Points& points, double size, double relative = 1e-10)
 {
@@ -132,7 +126,7 @@ TEST_P(FarFromOrigin, AffineMotionsComeOutToRounding)
   {
     SCOPED_TRACE(name);
     const Row by = this->offset(near);
-    const Mesh far = shifted(near, by);
+    const Mesh far = meshes::shifted(near, by);
     const motions::Map map = [&](const Row& x) { return Row(motions::affine(x - by) + by); };
     const Points expected = motions::mapped(far.points, map);
     const Result result =
@@ -147,7 +141,7 @@ TEST_P(FarFromOrigin, NoMotionIsTheIdentityBitForBit)
   for (const auto& [name, near] : coarseMeshes())
   {
     SCOPED_TRACE(name);
-    const Mesh far = shifted(near, this->offset(near));
+    const Mesh far = meshes::shifted(near, this->offset(near));
     const Result result =
       this->morphed(far, meshes::rows(far.points, motions::outerPartition(far).prescribed));
     EXPECT_TRUE(motions::identical(result.moved, far.points));
@@ -160,7 +154,7 @@ TEST_P(FarFromOrigin, ResultsAreThoseAtTheOriginMoved)
   {
     SCOPED_TRACE(name);
     const Row by = this->offset(near);
-    const Mesh far = shifted(near, by);
+    const Mesh far = meshes::shifted(near, by);
     const Points target = motions::targets(near, motions::outerPartition(near),
       [](const Row& x) { return coarse(motions::twist(x, 4, 4, .3)); });
     const Result expected = this->morphed(near, target);

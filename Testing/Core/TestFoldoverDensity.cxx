@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Energies/ConditionDensity.h"
-#include "Energies/FoldoverDensity.h"
+#include "Energies/ConditionKernel.h"
+#include "Energies/FoldoverKernel.h"
 #include "Meshes.h"
 
 #include <Eigen/Eigenvalues>
@@ -17,6 +17,73 @@ namespace
 using Matrix = Eigen::Matrix3d;
 using Matrix9 = Eigen::Matrix<double, 9, 9>;
 
+/// The kernels' formulas for one matrix.
+///@{
+using Kernel = morph::foldover::Matrix3<double>;
+
+Kernel toKernel(const Matrix& A)
+{
+  Kernel result;
+  Eigen::Map<Matrix> view(&result[0][0]);
+  view = A;
+  return result;
+}
+Eigen::Map<const Matrix> toEigen(const Kernel& A)
+{
+  return Eigen::Map<const Matrix>(&A[0][0]);
+}
+
+struct Foldover
+{
+  morph::foldover::Parameters<double> parameters{ 0.1, 1e-10 };
+
+  double value(const Matrix& J) const
+  {
+    double phi;
+    morph::foldover::density(this->parameters, J.squaredNorm(), J.determinant(), phi);
+    return phi;
+  }
+  double gradient(const Matrix& J, Matrix& derivative) const
+  {
+    Kernel cofactor;
+    morph::foldover::cofactor(toKernel(J), cofactor);
+    morph::foldover::Derivatives<double> d;
+    morph::foldover::derivatives(this->parameters, J.squaredNorm(), J.determinant(), d);
+    derivative = 2 * d.I * J + d.D * toEigen(cofactor);
+    return d.value;
+  }
+  void hessian(const Kernel& J, const Kernel& g, Kernel (&block)[3][3]) const
+  {
+    morph::foldover::hessian(this->parameters, J, g, block);
+  }
+};
+
+struct Condition
+{
+  double value(const Matrix& J) const
+  {
+    Kernel cofactor;
+    morph::foldover::cofactor(toKernel(J), cofactor);
+    double kappa;
+    morph::condition::density(
+      J.squaredNorm(), toEigen(cofactor).squaredNorm(), J.determinant(), kappa);
+    return kappa;
+  }
+  double gradient(const Matrix& J, Matrix& derivative) const
+  {
+    Kernel result;
+    double kappa;
+    morph::condition::gradient(toKernel(J), kappa, result);
+    derivative = toEigen(result);
+    return kappa;
+  }
+  void hessian(const Kernel& J, const Kernel& g, Kernel (&block)[3][3]) const
+  {
+    morph::condition::hessian(J, g, block);
+  }
+};
+///@}
+
 struct Case
 {
   const char* name;
@@ -25,12 +92,9 @@ struct Case
 const Case Cases[] = { { "hex", 0.1, 1e-10 }, { "tet", 0.5, 1e-10 }, { "regularised", 0.1, 0.7 },
   { "shape alone", 0, 0.3 } };
 
-morph::FoldoverDensity densityOf(const Case& c)
+Foldover densityOf(const Case& c)
 {
-  morph::FoldoverDensity density;
-  density.theta = c.theta;
-  density.epsilon = c.epsilon;
-  return density;
+  return { { c.theta, c.epsilon } };
 }
 
 /// Jacobians of all kinds: near the identity, sheared, nearly flat, and, where the density allows
@@ -99,14 +163,15 @@ Matrix9 projectedDifference(const Density& density, const Matrix& J)
 template <typename Density>
 Matrix9 assembled(const Density& density, const Matrix& J)
 {
-  Matrix block[3][3];
-  density.hessian(J, Matrix::Identity(), block);
+  Kernel block[3][3];
+  density.hessian(toKernel(J), toKernel(Matrix::Identity()), block);
   Matrix9 H;
   for (int a = 0; a < 3; ++a)
   {
     for (int b = 0; b < 3; ++b)
     {
-      H.block<3, 3>(3 * a, 3 * b) = a <= b ? block[a][b] : Matrix(block[b][a].transpose());
+      H.block<3, 3>(3 * a, 3 * b) =
+        a <= b ? Matrix(toEigen(block[a][b])) : Matrix(toEigen(block[b][a]).transpose());
     }
   }
   return H;
@@ -120,8 +185,7 @@ TEST(FoldoverDensity, OneForRotationsAndMoreForAllElse)
   for (const Case& c : Cases)
   {
     SCOPED_TRACE(c.name);
-    morph::FoldoverDensity density = densityOf(c);
-    density.epsilon = 1e-10;
+    const Foldover density = densityOf({ c.name, c.theta, 1e-10 });
     EXPECT_NEAR(density.value(R), 1, 1e-14);
     for (const Matrix& J : jacobians(false))
     {
@@ -136,7 +200,7 @@ TEST(FoldoverDensity, GradientIsThatOfFiniteDifferences)
   for (const Case& c : Cases)
   {
     SCOPED_TRACE(c.name);
-    const morph::FoldoverDensity density = densityOf(c);
+    const Foldover density = densityOf(c);
     for (const Matrix& J : jacobians(c.epsilon > 0.1))
     {
       Matrix derivative;
@@ -152,7 +216,7 @@ TEST(FoldoverDensity, HessianIsTheProjectedOne)
   for (const Case& c : Cases)
   {
     SCOPED_TRACE(c.name);
-    const morph::FoldoverDensity density = densityOf(c);
+    const Foldover density = densityOf(c);
     for (const Matrix& J : jacobians(c.epsilon > 0.1))
     {
       const Matrix9 expected = projectedDifference(density, J), H = assembled(density, J);
@@ -169,19 +233,22 @@ TEST(FoldoverDensity, SignedSingularValues)
   all.push_back(Eigen::Vector3d(1, 1, -1).asDiagonal());
   for (const Matrix& J : all)
   {
-    const morph::SignedSingularValues svd(J);
-    EXPECT_LT((svd.U * svd.S.asDiagonal() * svd.V.transpose() - J).norm(), 1e-6 * (1 + J.norm()))
-      << J;
-    EXPECT_NEAR(svd.U.determinant(), 1, 1e-10);
-    EXPECT_NEAR(svd.V.determinant(), 1, 1e-10);
-    EXPECT_GE(svd.S[0], svd.S[1] - 1e-7);
-    EXPECT_GE(svd.S[1], std::abs(svd.S[2]) - 1e-7);
+    Kernel left, right;
+    morph::foldover::Vector3<double> values;
+    morph::foldover::signedSingularValues(toKernel(J), left, values, right);
+    const Matrix U = toEigen(left), V = toEigen(right);
+    const Eigen::Vector3d S(values.x);
+    EXPECT_LT((U * S.asDiagonal() * V.transpose() - J).norm(), 1e-6 * (1 + J.norm())) << J;
+    EXPECT_NEAR(U.determinant(), 1, 1e-10);
+    EXPECT_NEAR(V.determinant(), 1, 1e-10);
+    EXPECT_GE(S[0], S[1] - 1e-7);
+    EXPECT_GE(S[1], std::abs(S[2]) - 1e-7);
   }
 }
 
 TEST(FoldoverDensity, IsInfiniteWhereItCannotBeComputed)
 {
-  const morph::FoldoverDensity density;
+  const Foldover density;
   for (const double size : { 1e200, std::numeric_limits<double>::quiet_NaN() })
   {
     const Matrix J = Eigen::Vector3d(size, 1, -size).asDiagonal();
@@ -193,7 +260,7 @@ TEST(FoldoverDensity, IsInfiniteWhereItCannotBeComputed)
 
 TEST(ConditionDensity, IsTheConditionNumberAndABarrier)
 {
-  const morph::ConditionDensity density;
+  const Condition density;
   const Matrix R =
     Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, -1).normalized()).toRotationMatrix();
   EXPECT_NEAR(density.value(R), 1, 1e-14);
@@ -219,7 +286,7 @@ TEST(ConditionDensity, IsTheConditionNumberAndABarrier)
 
 TEST(ConditionDensity, DerivativesAreThoseOfFiniteDifferences)
 {
-  const morph::ConditionDensity density;
+  const Condition density;
   for (const Matrix& J : jacobians(false))
   {
     Matrix derivative;

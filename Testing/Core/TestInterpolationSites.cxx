@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Meshes.h"
+#include "Motions.h"
 
 #include "Interpolation/InterpolationSites.h"
 #include "Mesh/Topology.h"
@@ -8,7 +9,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <numeric>
 #include <set>
@@ -22,11 +22,6 @@ std::vector<Index> allIds(Index n)
   std::vector<Index> ids(n);
   std::iota(ids.begin(), ids.end(), Index(0));
   return ids;
-}
-
-bool sameBits(const Points& a, const Points& b)
-{
-  return a.rows() == b.rows() && std::memcmp(a.data(), b.data(), sizeof(double) * a.size()) == 0;
 }
 
 /// Points of a unit square lattice in the plane z = 0, turned in space; n x n of them.
@@ -173,7 +168,7 @@ TEST(InterpolationSites, NumbersDoNotDependOnTheNodeNumbering)
     shuffled.row(order[i]) = points.row(i);
   }
   const InterpolationSites again(shuffled, allIds(500));
-  EXPECT_TRUE(sameBits(sites.coordinates(), again.coordinates()));
+  EXPECT_TRUE(motions::identical(sites.coordinates(), again.coordinates()));
   EXPECT_EQ(sites.tolerance(), again.tolerance());
   for (Index i = 0; i < 500; ++i)
   {

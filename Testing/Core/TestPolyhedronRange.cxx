@@ -142,23 +142,14 @@ bool isPositive(const Cell& cell, const Points& x, double sign)
   return true;
 }
 
-struct Case
+struct Case : RangeCase
 {
-  Mesh mesh;
-  Points first, second;
-  NodeMotion motion;
-  std::vector<std::int8_t> orientation;
   std::vector<Cell> cells;
 
-  Points positions(double s) const { return pointsAt(this->motion, s); }
-  bool isMeasuredValid(double s) const
+  /// By fixed centers, and not by those of the measure.
+  bool isValidByCenters(double s) const
   {
-    Monitor monitor;
-    return invertedCells(this->mesh, this->positions(s), this->orientation, monitor).empty();
-  }
-  bool isValid(double s) const
-  {
-    const Points x = this->positions(s);
+    const Points x = this->at(s);
     for (std::size_t c = 0; c < this->cells.size(); ++c)
     {
       if (!isPositive(this->cells[c], x, this->orientation[c]))
@@ -170,7 +161,7 @@ struct Case
   }
   double bisected(double sign) const
   {
-    return bisectedEnd([this](double s) { return this->isValid(s); }, sign, 0.01, 4);
+    return bisectedEnd([this](double s) { return this->isValidByCenters(s); }, sign, 0.01, 4);
   }
 };
 
@@ -185,25 +176,14 @@ Mesh polyhedra(const std::string& kind)
 void makeCase(Case& result, const std::string& kind, bool isRotation, int number)
 {
   std::mt19937 random(meshes::seed() + 1000 * number);
-  std::uniform_real_distribution<double> one(-1, 1);
   Mesh& mesh = result.mesh;
   mesh = polyhedra(kind);
-  const auto noise = [&](double amount)
-  { return meshes::noise(mesh.points.rows(), amount, random); };
-  mesh.points += noise(.05);
+  mesh.points += meshes::noise(mesh.points.rows(), .05, random);
   if (number % 3 == 0)
   {
     mesh.points.col(1) *= -1;
   }
-  result.orientation = cellSigns(mesh, connectedComponents(mesh));
-  result.first = noise(isRotation ? .5 : 1);
-  result.second = noise(.5);
-  result.motion = { &mesh.points, &result.first, {} };
-  if (isRotation)
-  {
-    result.motion = { &mesh.points, nullptr,
-      { { &result.first, &result.second, 1 + one(random) / 2 } } };
-  }
+  result.moveAtRandom(isRotation, random);
   for (Index c = 0; c < mesh.numberOfCells(); ++c)
   {
     result.cells.push_back(cellOf(mesh, c));
@@ -225,11 +205,9 @@ TEST_P(PolyhedronRanges, AreThoseOfBisection)
     Case problem;
     makeCase(problem, kind, isRotation, number);
     // Both agree at 0.
-    ASSERT_EQ(problem.isValid(0), problem.isMeasuredValid(0));
-    Monitor monitor;
-    const ValidRange range =
-      validRange(problem.mesh, problem.motion, problem.orientation, {}, monitor);
-    ASSERT_EQ(range.isEmpty, !problem.isValid(0));
+    ASSERT_EQ(problem.isValidByCenters(0), problem.isValid(0));
+    const ValidRange range = problem.range();
+    ASSERT_EQ(range.isEmpty, !problem.isValidByCenters(0));
     if (range.isEmpty)
     {
       continue;
@@ -249,19 +227,14 @@ TEST_P(PolyhedronRanges, AreThoseOfBisection)
       // A step of the search may pass over a short interval of inversion.
       if (found < expected - 1e-8)
       {
-        EXPECT_FALSE(problem.isValid(sign * (found + 1e-7))) << found;
+        EXPECT_FALSE(problem.isValidByCenters(sign * (found + 1e-7))) << found;
       }
       ++ends;
-      measured +=
-        problem.isMeasuredValid(sign * .9 * found) && !problem.isMeasuredValid(sign * 1.1 * found);
+      measured += problem.isValid(sign * .9 * found) && !problem.isValid(sign * 1.1 * found);
     }
     EXPECT_EQ(range.lowestCell >= 0, std::isfinite(range.lowest));
     EXPECT_EQ(range.highestCell >= 0, std::isfinite(range.highest));
-    meshes::ThreadedMonitor threaded(3);
-    const ValidRange again =
-      validRange(problem.mesh, problem.motion, problem.orientation, {}, threaded);
-    EXPECT_EQ(again.lowest, range.lowest);
-    EXPECT_EQ(again.highest, range.highest);
+    problem.expectRangeInThreads(range, 3);
   }
   EXPECT_EQ(made, Cases);
   EXPECT_GE(bothFinite, Cases / 2);

@@ -19,18 +19,13 @@
 #include <random>
 
 using namespace morph;
+using motions::bend;
 using motions::difference;
 using motions::Row;
 
 namespace
 {
 using Kind = RadialKernel::Kind;
-
-Row bend(const Row& x)
-{
-  return { x[0] + .3 * std::sin(x[1]), x[1] + .1 * x[2] * x[0],
-    1.2 * x[2] + .2 * std::cos(2 * x[0]) };
-}
 
 struct Options
 {

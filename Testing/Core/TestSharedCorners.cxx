@@ -49,11 +49,6 @@ Mesh joined(const Mesh& a, const Mesh& b)
   return mesh;
 }
 
-Mesh shifted(Mesh mesh, const Row& by)
-{
-  mesh.points.rowwise() += by;
-  return mesh;
-}
 }
 
 TEST(SharedCorners, ProperMeshesHaveNone)
@@ -85,22 +80,22 @@ TEST(SharedCorners, BothOfEqualCellsAreNamedInAnyOrderOfNodes)
 TEST(SharedCorners, BodiesThatShareANodeOrAnEdgeTouch)
 {
   const Mesh box = meshes::hexes(2, 2, 2);
-  Mesh both = joined(box, shifted(box, Row(2, 2, 2)));
+  Mesh both = joined(box, meshes::shifted(box, Row(2, 2, 2)));
   EXPECT_EQ(touching(both), std::vector<Index>{ 26 });
-  both = joined(box, shifted(box, Row(2, 2, 0)));
+  both = joined(box, meshes::shifted(box, Row(2, 2, 0)));
   EXPECT_EQ(touching(both).size(), 3u);
-  both = joined(box, shifted(meshes::tets(2, 2, 2), Row(2, 2, 2)));
+  both = joined(box, meshes::shifted(meshes::tets(2, 2, 2), Row(2, 2, 2)));
   EXPECT_EQ(touching(both), std::vector<Index>{ 26 });
 }
 
 TEST(SharedCorners, BodiesThatMeetAtWholeFacesDoNotTouch)
 {
   const Mesh box = meshes::hexes(2, 2, 2);
-  EXPECT_TRUE(touching(joined(box, shifted(box, Row(2, 0, 0)))).empty());
+  EXPECT_TRUE(touching(joined(box, meshes::shifted(box, Row(2, 0, 0)))).empty());
   // Quadrilaterals against two triangles each.
-  EXPECT_TRUE(touching(joined(box, shifted(meshes::tets(2, 2, 2), Row(2, 0, 0)))).empty());
+  EXPECT_TRUE(touching(joined(box, meshes::shifted(meshes::tets(2, 2, 2), Row(2, 0, 0)))).empty());
   // A quadrilateral against four.
   Mesh large = meshes::hexes(1, 1, 1);
   large.points *= 2;
-  EXPECT_TRUE(touching(joined(box, shifted(large, Row(2, 0, 0)))).empty());
+  EXPECT_TRUE(touching(joined(box, meshes::shifted(large, Row(2, 0, 0)))).empty());
 }

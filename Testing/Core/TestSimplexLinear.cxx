@@ -3,6 +3,7 @@
 // methods.
 #include "LinearMethods/SimplexLinear.h"
 
+#include "BoundaryShapes.h"
 #include "Meshes.h"
 #include "Motions.h"
 #include "Support/Error.h"
@@ -17,32 +18,16 @@
 
 using namespace morph;
 using motions::affine;
+using motions::count;
 using motions::difference;
 using motions::jittered;
 using motions::outerPartition;
 using motions::targets;
+using motions::twistOf;
 using Row = Eigen::RowVector3d;
 
 namespace
 {
-motions::Map twistOf(double size, double angle)
-{
-  return [=](const Row& x) { return motions::twist(x, size, size, angle); };
-}
-
-Index count(const EvaluateReport& report, const std::string& name)
-{
-  for (const Statistic& c : report.statistics)
-  {
-    if (c.name == name)
-    {
-      return c.value;
-    }
-  }
-  ADD_FAILURE() << "no count " << name;
-  return -1;
-}
-
 struct Outcome
 {
   SimplexLinear method;
@@ -100,20 +85,7 @@ std::set<std::set<int>> usedTetrahedra(const WeightMatrix& weights)
 Mesh twoBodiesThatTouch()
 {
   const Mesh one = meshes::hexes(2, 3, 3);
-  Mesh mesh = one;
-  const Index n = one.numberOfNodes();
-  mesh.points.conservativeResize(2 * n, 3);
-  mesh.points.bottomRows(n) = one.points.rowwise() + Row(2, 0, 0);
-  for (Index c = 0; c < one.numberOfCells(); ++c)
-  {
-    std::vector<Index> nodes(one.cell(c), one.cell(c) + 8);
-    for (Index& node : nodes)
-    {
-      node += n;
-    }
-    meshes::add(mesh, Hexahedron, nodes);
-  }
-  return mesh;
+  return shapes::together(one, meshes::shifted(one, Row(2, 0, 0)));
 }
 }
 
@@ -432,9 +404,7 @@ TEST(SimplexLinear, PrescribedNodesInOnePlaneAreRefused)
     {
       meshes::transform(mesh, [&](const Row& x) { return Row(x * R + Row(40, -3, 8)); });
     }
-    std::string message;
-    EXPECT_EQ(
-      motions::kindOf([&] { morphed(mesh, partition, affine); }, message), Error::Kind::Singular);
-    EXPECT_NE(message.find("FEMWARP"), std::string::npos) << message;
+    motions::expectError(
+      Error::Kind::Singular, [&] { morphed(mesh, partition, affine); }, "FEMWARP");
   }
 }

@@ -13,19 +13,16 @@
 #include <cmath>
 
 using namespace morph;
+using motions::count;
 using motions::difference;
 using motions::jittered;
 using motions::outerPartition;
 using motions::targets;
+using motions::twistOf;
 using Row = Eigen::RowVector3d;
 
 namespace
 {
-motions::Map twistOf(double size)
-{
-  return [=](const Row& x) { return motions::twist(x, size, size, 1.2); };
-}
-
 Points morphed(const Mesh& mesh, const NodePartition& partition, const Points& target)
 {
   Monitor monitor;
@@ -36,12 +33,6 @@ Points morphed(const Mesh& mesh, const NodePartition& partition, const Points& t
   return moved;
 }
 
-Index count(const EvaluateReport& report, const std::string& name)
-{
-  const auto found = std::find_if(report.statistics.begin(), report.statistics.end(),
-    [&](const Statistic& c) { return c.name == name; });
-  return found == report.statistics.end() ? -1 : found->value;
-}
 }
 
 TEST(SimplexNaturalNeighbor, TurningALatticeChangesNothing)
@@ -113,35 +104,6 @@ TEST(SimplexNaturalNeighbor, TheMemoryLimitChangesNoResult)
     anew.applyTranspose(mesh.points, other, monitor);
     EXPECT_TRUE(motions::identical(one, other)) << name;
   }
-}
-
-TEST(SimplexNaturalNeighbor, WeightsOfEachNodeAreBarycentric)
-{
-  Mesh mesh = meshes::hexes(6, 5, 4);
-  meshes::jitterInterior(mesh, .2, meshes::seed());
-  const NodePartition partition = outerPartition(mesh);
-  Monitor monitor;
-  SimplexNaturalNeighbor method;
-  method.prepare(mesh, partition, monitor);
-  const Points sites = method.sites().coordinates();
-  std::vector<int> visits(partition.free.size());
-  method.forEachNode(
-    [&](Index place, const std::vector<std::int32_t>& ids, const std::vector<double>& weights)
-    {
-      ++visits[place];
-      ASSERT_EQ(ids.size(), weights.size());
-      Row position = Row::Zero();
-      double sum = 0;
-      for (std::size_t i = 0; i < ids.size(); ++i)
-      {
-        EXPECT_GE(weights[i], 0);
-        sum += weights[i];
-        position += weights[i] * sites.row(ids[i]);
-      }
-      EXPECT_NEAR(sum, 1, 1e-13);
-      EXPECT_LE((position - mesh.points.row(partition.free[place])).norm(), 1e-11);
-    });
-  EXPECT_EQ(visits, std::vector<int>(partition.free.size(), 1));
 }
 
 TEST(SimplexNaturalNeighbor, NodesOnEdgesOfTheHullAndBeyondAreCounted)

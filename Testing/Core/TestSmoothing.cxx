@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "BoundaryShapes.h"
+#include "Differences.h"
 #include "Meshes.h"
 #include "Motions.h"
 
@@ -122,24 +124,8 @@ TEST(UntangleEnergy, GradientIsTheSlope)
       const std::vector<Index> free = outerPartition(mesh).free;
       const UntangleEnergy energy(
         mesh, free, smoothingTargets(mesh, orientationOf(mesh), target, monitor), .3);
-      const Points points = scrambled(mesh, .8);
-      Points gradient;
-      energy.gradient(points, gradient, monitor);
+      const Points gradient = differences::expectGradient(energy, scrambled(mesh, .8), 5e-8);
       ASSERT_GT(gradient.cwiseAbs().maxCoeff(), 1e-6) << name;
-      for (std::size_t i = 0; i < free.size(); i += 5)
-      {
-        for (int j = 0; j < 3; ++j)
-        {
-          constexpr double Step = 1e-6;
-          Points above = points, below = points;
-          above(free[i], j) += Step;
-          below(free[i], j) -= Step;
-          const double slope =
-            (energy.value(above, monitor).energy - energy.value(below, monitor).energy) /
-            (2 * Step);
-          EXPECT_NEAR(gradient(static_cast<Index>(i), j), slope, 1e-7) << name;
-        }
-      }
     }
   }
 }
@@ -444,17 +430,7 @@ TEST(Smoothing, ABodyHeldByAPlaneOrALineTurnsWithIt)
 
 TEST(Smoothing, EveryBodyFollowsItsOwnBoundary)
 {
-  const Mesh mesh = hexes(3, 3, 3);
-  const Index nodes = mesh.numberOfNodes();
-  Mesh two = mesh;
-  two.points.conservativeResize(2 * nodes, 3);
-  two.points.bottomRows(nodes) = mesh.points.rowwise() + Row(10, 0, 0);
-  for (Index c = 0; c < mesh.numberOfCells(); ++c)
-  {
-    std::vector<Index> corners(mesh.cell(c), mesh.cell(c) + 8);
-    std::for_each(corners.begin(), corners.end(), [&](Index& node) { node += nodes; });
-    add(two, Hexahedron, corners);
-  }
+  const Mesh mesh = hexes(3, 3, 3), two = shapes::together(mesh, shifted(mesh, Row(10, 0, 0)));
   // One stays, the other turns round.
   const auto move = [](const Row& x) -> Row
   { return x[0] < 5 ? x : Row(30 - x[0], 3 - x[1], x[2]); };
@@ -598,26 +574,10 @@ TEST(Smoothing, WhatCannotBeUntangledComesWithAWarning)
 
 TEST(Smoothing, ABodyWithoutAPrescribedNodeIsNamed)
 {
-  const Mesh mesh = hexes(3, 3, 3);
-  Mesh two = mesh;
-  two.points.conservativeResize(2 * mesh.points.rows(), 3);
-  two.points.bottomRows(mesh.points.rows()) = mesh.points.rowwise() + Row(10, 0, 0);
-  for (Index c = 0; c < mesh.numberOfCells(); ++c)
-  {
-    std::vector<Index> nodes(mesh.cell(c), mesh.cell(c) + 8);
-    for (Index& node : nodes)
-    {
-      node += mesh.numberOfNodes();
-    }
-    add(two, Hexahedron, nodes);
-  }
+  const Mesh mesh = hexes(3, 3, 3), two = shapes::together(mesh, shifted(mesh, Row(10, 0, 0)));
+  const NodePartition first = partitionNodes(two, outerPartition(mesh).prescribed);
   Monitor monitor;
   Smoothing method;
-  std::string message;
-  EXPECT_EQ(
-    kindOf([&]
-      { method.prepare(two, partitionNodes(two, outerPartition(mesh).prescribed), monitor); },
-      message),
-    Error::Kind::Singular);
-  EXPECT_NE(message.find("no prescribed node"), std::string::npos) << message;
+  motions::expectError(
+    Error::Kind::Singular, [&] { method.prepare(two, first, monitor); }, "no prescribed node");
 }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Differences.h"
 #include "Energies/StiffenedDistortion.h"
 #include "Meshes.h"
 #include "Motions.h"
@@ -34,26 +35,6 @@ StiffenedDistortion distortion(const Mesh& mesh, const Points& start)
 StiffenedDistortion distortion(const Mesh& mesh)
 {
   return distortion(mesh, mesh.points);
-}
-
-void expectGradientOfDifferences(const StiffenedDistortion& objective, const Points& points)
-{
-  meshes::ThreadedMonitor monitor;
-  Points gradient;
-  objective.gradient(points, gradient, monitor);
-  const double h = 1e-6;
-  for (Index i = 0; i < gradient.rows(); ++i)
-  {
-    for (int j = 0; j < 3; ++j)
-    {
-      Points plus = points, minus = plus;
-      plus(objective.free()[i], j) += h;
-      minus(objective.free()[i], j) -= h;
-      const double difference =
-        (objective.value(plus, monitor).energy - objective.value(minus, monitor).energy) / (2 * h);
-      EXPECT_NEAR(gradient(i, j), difference, 1e-6 * (1 + gradient.norm()));
-    }
-  }
 }
 
 /// The whole matrix, and not its upper part alone.
@@ -98,12 +79,10 @@ TEST(StiffenedDistortion, GradientIsThatOfFiniteDifferences)
     SCOPED_TRACE(name);
     StiffenedDistortion objective = distortion(mesh);
     objective.setLevel(0.8 / objective.evaluate(mesh.points, monitor).largest);
-    expectGradientOfDifferences(objective, mesh.points);
+    differences::expectGradient(objective, mesh.points, 1e-6);
     // Edges are short, then long beside these.
-    StiffenedDistortion longer = distortion(mesh, 8 * mesh.points);
-    expectGradientOfDifferences(longer, mesh.points);
-    StiffenedDistortion shorter = distortion(mesh, mesh.points / 8);
-    expectGradientOfDifferences(shorter, mesh.points);
+    differences::expectGradient(distortion(mesh, 8 * mesh.points), mesh.points, 1e-6);
+    differences::expectGradient(distortion(mesh, mesh.points / 8), mesh.points, 1e-6);
   }
 }
 

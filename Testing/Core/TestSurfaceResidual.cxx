@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "DirectSolutions.h"
 #include "Meshes.h"
+#include "Motions.h"
 
 #include "BoundaryMorphing/SurfaceResidual.h"
 #include "Support/Error.h"
@@ -8,10 +9,12 @@
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
 
-#include <cstring>
 #include <limits>
 
 using namespace morph;
+using motions::difference;
+using motions::identical;
+using motions::mapped;
 
 namespace
 {
@@ -27,26 +30,9 @@ Eigen::RowVector3d similar(const Eigen::RowVector3d& x)
   return 1.7 * x * turn + Eigen::RowVector3d(3, -2, 5);
 }
 
-Eigen::RowVector3d sheared(const Eigen::RowVector3d& x)
-{
-  static const Eigen::Matrix3d shear =
-    (Eigen::Matrix3d() << 1.1, .3, .2, -.1, 1.4, .05, .2, .1, .9).finished();
-  return x * shear + Eigen::RowVector3d(3, -2, .5);
-}
-
 Eigen::RowVector3d bent(const Eigen::RowVector3d& x)
 {
   return { x[0] + .2 * std::sin(x[1]), x[1] + .1 * x[0] * x[0], x[2] + .3 * std::cos(x[0]) };
-}
-
-Points apply(const Points& points, const Motion& motion)
-{
-  Points result = points;
-  for (Index i = 0; i < points.rows(); ++i)
-  {
-    result.row(i) = motion(points.row(i));
-  }
-  return result;
 }
 
 struct Surface
@@ -136,15 +122,6 @@ Outcome morphed(const Surface& s, const Points& target, Index neighbors = 20, in
   return result;
 }
 
-bool sameBits(const Points& a, const Points& b)
-{
-  return a.rows() == b.rows() && std::memcmp(a.data(), b.data(), sizeof(double) * a.size()) == 0;
-}
-
-double difference(const Points& a, const Points& b)
-{
-  return (a - b).cwiseAbs().maxCoeff();
-}
 }
 
 TEST(SurfaceResidual, NoMotionIsTheIdentityBitForBit)
@@ -152,7 +129,7 @@ TEST(SurfaceResidual, NoMotionIsTheIdentityBitForBit)
   for (const Surface& s : surfaces())
   {
     const Outcome result = morphed(s, s.prescribed);
-    EXPECT_TRUE(sameBits(result.moved, s.points));
+    EXPECT_TRUE(identical(result.moved, s.points));
     EXPECT_NEAR(result.report.determinant, 1, 1e-15);
   }
 }
@@ -161,8 +138,8 @@ TEST(SurfaceResidual, SimilarMotionsAreExactOffThePlaneToo)
 {
   for (const Surface& s : surfaces())
   {
-    const Outcome result = morphed(s, apply(s.prescribed, similar));
-    EXPECT_LT(difference(result.moved, apply(s.points, similar)), 1e-12);
+    const Outcome result = morphed(s, mapped(s.prescribed, similar));
+    EXPECT_LT(difference(result.moved, mapped(s.points, similar)), 1e-12);
     EXPECT_FALSE(result.report.replaced());
     EXPECT_NEAR(result.report.determinant, 1.7 * 1.7 * 1.7, 1e-12);
   }
@@ -174,7 +151,7 @@ TEST(SurfaceResidual, SimilarMotionsAreExactOffThePlaneToo)
       return { -x[0], x[1], -x[2] };
     };
     EXPECT_LT(
-      difference(morphed(s, apply(s.prescribed, over)).moved, apply(s.points, over)), 1e-13);
+      difference(morphed(s, mapped(s.prescribed, over)).moved, mapped(s.points, over)), 1e-13);
   }
 }
 
@@ -183,14 +160,14 @@ TEST(SurfaceResidual, AffineMotionsAreExactWhereTheyAreDetermined)
   for (bool loops : { false, true })
   {
     const Surface flat = annulus(0, loops);
-    const Outcome result = morphed(flat, apply(flat.prescribed, sheared));
+    const Outcome result = morphed(flat, mapped(flat.prescribed, motions::affine));
     EXPECT_EQ(result.report.fit, SurfaceResidual::Fit::Plane);
-    EXPECT_LT(difference(result.moved, apply(flat.points, sheared)), 1e-12);
+    EXPECT_LT(difference(result.moved, mapped(flat.points, motions::affine)), 1e-12);
   }
   const Surface s = shell();
-  const Outcome result = morphed(s, apply(s.prescribed, sheared));
+  const Outcome result = morphed(s, mapped(s.prescribed, motions::affine));
   EXPECT_EQ(result.report.fit, SurfaceResidual::Fit::Affine);
-  EXPECT_LT(difference(result.moved, apply(s.points, sheared)), 1e-12);
+  EXPECT_LT(difference(result.moved, mapped(s.points, motions::affine)), 1e-12);
 }
 
 TEST(SurfaceResidual, DomesKeepTheirShapeAboveAStretchedPlane)
@@ -202,7 +179,7 @@ TEST(SurfaceResidual, DomesKeepTheirShapeAboveAStretchedPlane)
   for (bool loops : { false, true })
   {
     const Surface s = annulus(rise, loops);
-    const Points moved = morphed(s, apply(s.prescribed, stretched)).moved;
+    const Points moved = morphed(s, mapped(s.prescribed, stretched)).moved;
     for (Index i = 0; i < moved.rows(); ++i)
     {
       EXPECT_NEAR(
@@ -215,7 +192,7 @@ TEST(SurfaceResidual, AgreesWithTheEquationsWrittenOut)
 {
   // Positions, prescribed points in space: nothing shared with the library.
   const Surface s = shell();
-  const Points target = apply(s.prescribed, bent);
+  const Points target = mapped(s.prescribed, bent);
   Eigen::MatrixXd columns(s.prescribed.rows(), 4);
   columns << s.prescribed, Eigen::VectorXd::Ones(s.prescribed.rows());
   const Eigen::MatrixXd gamma = direct::leastSquares(columns, target);
@@ -258,12 +235,12 @@ TEST(SurfaceResidual, RigidMotionAndScaleOfTheRestSurfaceDoNotMatter)
   for (Surface s : surfaces())
   {
     s.points = s.points.unaryExpr([&](double v) { return v + shift(random); }); // no ties
-    const Points target = apply(s.prescribed, bent);
-    const Points expected = apply(morphed(s, target).moved, similar);
+    const Points target = mapped(s.prescribed, bent);
+    const Points expected = mapped(morphed(s, target).moved, similar);
     Surface elsewhere = s;
-    elsewhere.prescribed = apply(s.prescribed, similar);
-    elsewhere.points = apply(s.points, similar);
-    EXPECT_LT(difference(morphed(elsewhere, apply(target, similar)).moved, expected), 1e-11);
+    elsewhere.prescribed = mapped(s.prescribed, similar);
+    elsewhere.points = mapped(s.points, similar);
+    EXPECT_LT(difference(morphed(elsewhere, mapped(target, similar)).moved, expected), 1e-11);
   }
 }
 
@@ -271,9 +248,9 @@ TEST(SurfaceResidual, RenumberingAndThreadsDoNotShow)
 {
   for (const Surface& s : surfaces())
   {
-    const Points target = apply(s.prescribed, bent);
+    const Points target = mapped(s.prescribed, bent);
     const Points reference = morphed(s, target).moved;
-    EXPECT_TRUE(sameBits(morphed(s, target, 20, 3).moved, reference));
+    EXPECT_TRUE(identical(morphed(s, target, 20, 3).moved, reference));
     Surface reversed = s;
     reversed.prescribed = s.prescribed.colwise().reverse();
     reversed.points = s.points.colwise().reverse();
@@ -295,7 +272,7 @@ TEST(SurfaceResidual, ReflectedBoundariesGetASimilarity)
   const auto mirrored = [](const Eigen::RowVector3d& x) -> Eigen::RowVector3d {
     return { 2 * x[0], 2 * x[1], -2 * x[2] };
   };
-  const Points target = apply(s.prescribed, mirrored);
+  const Points target = mapped(s.prescribed, mirrored);
   const Outcome result = morphed(s, target);
   EXPECT_TRUE(result.report.replaced());
   EXPECT_NEAR(result.report.determinant, -8, 1e-12);
@@ -340,9 +317,9 @@ TEST(SurfaceResidual, LinesAndSinglePlacesTranslate)
   for (int kept : { 1, 0 })
   {
     s.prescribed.rightCols(3 - kept).setZero();
-    const Outcome result = morphed(s, apply(s.prescribed, shifted));
+    const Outcome result = morphed(s, mapped(s.prescribed, shifted));
     EXPECT_EQ(result.report.fit, SurfaceResidual::Fit::Translation);
-    EXPECT_LT(difference(result.moved, apply(s.points, shifted)), 1e-13);
+    EXPECT_LT(difference(result.moved, mapped(s.points, shifted)), 1e-13);
   }
 }
 
@@ -350,7 +327,7 @@ TEST(SurfaceResidual, PointsAtAPrescribedPlaceGoWithIt)
 {
   Surface s = annulus(0, true);
   s.points.row(5) = s.prescribed.row(17);
-  const Points target = apply(s.prescribed, bent);
+  const Points target = mapped(s.prescribed, bent);
   const Points moved = morphed(s, target).moved;
   EXPECT_LT((moved.row(5) - target.row(17)).norm(), 1e-13);
   s.points.resize(0, 3);
@@ -388,20 +365,20 @@ TEST(SurfaceResidual, ItsLinearPartIsAllOfItOnPlanesAndShells)
   {
     SurfaceResidual method;
     method.prepare(surface.prescribed, surface.points, surface.loops, monitor);
-    const Points target = apply(surface.prescribed, motion);
+    const Points target = mapped(surface.prescribed, motion);
     Points whole, linear;
     method.evaluate(target, whole, monitor);
     method.evaluateLinear(target - surface.prescribed, linear, monitor);
     return (surface.points + linear - whole).cwiseAbs().maxCoeff();
   };
   EXPECT_LT(difference(annulus(0, true), bent), 1e-14);
-  EXPECT_LT(difference(annulus(0, false), sheared), 1e-14);
+  EXPECT_LT(difference(annulus(0, false), motions::affine), 1e-14);
   EXPECT_LT(difference(shell(), bent), 1e-14);
   // The normal of a dome turns with its rim, unless the rim is shifted alone.
   const auto shifted = [](const Eigen::RowVector3d& x) -> Eigen::RowVector3d
   { return x + Eigen::RowVector3d(1, -2, 3); };
   EXPECT_LT(difference(annulus(0.5, true), shifted), 1e-14);
-  EXPECT_GT(difference(annulus(0.5, true), sheared), 0.01);
+  EXPECT_GT(difference(annulus(0.5, true), motions::affine), 0.01);
 
   SurfaceResidual method;
   Points moved;

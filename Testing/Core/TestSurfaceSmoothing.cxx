@@ -94,9 +94,7 @@ TEST(SurfaceSmoothing, GoodSurfacesStayBitForBit)
     Case c(mesh);
     BoundaryMotion motion = c.moved([](const Row& x) { return Row(1.1 * x + Row(1, 2, 3)); });
     const Points before = motion.displacement;
-    const SurfaceSmoothing report = smoothSurfaces(c.faces, c.geometry, nullptr, motion, c.monitor);
-    EXPECT_EQ(report.poor, 0);
-    EXPECT_TRUE(report.moved.empty());
+    smoothSurfaces(c.faces, c.geometry, nullptr, motion, c.monitor);
     EXPECT_EQ(motion.displacement, before);
   }
 }
@@ -109,8 +107,7 @@ TEST(SurfaceSmoothing, FoldsOfTheUndeformedSurfaceStay)
   BoundaryMotion motion = c.moved(same);
   const std::vector<double> quality = c.quality(motion).scaledJacobian;
   ASSERT_LT(*std::min_element(quality.begin(), quality.end()), 0);
-  const SurfaceSmoothing report = smoothSurfaces(c.faces, c.geometry, nullptr, motion, c.monitor);
-  EXPECT_EQ(report.poor, 0);
+  smoothSurfaces(c.faces, c.geometry, nullptr, motion, c.monitor);
   EXPECT_TRUE(motion.displacement.isZero(0));
 }
 
@@ -135,9 +132,8 @@ TEST(SurfaceSmoothing, AffineImagesStay)
     // Sheared until the angles are poor.
     BoundaryMotion motion = c.moved([](const Row& x) { return Row(x[0] + 8 * x[1], x[1], x[2]); });
     const Points before = motion.displacement;
-    const SurfaceSmoothing report = smoothSurfaces(c.faces, c.geometry, nullptr, motion, c.monitor);
-    EXPECT_GT(report.poor, 0);
-    EXPECT_TRUE(report.moved.empty());
+    ASSERT_LT(c.quality(motion).minimum, 0.2);
+    smoothSurfaces(c.faces, c.geometry, nullptr, motion, c.monitor);
     EXPECT_EQ(motion.displacement, before);
   }
 }
@@ -153,24 +149,18 @@ TEST(SurfaceSmoothing, FoldsOpenInThePlane)
     motion.displacement.row(node) += Row(1.6, 0.3, 0);
     const Points before = motion.displacement;
     ASSERT_FALSE(c.quality(motion).folded.empty());
-    const SurfaceSmoothing report = smoothSurfaces(c.faces, c.geometry, nullptr, motion, c.monitor);
-    EXPECT_GT(report.poor, 0);
+    smoothSurfaces(c.faces, c.geometry, nullptr, motion, c.monitor);
     const FaceQuality after = c.quality(motion);
     EXPECT_TRUE(after.folded.empty());
     EXPECT_GT(after.minimum, 0.6);
-    ASSERT_FALSE(report.moved.empty());
     for (Index n = 0; n < before.rows(); ++n)
     {
-      if (std::binary_search(report.moved.begin(), report.moved.end(), n))
+      if (motion.displacement.row(n) != before.row(n))
       {
         EXPECT_EQ(motion.state[n], BoundaryMotion::OnSurface);
         EXPECT_NEAR(motion.displacement(n, 2), 0, 1e-12);
         // Two faces around the folded ones, and no further.
         EXPECT_LT((c.mesh.points.row(n) - Row(4, 4, 2)).cwiseAbs().maxCoeff(), 4);
-      }
-      else
-      {
-        EXPECT_EQ(motion.displacement.row(n), before.row(n));
       }
     }
   }
@@ -197,12 +187,13 @@ TEST(SurfaceSmoothing, KeepsToTheTarget)
                                       x[0] * std::sin(angle) + x[1] * std::cos(angle), x[2]) -
                                     x;
   ASSERT_FALSE(c.quality(motion).folded.empty());
-  const SurfaceSmoothing report =
-    smoothSurfaces(c.faces, c.geometry, std::make_unique<Cylinder>().get(), motion, c.monitor);
+  const Points before = motion.moved();
+  smoothSurfaces(c.faces, c.geometry, std::make_unique<Cylinder>().get(), motion, c.monitor);
   EXPECT_TRUE(c.quality(motion).folded.empty());
   const Points moved = motion.moved();
-  for (Index node : report.moved)
+  for (Index node : c.faces.nodes)
   {
-    EXPECT_NEAR(moved.row(node).head<2>().norm(), 1, 1e-12);
+    EXPECT_TRUE(moved.row(node) == before.row(node) ||
+                std::abs(moved.row(node).head<2>().norm() - 1) < 1e-12);
   }
 }

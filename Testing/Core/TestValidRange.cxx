@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Valid ranges against bisection with the measure of quality, on random motions.
-#include "Mesh/Topology.h"
 #include "Meshes.h"
 #include "Motions.h"
 #include "Quality/PolynomialRoot.h"
-#include "Quality/ScaledJacobian.h"
 #include "Quality/ValidRange.h"
-#include "RandomMeshes.h"
 #include "Support/Error.h"
 #include "ValidRangeCases.h"
 #include "WatchingMonitor.h"
@@ -24,33 +21,11 @@ constexpr int Cases = 200;
 
 struct Case : RangeCase
 {
-  Points first, second;
-
   double bisected(double sign) const
   {
     return sign * bisectedEnd([this](double s) { return this->isValid(s); }, sign, 0.005, 5);
   }
 };
-
-/// A random motion of a mesh of a few cells, some of them mirrored.
-void makeCase(Case& result, const std::string& kind, bool isRotation, int number)
-{
-  std::mt19937 random(meshes::seed() + 1000 * number);
-  std::uniform_real_distribution<double> one(-1, 1);
-  Mesh& mesh = result.mesh;
-  mesh = meshes::randomMesh(kind, number, random);
-  const auto noise = [&](double amount)
-  { return meshes::noise(mesh.points.rows(), amount, random); };
-  result.orientation = cellSigns(mesh, connectedComponents(mesh));
-  result.first = noise(isRotation ? .5 : 1);
-  result.second = noise(.5);
-  result.motion = { &mesh.points, &result.first, {} };
-  if (isRotation)
-  {
-    result.motion = { &mesh.points, nullptr,
-      { { &result.first, &result.second, 1 + one(random) / 2 } } };
-  }
-}
 
 class ValidRanges : public testing::TestWithParam<std::tuple<std::string, bool>>
 {
@@ -66,15 +41,15 @@ TEST_P(ValidRanges, AreThoseOfBisection)
   {
     SCOPED_TRACE("case " + std::to_string(number) + ", seed " + std::to_string(meshes::seed()));
     Case problem;
-    makeCase(problem, kind, isRotation, number);
+    std::mt19937 random(meshes::seed() + 1000 * number);
+    problem.mesh = meshes::randomMesh(kind, number, random); // some are mirrored
+    problem.moveAtRandom(isRotation, random);
     if (!problem.isValid(0))
     {
       continue;
     }
     ++made;
-    Monitor monitor;
-    const ValidRange range =
-      validRange(problem.mesh, problem.motion, problem.orientation, {}, monitor);
+    const ValidRange range = problem.range();
     ASSERT_FALSE(range.isEmpty);
     const double low = problem.bisected(-1), high = problem.bisected(1);
     bothFinite += std::isfinite(range.lowest) && std::isfinite(range.highest);
@@ -98,11 +73,7 @@ TEST_P(ValidRanges, AreThoseOfBisection)
     EXPECT_EQ(range.highestCell >= 0, std::isfinite(range.highest));
     for (int threads : { 2, 3 })
     {
-      meshes::ThreadedMonitor threaded(threads);
-      const ValidRange again =
-        validRange(problem.mesh, problem.motion, problem.orientation, {}, threaded);
-      EXPECT_EQ(again.lowest, range.lowest);
-      EXPECT_EQ(again.highest, range.highest);
+      problem.expectRangeInThreads(range, threads);
     }
   }
   EXPECT_EQ(made, Cases);
@@ -145,8 +116,7 @@ TEST(ValidRange, OfACubeThatIsFlattened)
   problem.first = Points::Zero(problem.mesh.points.rows(), 3);
   problem.first.col(2) = -.25 * problem.mesh.points.col(2);
   problem.motion = { &problem.mesh.points, &problem.first, {} };
-  Monitor monitor;
-  ValidRange range = validRange(problem.mesh, problem.motion, {}, {}, monitor);
+  ValidRange range = problem.range();
   EXPECT_NEAR(range.highest, 4, 1e-11);
   EXPECT_LE(range.highest, 4);
   EXPECT_EQ(range.highestCell, 0);
@@ -160,14 +130,14 @@ TEST(ValidRange, OfACubeThatIsFlattened)
   problem.first.col(2).setZero();
   second *= -1;
   second.col(2).setZero();
-  const NodeMotion turn = { &problem.mesh.points, nullptr, { { &problem.first, &second, 1 } } };
-  range = validRange(problem.mesh, turn, {}, {}, monitor);
+  problem.motion = { &problem.mesh.points, nullptr, { { &problem.first, &second, 1 } } };
+  range = problem.range();
   EXPECT_EQ(range.highest, HUGE_VAL);
   EXPECT_EQ(range.lowest, -HUGE_VAL);
 
   // Inverted at 0.
   problem.mesh.points.row(0) << 5, 5, 5;
-  range = validRange(problem.mesh, problem.motion, {}, {}, monitor);
+  range = problem.range();
   EXPECT_TRUE(range.isEmpty);
   EXPECT_TRUE(std::isnan(range.lowest) && std::isnan(range.highest));
   EXPECT_EQ(range.lowestCell, 0);
@@ -183,8 +153,7 @@ TEST(ValidRange, EndsBeforeAllEdgesVanishTogether)
     problem.mesh.points += .2 * meshes::noise(8, 1, random);
     problem.first = (-problem.mesh.points).rowwise() + problem.mesh.points.row(0);
     problem.motion = { &problem.mesh.points, &problem.first, {} };
-    Monitor monitor;
-    const ValidRange range = validRange(problem.mesh, problem.motion, {}, {}, monitor);
+    const ValidRange range = problem.range();
     EXPECT_LE(range.highest, 1) << "seed " << meshes::seed() << ", trial " << trial;
     EXPECT_GT(range.highest, 1 - 1e-9); // a triple root
     EXPECT_TRUE(problem.isValid((1 - 1e-9) * range.highest));

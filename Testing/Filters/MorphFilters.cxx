@@ -94,6 +94,20 @@ const std::vector<MorphFilter>& morphFilters()
   return filters;
 }
 
+vtkSmartPointer<vtkMorphAlgorithm> MorphFilter::of(
+  vtkDataObject* mesh, vtkDataObject* boundary) const
+{
+  auto filter = this->make();
+  filter->SetInputDataObject(mesh);
+  filter->SetBoundaryData(boundary);
+  return filter;
+}
+
+vtkSmartPointer<vtkMorphAlgorithm> MorphFilter::of(vtkUnstructuredGrid* grid, const Map& map) const
+{
+  return this->of(grid, boundary(grid, map));
+}
+
 std::ostream& operator<<(std::ostream& stream, const MorphFilter& filter)
 {
   return stream << filter.name;

@@ -123,9 +123,7 @@ TEST_P(CellStorage, EveryStorageGivesTheSameMeshAndKeepsWhatIsPrepared)
   const auto boundary = grids::boundary(grid, grids::twist);
   const auto run = [&](vtkUnstructuredGrid* input, vtkPolyData* moved)
   {
-    auto filter = GetParam().make();
-    filter->SetInputData(input);
-    filter->SetBoundaryData(moved);
+    auto filter = GetParam().of(input, moved);
     filter->Update();
     return filter;
   };

@@ -273,17 +273,7 @@ TEST(ClassifyBoundary, OneErrorAndNoOutput)
     change(grid);
     return grid;
   };
-  const auto addNumbers = [](
-                            vtkDataSetAttributes* data, const char* name, vtkIdType n, double value)
-  {
-    vtkNew<vtkDoubleArray> array;
-    array->SetName(name);
-    for (vtkIdType i = 0; i < n; ++i)
-    {
-      array->InsertNextValue(value);
-    }
-    data->AddArray(array);
-  };
+  using grids::addNumbers;
   struct Case
   {
     vtkSmartPointer<vtkDataObject> Input;
@@ -333,8 +323,7 @@ TEST(ClassifyBoundary, OneErrorAndNoOutput)
     filter->SetInputDataObject(c.Input);
     filter->SetSurfaceIdArray(c.SurfaceIds);
     filter->Update();
-    ASSERT_EQ(listener.Errors.size(), 1u);
-    EXPECT_NE(listener.Errors[0].find(c.Telling), std::string::npos) << listener.Errors[0];
+    listener.ExpectError(c.Telling);
     EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 0);
     EXPECT_EQ(filter->GetSurfaces()->GetNumberOfPoints(), 0);
     EXPECT_EQ(filter->GetCurves()->GetNumberOfPoints(), 0);

@@ -344,9 +344,7 @@ TEST_F(CompareMorphMethods, AMessageComesOnceARun)
   grids::Listener listener(this->Filter);
   this->Filter->Update();
   EXPECT_EQ(this->Rows(0), 5);
-  ASSERT_EQ(listener.Warnings.size(), 1u);
-  EXPECT_NE(listener.Warnings[0].find("FEMWARP, Absolute, step 0: "), std::string::npos)
-    << listener.Warnings[0];
+  listener.ExpectWarning("FEMWARP, Absolute, step 0: ");
 }
 
 TEST_F(CompareMorphMethods, ErrorsGiveEmptyTables)
@@ -356,8 +354,7 @@ TEST_F(CompareMorphMethods, ErrorsGiveEmptyTables)
     grids::Listener listener(this->Filter);
     this->Filter->Modified();
     this->Filter->Update();
-    ASSERT_EQ(listener.Errors.size(), 1u);
-    EXPECT_NE(listener.Errors[0].find(text), std::string::npos) << listener.Errors[0];
+    listener.ExpectError(text);
     for (int port = 0; port < 3; ++port)
     {
       EXPECT_EQ(this->Rows(port), 0);

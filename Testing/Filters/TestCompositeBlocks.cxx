@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What composite data may hold: bodies in contact, cracks, side sets, structured blocks, nothing at
 // all, and blocks that cannot be read.
+#include "../Core/BoundaryShapes.h"
 #include "BlockGrids.h"
 #include "DisplacedBoundaries.h"
 
@@ -131,17 +132,6 @@ vtkSmartPointer<vtkMorphMesh> lifting(vtkDataObject* data)
   return filter;
 }
 
-void markLeft(vtkDataSet* data)
-{
-  vtkNew<vtkDoubleArray> left;
-  left->SetName("Left");
-  for (vtkIdType i = 0; i < data->GetNumberOfPoints(); ++i)
-  {
-    left->InsertNextValue(data->GetPoint(i)[0] == 0);
-  }
-  data->GetPointData()->AddArray(left);
-}
-
 /// Its blocks with the array that lifting() wants.
 template <typename Data>
 Data marked(Data data)
@@ -150,7 +140,7 @@ Data marked(Data data)
   {
     if (auto* set = vtkDataSet::SafeDownCast(leaf))
     {
-      markLeft(set);
+      grids::mark(set, "Left", [](const Row& x) { return x[0] == 0; });
     }
   }
   return data;
@@ -180,13 +170,10 @@ vtkIdType boundaryFaces(vtkDataObject* data, int coincident)
 std::string errorOf(vtkDataObject* data)
 {
   vtkNew<vtkExtractMorphBoundary> extract;
-  grids::Listener listener(extract);
   extract->SetInputDataObject(data);
-  extract->Update();
+  const std::string error = grids::errorOf(extract);
   EXPECT_EQ(extract->GetOutput()->GetNumberOfPoints(), 0);
-  EXPECT_EQ(listener.Errors.size(), 1u);
-  EXPECT_TRUE(listener.ExecutiveErrors.empty());
-  return listener.Errors.empty() ? std::string() : listener.Errors[0];
+  return error;
 }
 }
 
@@ -250,28 +237,18 @@ TEST(CompositeBlocks, ContradictoryIdsAreToldAndPositionsCount)
   extract->SetInputDataObject(data);
   extract->Update();
   EXPECT_EQ(extract->GetOutput()->GetNumberOfCells(), 40);
-  ASSERT_EQ(listener.Warnings.size(), 1u);
-  EXPECT_NE(listener.Warnings[0].find("global ids do not number one mesh"), std::string::npos);
+  listener.ExpectWarning("global ids do not number one mesh");
 }
 
 TEST(CompositeBlocks, ACrackInsideABlockStaysOpen)
 {
   // One block of two bodies that touch, and a third one that touches both from above.
-  morph::Mesh cracked = meshes::hexes(1, 1, 1), other = cracked;
-  other.points.rowwise() += Row(1, 0, 0);
-  morph::Mesh both = cracked;
-  both.points.conservativeResize(16, 3);
-  both.points.bottomRows(8) = other.points;
-  std::vector<morph::Index> nodes(other.connectivity);
-  for (morph::Index& node : nodes)
-  {
-    node += 8;
-  }
-  meshes::add(both, VTK_HEXAHEDRON, nodes);
-  auto data = blocks::multiBlock({ grids::make(both), box(2, 1, 1, Row(0, 0, 1)) });
+  const morph::Mesh body = meshes::hexes(1, 1, 1);
+  auto both = grids::make(shapes::together(body, meshes::shifted(body, Row(1, 0, 0))));
+  auto data = blocks::multiBlock({ both, box(2, 1, 1, Row(0, 0, 1)) });
   // Of 24 quads the two pairs between the blocks are inside; the two sides of the crack are not.
   EXPECT_EQ(boundaryFaces(data, vtkMorphAlgorithm::COINCIDENT_POINTS_MERGE), 6 + 6 + 10 - 4);
-  auto mirrored = blocks::multiBlock({ box(2, 1, 1, Row(0, 0, 1)), grids::make(both) });
+  auto mirrored = blocks::multiBlock({ box(2, 1, 1, Row(0, 0, 1)), both });
   EXPECT_EQ(boundaryFaces(mirrored, vtkMorphAlgorithm::COINCIDENT_POINTS_MERGE), 6 + 6 + 10 - 4);
 }
 
@@ -282,17 +259,9 @@ TEST(CompositeBlocks, ACrackThroughTwoBlocksStaysOpen)
   const auto pair = [](double y, bool mirrored)
   {
     const Row left(0, y, 0), right(1, y, 0);
-    morph::Mesh a = meshes::hexes(1, 1, 1), both = a;
-    both.points.conservativeResize(16, 3);
-    both.points.topRows(8) = a.points.rowwise() + (mirrored ? right : left);
-    both.points.bottomRows(8) = a.points.rowwise() + (mirrored ? left : right);
-    std::vector<morph::Index> nodes(a.connectivity);
-    for (morph::Index& node : nodes)
-    {
-      node += 8;
-    }
-    meshes::add(both, VTK_HEXAHEDRON, nodes);
-    return grids::make(both);
+    const morph::Mesh body = meshes::hexes(1, 1, 1);
+    return grids::make(shapes::together(meshes::shifted(body, mirrored ? right : left),
+      meshes::shifted(body, mirrored ? left : right)));
   };
   for (const bool mirrored : { false, true })
   {
@@ -487,7 +456,7 @@ TEST(CompositeBlocks, StructuredBlocksMove)
   EXPECT_EQ(boundaryFaces(data, 0), 2 * 4 + 4 * 16);
 
   auto whole = box(8, 2, 2);
-  markLeft(whole);
+  grids::mark(whole, "Left", [](const Row& x) { return x[0] == 0; });
   auto expected = lifting(whole);
   auto filter = lifting(data);
   expected->Update();
@@ -590,7 +559,7 @@ TEST(CompositeBlocks, CellsOfTwoBlocksAreOne)
 TEST(CompositeBlocks, FlagsOfThreeComponentsAreNoGhosts)
 {
   auto whole = box(2, 2, 2);
-  markLeft(whole);
+  grids::mark(whole, "Left", [](const Row& x) { return x[0] == 0; });
   vtkNew<vtkUnsignedCharArray> flags;
   flags->SetName(vtkDataSetAttributes::GhostArrayName());
   flags->SetNumberOfComponents(3);
@@ -611,7 +580,7 @@ TEST(CompositeBlocks, FlagsOfThreeComponentsAreNoGhosts)
 TEST(CompositeBlocks, EmptyBlocksAndOneBlock)
 {
   auto whole = box(2, 2, 2);
-  markLeft(whole);
+  grids::mark(whole, "Left", [](const Row& x) { return x[0] == 0; });
   auto expected = lifting(whole);
   expected->Update();
   for (const auto& data : { withBlocks({ { "only", whole } }),
@@ -734,9 +703,7 @@ TEST(CompositeBlocks, SelectionsOfBlocksMove)
     filter->SetDisplacementToVector();
     filter->SetVector(0, -0.2, 0);
     filter->SetSurroundings(0);
-    grids::Listener listener(filter);
-    filter->Update();
-    EXPECT_TRUE(listener.Errors.empty()) << listener.Errors[0];
+    grids::update(filter);
     vtkDataObject* output = filter->GetOutputDataObject(0);
     const morph::Points a = pointsOf(output, 0), b = pointsOf(output, 1);
     EXPECT_EQ(b.row(0), Row(2, -0.2, 0));

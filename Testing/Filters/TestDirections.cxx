@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Arrays that give directions, in a mesh that turns.
+#include "MorphFilters.h"
 #include "TestGrids.h"
 
 #include "vtkBoundaryDisplacement.h"
@@ -65,9 +66,7 @@ grids::Map turn(double degrees)
 std::vector<std::string> warningsOf(const grids::Map& map)
 {
   auto grid = directed();
-  vtkNew<vtkFEMWarpMorph> filter;
-  filter->SetInputData(grid);
-  filter->SetBoundaryData(grids::boundary(grid, map));
+  auto filter = grids::morphed<vtkFEMWarpMorph>(grid, map);
   grids::Listener listener(filter);
   filter->Update();
   EXPECT_TRUE(listener.Errors.empty());
@@ -78,9 +77,7 @@ std::vector<std::string> warningsOf(const grids::Map& map)
 TEST(Directions, NormalsAreLeftOut)
 {
   auto grid = directed();
-  vtkNew<vtkFEMWarpMorph> volume;
-  volume->SetInputData(grid);
-  volume->SetBoundaryData(grids::boundary(grid, turn(90)));
+  auto volume = grids::morphed<vtkFEMWarpMorph>(grid, turn(90));
   vtkNew<vtkBoundaryDisplacement> displaced;
   displaced->SetInputData(grid);
   vtkNew<vtkMorphBoundary> boundary;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // FEMWARP, and what is tested of vtkMorphAlgorithm with one method; TestMorphFilters.cxx has what
 // every method does.
+#include "MorphFilters.h"
 #include "TestGrids.h"
 
 #include "vtkFEMWarpMorph.h"
@@ -16,13 +17,6 @@
 
 namespace
 {
-vtkSmartPointer<vtkFEMWarpMorph> morph1(vtkUnstructuredGrid* grid, vtkDataObject* boundary)
-{
-  auto filter = vtkSmartPointer<vtkFEMWarpMorph>::New();
-  filter->SetInputData(grid);
-  filter->SetBoundaryData(boundary);
-  return filter;
-}
 }
 
 TEST(FEMWarpMorph, QualityIsThatOfThePointsAsWritten)
@@ -32,8 +26,8 @@ TEST(FEMWarpMorph, QualityIsThatOfThePointsAsWritten)
   const grids::Map shift = [](const grids::Row& x)
   { return grids::Row(x + grids::Row::Constant(3e6 + 0.1)); };
   auto grid = grids::make(mesh);
-  auto filter = morph1(grid, grids::boundary(grid, [&](const grids::Row& x)
-                               { return shift(grids::Row(x[0], x[1] + 0.3 * x[0], x[2])); }));
+  auto filter = grids::morphed<vtkFEMWarpMorph>(
+    grid, [&](const grids::Row& x) { return shift(grids::Row(x[0], x[1] + 0.3 * x[0], x[2])); });
   filter->Update();
   const double asDouble = filter->GetMinScaledJacobian();
   EXPECT_NEAR(asDouble, 1 / std::sqrt(1.09), 1e-8);
@@ -47,7 +41,7 @@ TEST(FEMWarpMorph, GhostCellsAreNotCounted)
   auto grid = grids::hexes(3);
   vtkUnsignedCharArray* ghosts = grid->AllocateCellGhostArray();
   ghosts->SetValue(5, vtkDataSetAttributes::DUPLICATECELL);
-  auto filter = morph1(grid, grids::boundary(grid, grids::twist));
+  auto filter = grids::morphed<vtkFEMWarpMorph>(grid, grids::twist);
   filter->Update();
   auto* quality = filter->GetOutput()->GetCellData()->GetArray("ScaledJacobian");
   EXPECT_TRUE(std::isnan(quality->GetComponent(5, 0)));

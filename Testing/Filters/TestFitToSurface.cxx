@@ -323,9 +323,7 @@ TEST(FitToSurface, ATargetWhoseCornerIsNearestToAllIsAligned)
   auto grid = brick();
   auto filter = make(grid, moved(largerBrick(), away));
   filter->AlignTargetOn();
-  grids::Listener listener(filter);
-  filter->Update();
-  ASSERT_TRUE(listener.Errors.empty()) << listener.Errors[0];
+  grids::update(filter);
   EXPECT_LT(cornerError(grid, filter->GetOutput(), Row(3.6, 2.4, 1.8)), 1e-3);
 }
 
@@ -364,9 +362,7 @@ TEST(FitToSurface, ACurveThatTheTargetDoesNotHaveGoesToItsSurface)
     ridge(24, [](double x) { return x < 1.5 ? std::pow(std::cos(x * std::acos(-1.) / 3), 2) : 0; }),
     [](const Row& x) { return x; });
   auto filter = make(grid, target);
-  grids::Listener listener(filter);
-  filter->Update();
-  ASSERT_TRUE(listener.Errors.empty()) << listener.Errors[0];
+  grids::update(filter);
   EXPECT_EQ(filter->GetInvertedCells(), 0);
   EXPECT_LT(filter->GetMaxTargetDistance(), 1e-6);
   const morph::Points x = grids::points(grid), y = grids::points(filter->GetOutput());
@@ -429,10 +425,7 @@ TEST(FitToSurface, ATargetThatCannotServeIsAnErrorAndKeepsTheMesh)
   {
     SCOPED_TRACE(message);
     auto filter = make(grid, target);
-    grids::Listener listener(filter);
-    filter->Update();
-    ASSERT_EQ(listener.Errors.size(), 1u);
-    EXPECT_NE(listener.Errors[0].find(message), std::string::npos) << listener.Errors[0];
+    grids::expectError(filter, message);
     EXPECT_STREQ(filter->GetMorphStatus(), "Failed");
     EXPECT_EQ(filter->GetInvertedCells(), -1);
     EXPECT_EQ(filter->GetMaxTargetDistance(), -1);
@@ -548,8 +541,7 @@ TEST(FitToSurface, NodesGoToTheTargetAlongADirection)
   }
   filter->SetProjectVector(0, 0, 0);
   filter->Update();
-  ASSERT_EQ(listener.Errors.size(), 1u);
-  EXPECT_NE(listener.Errors[0].find("`ProjectVector` has no length"), std::string::npos);
+  listener.ExpectError("`ProjectVector` has no length");
 }
 
 TEST(FitToSurface, ATargetIsOrientedByWhatMovesAlone)
@@ -574,9 +566,7 @@ TEST(FitToSurface, NodesThatMissTheTargetAlongADirectionFollowTheOthers)
   grids::Listener listener(filter);
   filter->Update();
   ASSERT_TRUE(listener.Errors.empty()) << listener.Errors[0];
-  ASSERT_EQ(listener.Warnings.size(), 1u);
-  EXPECT_NE(
-    listener.Warnings[0].find("within `TargetReach` along the direction"), std::string::npos);
+  listener.ExpectWarning("within `TargetReach` along the direction");
   EXPECT_NEAR(filter->GetMinScaledJacobian(), 1, 0.2);
   // To its very rim, in single precision, nodes are on it.
   auto exact = make(grid, lid(3.4, 0));
@@ -597,8 +587,7 @@ TEST(FitToSurface, WithoutATargetTheBoundaryIsShown)
   EXPECT_STREQ(filter->GetMorphStatus(), "None");
   filter->SetMovingToEverything();
   filter->Update();
-  ASSERT_EQ(listener.Errors.size(), 1u);
-  EXPECT_NE(listener.Errors[0].find("There is no target"), std::string::npos) << listener.Errors[0];
+  listener.ExpectError("There is no target");
 }
 
 TEST(FitToSurface, NodesOutOfReachAreNamedAndTheResultIsKeptUntilTheTargetChanges)

@@ -10,11 +10,16 @@
 #include <vtkCellData.h>
 #include <vtkDoubleArray.h>
 #include <vtkExecutive.h>
+#include <vtkFieldData.h>
 #include <vtkIdList.h>
 #include <vtkIdTypeArray.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
+#include <vtkStringArray.h>
+#include <vtkUnsignedCharArray.h>
+
+#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
@@ -138,6 +143,88 @@ void addVectors(vtkDataSet* data, const char* name, const Points& vectors)
   data->GetPointData()->AddArray(array);
 }
 
+void addNumbers(
+  vtkDataSetAttributes* data, const char* name, vtkIdType tuples, double value, int components)
+{
+  vtkNew<vtkDoubleArray> array;
+  array->SetName(name);
+  array->SetNumberOfComponents(components);
+  array->SetNumberOfTuples(tuples);
+  array->Fill(value);
+  data->AddArray(array);
+}
+
+void mark(vtkDataSet* data, const char* name, const std::function<bool(const Row&)>& is)
+{
+  vtkNew<vtkUnsignedCharArray> array;
+  array->SetName(name);
+  for (vtkIdType i = 0; i < data->GetNumberOfPoints(); ++i)
+  {
+    array->InsertNextValue(is(Eigen::Map<const Row>(data->GetPoint(i))));
+  }
+  data->GetPointData()->AddArray(array);
+}
+
+void markCells(vtkDataSet* data, const char* name, const std::function<bool(const Row&)>& is)
+{
+  vtkNew<vtkUnsignedCharArray> array;
+  array->SetName(name);
+  for (vtkIdType c = 0; c < data->GetNumberOfCells(); ++c)
+  {
+    double b[6];
+    data->GetCellBounds(c, b);
+    array->InsertNextValue(is(Row(b[0] + b[1], b[2] + b[3], b[4] + b[5]) / 2));
+  }
+  data->GetCellData()->AddArray(array);
+}
+
+void addTexts(vtkDataSet* data, const char* name, const std::vector<std::string>& texts)
+{
+  vtkSmartPointer<vtkStringArray> array =
+    vtkStringArray::SafeDownCast(data->GetFieldData()->GetAbstractArray(name));
+  if (!array)
+  {
+    array = vtkSmartPointer<vtkStringArray>::New();
+    array->SetName(name);
+    data->GetFieldData()->AddArray(array);
+  }
+  for (const std::string& text : texts)
+  {
+    array->InsertNextValue(text);
+  }
+}
+
+std::string errorOf(vtkAlgorithm* filter)
+{
+  const Listener listener(filter);
+  filter->Update();
+  EXPECT_EQ(listener.Errors.size(), 1u);
+  EXPECT_TRUE(listener.ExecutiveErrors.empty()) << listener.ExecutiveErrors[0];
+  return listener.Errors.empty() ? std::string() : listener.Errors[0];
+}
+
+void expectError(vtkAlgorithm* filter, const std::string& part)
+{
+  const Listener listener(filter);
+  filter->Update();
+  listener.ExpectError(part);
+}
+
+void expectWarning(vtkAlgorithm* filter, const std::string& part)
+{
+  const Listener listener(filter);
+  filter->Update();
+  EXPECT_TRUE(listener.Errors.empty()) << listener.Errors[0];
+  listener.ExpectWarning(part);
+}
+
+void update(vtkAlgorithm* filter)
+{
+  const Listener listener(filter);
+  filter->Update();
+  EXPECT_TRUE(listener.Errors.empty()) << listener.Errors[0];
+}
+
 Points points(vtkPointSet* data)
 {
   Points result(data->GetNumberOfPoints(), 3);
@@ -172,6 +259,15 @@ Row twist(const Row& x)
     c * x[0] - s * x[1] + 0.02 * x[1] * x[1], s * x[0] + c * x[1], x[2] + 0.05 * x[0] * x[0]);
 }
 
+namespace
+{
+void expectOne(const std::vector<std::string>& texts, const std::string& part)
+{
+  ASSERT_EQ(texts.size(), 1u) << "instead of one with " << part;
+  EXPECT_NE(texts[0].find(part), std::string::npos) << part << " is not in " << texts[0];
+}
+}
+
 struct Listener::Tags
 {
   vtkSmartPointer<vtkAlgorithm> Filter;
@@ -199,6 +295,16 @@ Listener::Listener(vtkAlgorithm* filter)
   filter->AddObserver(vtkCommand::ErrorEvent, this->Observers->Command);
   filter->AddObserver(vtkCommand::WarningEvent, this->Observers->Command);
   filter->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, this->Observers->ExecutiveCommand);
+}
+
+void Listener::ExpectError(const std::string& part) const
+{
+  expectOne(this->Errors, part);
+}
+
+void Listener::ExpectWarning(const std::string& part) const
+{
+  expectOne(this->Warnings, part);
 }
 
 Listener::~Listener()

@@ -12,6 +12,7 @@
 #include <vector>
 
 class vtkAlgorithm;
+class vtkDataSetAttributes;
 
 /// Grids and boundaries for the tests of the filters, and what a filter says.
 namespace grids
@@ -33,6 +34,14 @@ vtkSmartPointer<vtkPolyData> boundary(vtkUnstructuredGrid* grid, const Map& map)
 vtkSmartPointer<vtkPolyData> cloud(const morph::Points& points);
 void addIds(vtkDataSet* data, const char* name, const std::vector<morph::Index>& ids);
 void addVectors(vtkDataSet* data, const char* name, const morph::Points& vectors);
+/// Equal numbers.
+void addNumbers(
+  vtkDataSetAttributes* data, const char* name, vtkIdType tuples, double value, int components = 1);
+/// A point array, or a cell array by the middle of bounds: 1 where `is` holds, and 0.
+void mark(vtkDataSet* data, const char* name, const std::function<bool(const Row&)>& is);
+void markCells(vtkDataSet* data, const char* name, const std::function<bool(const Row&)>& is);
+/// Appends to an array of the field data, as `SurfaceNames`.
+void addTexts(vtkDataSet* data, const char* name, const std::vector<std::string>& texts);
 
 morph::Points points(vtkPointSet* data);
 /// `map` applied to each row.
@@ -42,12 +51,26 @@ Row affine(const Row& x);
 /// A twist about the z axis and a bulge: not affine.
 Row twist(const Row& x);
 
+/// Updates the filter. Expects no error; one error, or one warning and no error, with this part.
+void update(vtkAlgorithm* filter);
+void expectError(vtkAlgorithm* filter, const std::string& part);
+void expectWarning(vtkAlgorithm* filter, const std::string& part);
+/// Updates the filter. Returns its error: it is the only one, and the executive has none.
+std::string errorOf(vtkAlgorithm* filter);
+
 /// Counts the errors and warnings of one filter while it lives, and keeps them off the console.
 class Listener
 {
 public:
   explicit Listener(vtkAlgorithm* filter);
   ~Listener();
+
+  /// Expects one error, or warning, so far, and that it has this part.
+  ///@{
+  void ExpectError(const std::string& part) const;
+  void ExpectWarning(const std::string& part) const;
+  ///@}
+
   std::vector<std::string> Errors;
   std::vector<std::string> Warnings;
   std::vector<std::string> ExecutiveErrors; ///< what VTK's executive adds after a return of 0

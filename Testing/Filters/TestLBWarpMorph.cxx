@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "MorphFilters.h"
 #include "TestGrids.h"
 
 #include "vtkLBWarpMorph.h"
@@ -10,14 +11,6 @@
 
 namespace
 {
-vtkSmartPointer<vtkLBWarpMorph> morph1(vtkUnstructuredGrid* grid, vtkDataObject* boundary)
-{
-  auto filter = vtkSmartPointer<vtkLBWarpMorph>::New();
-  filter->SetInputData(grid);
-  filter->SetBoundaryData(boundary);
-  return filter;
-}
-
 /// A grid of 6 x 6 x 6 hexahedra with one node shifted out of its neighbors' hull.
 vtkSmartPointer<vtkUnstructuredGrid> withNodeOutside()
 {
@@ -38,7 +31,7 @@ TEST(LBWarpMorph, FreeNodesStayInTheBoundarysHull)
 {
   auto grid = grids::hexes(6);
   auto boundary = grids::boundary(grid, grids::twist);
-  auto filter = morph1(grid, boundary);
+  auto filter = grids::morphed<vtkLBWarpMorph>(grid, boundary);
   filter->Update();
   EXPECT_GT(filter->GetSolverIterations(), 0);
   const morph::Points moved = grids::points(filter->GetOutput()), hull = grids::points(boundary);
@@ -52,23 +45,16 @@ TEST(LBWarpMorph, FreeNodesStayInTheBoundarysHull)
 TEST(LBWarpMorph, OutsideHullIsAnErrorOrRelaxed)
 {
   auto grid = withNodeOutside();
-  auto filter = morph1(grid, grids::boundary(grid, grids::affine));
+  auto filter = grids::morphed<vtkLBWarpMorph>(grid, grids::affine);
   EXPECT_EQ(filter->GetOutsideHull(), vtkLBWarpMorph::OUTSIDE_HULL_ERROR);
   {
-    grids::Listener listener(filter);
-    filter->Update();
-    ASSERT_EQ(listener.Errors.size(), 1u);
-    EXPECT_NE(listener.Errors[0].find("node ids 171."), std::string::npos) << listener.Errors[0];
+    grids::expectError(filter, "node ids 171.");
     EXPECT_STREQ(filter->GetMorphStatus(), "Failed");
   }
   filter->SetOutsideHullToRelax();
   // A node outside its neighbors: cells are inverted, and that is not the point here.
   filter->SetValidityToNone();
-  grids::Listener listener(filter);
-  filter->Update();
-  EXPECT_TRUE(listener.Errors.empty());
-  ASSERT_EQ(listener.Warnings.size(), 1u);
-  EXPECT_NE(listener.Warnings[0].find("171"), std::string::npos) << listener.Warnings[0];
+  grids::expectWarning(filter, "171");
   EXPECT_EQ(filter->GetOutsideHullNodes(), 1);
   EXPECT_EQ(filter->GetTwoRingNodes(), 1);
   EXPECT_EQ(filter->GetAffineNodes(), 0);

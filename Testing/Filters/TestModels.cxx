@@ -44,9 +44,7 @@ TEST_P(Models, AffineMotionsComeOutExactly)
       continue; // too slow for every run; its own tests cover random sets of sites
     }
     SCOPED_TRACE(method.name);
-    auto filter = method.make();
-    filter->SetInputData(grid);
-    filter->SetBoundaryData(boundary);
+    auto filter = method.of(grid, boundary);
     filter->Update();
     EXPECT_LT((grids::points(filter->GetOutput()) - expected).cwiseAbs().maxCoeff(),
       1e-10 * meshes::size(expected));

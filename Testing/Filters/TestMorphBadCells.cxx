@@ -167,9 +167,7 @@ TEST_F(MorphBadCells, ComeFromEveryFilter)
   for (const grids::MorphFilter& method : grids::morphFilters())
   {
     SCOPED_TRACE(method.name);
-    auto filter = method.make();
-    filter->SetInputData(this->Grid);
-    filter->SetBoundaryData(grids::boundary(this->Grid, waves));
+    auto filter = method.of(this->Grid, waves);
     filter->SetValidityToNone();
     filter->Update();
     expectBadCellsOf(filter);

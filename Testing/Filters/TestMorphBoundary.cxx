@@ -283,8 +283,7 @@ TEST(MorphBoundary, FoldedFacesAreNamed)
   filter->Update();
   EXPECT_LT(filter->GetMinScaledJacobian(), 0);
   EXPECT_GT(filter->GetFoldedFaces(), 0);
-  ASSERT_EQ(listener.Warnings.size(), 1u);
-  EXPECT_NE(listener.Warnings[0].find("folded"), std::string::npos) << listener.Warnings[0];
+  listener.ExpectWarning("folded");
   EXPECT_TRUE(listener.Errors.empty());
 }
 
@@ -493,12 +492,7 @@ TEST(MorphBoundary, AnOpenTargetIsProjectedOntoWhereItIs)
   auto filter = morpher(grid, grids::boundary(grid, same));
   filter->SetTargetData(target);
   filter->SetTargetReach(0.15 / std::sqrt(76.));
-  grids::Listener listener(filter);
-  filter->Update();
-  EXPECT_TRUE(listener.Errors.empty());
-  ASSERT_EQ(listener.Warnings.size(), 1u);
-  EXPECT_NE(listener.Warnings[0].find("no place within `TargetReach`"), std::string::npos)
-    << listener.Warnings[0];
+  grids::expectWarning(filter, "no place within `TargetReach`");
   EXPECT_EQ(filter->GetProjectedPoints(), 3 * 5);
   EXPECT_EQ(filter->GetUnprojectedPoints(), 2 * 5 + 25 + 4 * 5);
   const morph::Points x = grids::points(filter->GetOutput());
@@ -516,16 +510,7 @@ TEST(MorphBoundary, AnOpenTargetIsProjectedOntoWhereItIs)
 TEST(MorphBoundary, ArraysOfTheWrongTypeOrLength)
 {
   auto grid = grids::hexes(2);
-  const auto addNumbers =
-    [](vtkDataSetAttributes* data, const char* name, int components, vtkIdType n, double value)
-  {
-    vtkNew<vtkDoubleArray> array;
-    array->SetName(name);
-    array->SetNumberOfComponents(components);
-    array->SetNumberOfTuples(n);
-    array->Fill(value);
-    data->AddArray(array);
-  };
+  using grids::addNumbers;
   using Change =
     std::function<void(vtkMorphBoundary*, vtkUnstructuredGrid * grid, vtkPolyData * moved)>;
   const std::vector<std::pair<std::string, Change>> cases = {
@@ -533,33 +518,33 @@ TEST(MorphBoundary, ArraysOfTheWrongTypeOrLength)
     { "7 tuples for 8 cells",
       [&](auto* filter, auto* g, auto*)
       {
-        addNumbers(g->GetCellData(), "Side", 1, 7, 1);
+        addNumbers(g->GetCellData(), "Side", 7, 1);
         filter->SetSurfaceIdArray("Side");
       } },
     { "components",
       [&](auto* filter, auto* g, auto*)
       {
-        addNumbers(g->GetCellData(), "Side", 3, 8, 1);
+        addNumbers(g->GetCellData(), "Side", 8, 1, 3);
         filter->SetSurfaceIdArray("Side");
       } },
     { "26 tuples for 27 points",
       [&](auto*, auto* g, auto*)
       {
-        addNumbers(g->GetPointData(), "GeometryDimension", 1, 26, 2);
-        addNumbers(g->GetPointData(), "GeometryId", 1, 27, 1);
+        addNumbers(g->GetPointData(), "GeometryDimension", 26, 2);
+        addNumbers(g->GetPointData(), "GeometryId", 27, 1);
       } },
     { "Gone", [](auto* filter, auto*, auto*) { filter->SetBoundaryIdArray("Gone"); } },
     { "Gone", [](auto* filter, auto*, auto*) { filter->SetDisplacementArray("Gone"); } },
     { "5 ",
       [&](auto* filter, auto*, auto* moved)
       {
-        addNumbers(moved->GetPointData(), "Move", 3, 5, 1);
+        addNumbers(moved->GetPointData(), "Move", 5, 1, 3);
         filter->SetDisplacementArray("Move");
       } },
     { "components",
       [&](auto* filter, auto*, auto* moved)
       {
-        addNumbers(moved->GetPointData(), "Move", 2, 26, 1);
+        addNumbers(moved->GetPointData(), "Move", 26, 1, 2);
         filter->SetDisplacementArray("Move");
       } },
   };
@@ -573,10 +558,7 @@ TEST(MorphBoundary, ArraysOfTheWrongTypeOrLength)
     ASSERT_EQ(filter->GetOutput()->GetNumberOfPoints(), 26);
     change(filter, own, moved);
     filter->Modified();
-    grids::Listener listener(filter);
-    filter->Update();
-    ASSERT_EQ(listener.Errors.size(), 1u);
-    EXPECT_NE(listener.Errors[0].find(telling), std::string::npos) << listener.Errors[0];
+    grids::expectError(filter, telling);
     EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 0);
     EXPECT_EQ(own->GetNumberOfPoints(), 27);
     EXPECT_EQ(moved->GetNumberOfPoints(), 26);
@@ -614,8 +596,7 @@ TEST(MorphBoundary, OneErrorAndNoOutput)
     filter->SetTargetData(c.Target);
     grids::Listener listener(filter);
     filter->Update();
-    ASSERT_EQ(listener.Errors.size(), 1u);
-    EXPECT_NE(listener.Errors[0].find(c.Telling), std::string::npos) << listener.Errors[0];
+    listener.ExpectError(c.Telling);
     EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 0);
     EXPECT_EQ(filter->GetMinScaledJacobian(), -1);
     EXPECT_EQ(filter->GetFoldedFaces(), -1);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Threads, progress, abort, and what becomes of exceptions.
+#include "MorphFilters.h"
 #include "TestGrids.h"
 
 #include "Private/Pipeline/CrewMonitor.h"
@@ -55,9 +56,7 @@ TEST(MorphExecution, ResultsDoNotDependOnTheThreads)
   for (const int threads : { 1, 2, 4, 0 })
   {
     SCOPED_TRACE(threads);
-    vtkNew<vtkFEMWarpMorph> filter;
-    filter->SetInputData(grid);
-    filter->SetBoundaryData(boundary);
+    auto filter = grids::morphed<vtkFEMWarpMorph>(grid, boundary);
     filter->SetNumberOfThreads(threads);
     filter->Update();
     if (threads == 1)
@@ -78,9 +77,7 @@ TEST(MorphExecution, TheDefaultBackendIsLeftAlone)
   const std::string before = vtkSMPTools::GetBackend();
   ASSERT_TRUE(vtkSMPTools::SetBackend("Sequential"));
   auto grid = grids::hexes(20);
-  vtkNew<vtkFEMWarpMorph> filter;
-  filter->SetInputData(grid);
-  filter->SetBoundaryData(grids::boundary(grid, grids::twist));
+  auto filter = grids::morphed<vtkFEMWarpMorph>(grid, grids::twist);
   filter->Update();
   EXPECT_STREQ(vtkSMPTools::GetBackend(), "Sequential");
   vtkSMPTools::SetBackend(before.c_str());
@@ -89,9 +86,7 @@ TEST(MorphExecution, TheDefaultBackendIsLeftAlone)
 TEST(MorphExecution, ProgressGoesUp)
 {
   auto grid = grids::hexes(16);
-  vtkNew<vtkFEMWarpMorph> filter;
-  filter->SetInputData(grid);
-  filter->SetBoundaryData(grids::boundary(grid, grids::twist));
+  auto filter = grids::morphed<vtkFEMWarpMorph>(grid, grids::twist);
   std::vector<double> values;
   OnProgress observer(filter, [&values](double value) { values.push_back(value); });
   filter->Update();
@@ -104,9 +99,7 @@ TEST(MorphExecution, ProgressGoesUp)
 TEST(MorphExecution, AbortGivesTheMeshAtRestAndNoError)
 {
   auto grid = grids::hexes(16);
-  vtkNew<vtkFEMWarpMorph> filter;
-  filter->SetInputData(grid);
-  filter->SetBoundaryData(grids::boundary(grid, grids::twist));
+  auto filter = grids::morphed<vtkFEMWarpMorph>(grid, grids::twist);
   bool stop = true;
   double last = 0;
   OnProgress observer(filter,
@@ -279,9 +272,7 @@ TEST(MorphExecution, ResultsDoNotDependOnTheBackend)
   for (const char* backend : { "Sequential", "STDThread" })
   {
     ASSERT_TRUE(vtkSMPTools::SetBackend(backend));
-    vtkNew<vtkFEMWarpMorph> filter;
-    filter->SetInputData(grid);
-    filter->SetBoundaryData(boundary);
+    auto filter = grids::morphed<vtkFEMWarpMorph>(grid, boundary);
     filter->SetNumberOfThreads(2);
     filter->Update();
     const morph::Points found = grids::points(filter->GetOutput());

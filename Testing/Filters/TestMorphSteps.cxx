@@ -336,8 +336,7 @@ TEST_F(RelativeSteps, AnErrorNamesItsStep)
   this->Filter->SetBoundaryData(grids::boundary(this->Grid,
     [](const grids::Row& x) { return grids::Row(x[0], x[1], x[2] == 4 ? 1.6 : x[2]); }));
   this->Filter->UpdateTimeStep(4);
-  ASSERT_EQ(listener.Errors.size(), 1u);
-  EXPECT_NE(listener.Errors[0].find("Step 2: "), std::string::npos) << listener.Errors[0];
+  listener.ExpectError("Step 2: ");
   EXPECT_STREQ(this->Filter->GetMorphStatus(), "Failed");
   EXPECT_TRUE(this->Result() == grids::points(this->Grid));
   // The step before it is valid.

@@ -75,9 +75,7 @@ class MorphSurface : public testing::TestWithParam<grids::MorphFilter>
 TEST_P(MorphSurface, FollowsTheMeshAndKeepsItsPolygons)
 {
   auto grid = grids::hexes(4);
-  auto filter = GetParam().make();
-  filter->SetInputData(grid);
-  filter->SetBoundaryData(grids::boundary(grid, bulge(1)));
+  auto filter = GetParam().of(grid, bulge(1));
   filter->Update();
   vtkCellArray* polygons = surfaceOf(filter)->GetPolys();
   EXPECT_EQ(surfaceOf(filter)->GetNumberOfCells(), 6 * 16);
@@ -99,9 +97,7 @@ TEST_P(MorphSurface, FollowsTheMeshAndKeepsItsPolygons)
 TEST_P(MorphSurface, HasFeatureLinesIfAsked)
 {
   auto grid = grids::hexes(4);
-  auto filter = GetParam().make();
-  filter->SetInputData(grid);
-  filter->SetBoundaryData(grids::boundary(grid, bulge(1)));
+  auto filter = GetParam().of(grid, bulge(1));
   filter->FeatureLinesOn();
   filter->Update();
   vtkPolyData* surface = surfaceOf(filter);

@@ -84,9 +84,7 @@ std::string pair(vtkBoundaryDisplacement* filter, const grids::Map& map, int axi
 /// How far displacements u of nodes with coordinate 0 and of their images are from R u.
 double deviation(vtkBoundaryDisplacement* filter, int axis, double end, const Eigen::Matrix3d& R)
 {
-  grids::Listener listener(filter);
-  filter->Update();
-  EXPECT_TRUE(listener.Errors.empty()) << listener.Errors[0];
+  grids::update(filter);
   const Points box = meshes::hexes(4, Around, 4).points;
   const Points step =
     grids::points(filter->GetOutput()) - displaced::restPositions(filter->GetOutput());

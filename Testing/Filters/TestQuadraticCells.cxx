@@ -96,15 +96,6 @@ grids::Row waves(const grids::Row& x)
   return { x[0], x[1], x[2] + 2.4 * std::sin(M_PI / 2 * x[0]) };
 }
 
-template <typename Filter>
-vtkSmartPointer<Filter> morphed(vtkUnstructuredGrid* grid, const grids::Map& map)
-{
-  auto filter = vtkSmartPointer<Filter>::New();
-  filter->SetInputData(grid);
-  filter->SetBoundaryData(grids::boundary(grid, map));
-  return filter;
-}
-
 /// How many cells have a negative determinant on a dense lattice, by VTK's functions.
 vtkIdType sampledInverted(vtkUnstructuredGrid* grid)
 {
@@ -212,7 +203,7 @@ TEST(QuadraticCells, MorphsThatInvertCellsInsideSaySo)
 {
   auto grid = curvedBrick();
   {
-    auto filter = morphed<vtkSmoothingMorph>(grid, waves);
+    auto filter = grids::morphed<vtkSmoothingMorph>(grid, waves);
     filter->SetValidityToNone();
     filter->CertifyOn();
     filter->Update();
@@ -245,7 +236,7 @@ TEST(QuadraticCells, MorphsThatInvertCellsInsideSaySo)
 TEST(QuadraticCells, InversionFreeMovesMiddleNodesUntilNoneIsInvertedInside)
 {
   auto grid = curvedBrick();
-  auto filter = morphed<vtkInversionFreeMorph>(grid, waves);
+  auto filter = grids::morphed<vtkInversionFreeMorph>(grid, waves);
   filter->CertifyOn();
   filter->Update();
   EXPECT_EQ(filter->GetInvertedCells(), 0);
@@ -262,7 +253,7 @@ TEST(QuadraticCells, SubStepsAndRepairLeaveNoneInvertedInside)
     { vtkMorphAlgorithm::VALIDITY_SUB_STEP, vtkMorphAlgorithm::VALIDITY_REPAIR })
   {
     SCOPED_TRACE(mode);
-    auto filter = morphed<vtkFEMWarpMorph>(grid, waves);
+    auto filter = grids::morphed<vtkFEMWarpMorph>(grid, waves);
     filter->SetValidity(mode);
     grids::Listener listener(filter);
     filter->Update();

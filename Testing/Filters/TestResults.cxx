@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Filters/Morphing/Results.txt against the filters: getters, field data, PrintSelf and reset.
+#include "ResultRows.h"
 #include "TestGrids.h"
 
 #include "vtkInversionFreeMorph.h"
@@ -16,199 +17,26 @@
 #include <vtkFieldData.h>
 #include <vtkNew.h>
 #include <vtkStringArray.h>
-#include <vtkVariant.h>
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <fstream>
-#include <functional>
+#include <iterator>
 #include <map>
 #include <sstream>
 
 namespace
 {
-struct Row
-{
-  std::string Name, Kind, None, Field;
-  bool IsField() const { return this->Field != "-"; }
-  bool IsAlways() const { return this->Field.back() == '*'; }
-  int Place() const { return std::stoi(this->Field); }
-};
+using result_rows::Row;
 
-/// The rows of a section, read with other means than CMake's.
-std::vector<Row> rowsOf(const std::string& section)
+/// The rows of a filter.
+std::vector<Row> rowsOf(const std::string& filter)
 {
-  std::ifstream table(MESHMORPHING_RESULTS);
   std::vector<Row> rows;
-  std::string line, current;
-  while (std::getline(table, line))
-  {
-    if (!line.empty() && line[0] == '[')
-    {
-      current = line.substr(1, line.size() - 2);
-    }
-    else if (!line.empty() && line[0] != '#' && current == section)
-    {
-      Row row;
-      std::istringstream(line) >> row.Name >> row.Kind >> row.None >> row.Field;
-      rows.push_back(row);
-    }
-  }
-  EXPECT_FALSE(rows.empty()) << section;
+  std::copy_if(result_rows::Rows.begin(), result_rows::Rows.end(), std::back_inserter(rows),
+    [&](const Row& row) { return row.Filter == filter; });
+  EXPECT_FALSE(rows.empty()) << filter;
   return rows;
-}
-
-using Getters = std::map<std::string, std::function<vtkVariant()>>;
-
-Getters gettersOf(vtkMorphAlgorithm* f)
-{
-  return { { "MorphStatus", [f] { return f->GetMorphStatus(); } },
-    { "MinScaledJacobian", [f] { return f->GetMinScaledJacobian(); } },
-    { "MeanScaledJacobian", [f] { return f->GetMeanScaledJacobian(); } },
-    { "WorstMeanScaledJacobian", [f] { return f->GetWorstMeanScaledJacobian(); } },
-    { "BoundaryMinimum", [f] { return f->GetBoundaryMinimum(); } },
-    { "InvertedCells", [f] { return f->GetInvertedCells(); } },
-    { "DegenerateCells", [f] { return f->GetDegenerateCells(); } },
-    { "InvertedBefore", [f] { return f->GetInvertedBefore(); } },
-    { "NewInvertedCells", [f] { return f->GetNewInvertedCells(); } },
-    { "CrossingFaces", [f] { return f->GetCrossingFaces(); } },
-    { "WorstCellId", [f] { return f->GetWorstCellId(); } },
-    { "SurfaceInvertedCells", [f] { return f->GetSurfaceInvertedCells(); } },
-    { "BoundaryInvertedCells", [f] { return f->GetBoundaryInvertedCells(); } },
-    { "MirroredBodies", [f] { return f->GetMirroredBodies(); } },
-    { "CertifiedCells", [f] { return f->GetCertifiedCells(); } },
-    { "UncertifiedCells", [f] { return f->GetUncertifiedCells(); } },
-    { "UndecidedCells", [f] { return f->GetUndecidedCells(); } },
-    { "LargestValidStep", [f] { return f->GetLargestValidStep(); } },
-    { "PrepareSeconds", [f] { return f->GetPrepareSeconds(); } },
-    { "EvaluateSeconds", [f] { return f->GetEvaluateSeconds(); } },
-    { "SubSteps", [f] { return f->GetSubSteps(); } },
-    { "PrepareCount", [f] { return f->GetPrepareCount(); } },
-    { "PrescribedPoints", [f] { return f->GetPrescribedPoints(); } },
-    { "UnmatchedPoints", [f] { return f->GetUnmatchedPoints(); } },
-    { "AttachedPoints", [f] { return f->GetAttachedPoints(); } },
-    { "SolverIterations", [f] { return f->GetSolverIterations(); } } };
-}
-
-Getters gettersOf(vtkMorphBoundary* f)
-{
-  return { { "MinScaledJacobian", [f] { return f->GetMinScaledJacobian(); } },
-    { "MeanScaledJacobian", [f] { return f->GetMeanScaledJacobian(); } },
-    { "FoldedFaces", [f] { return f->GetFoldedFaces(); } },
-    { "GivenPoints", [f] { return f->GetGivenPoints(); } },
-    { "FixedVertices", [f] { return f->GetFixedVertices(); } },
-    { "ProjectedPoints", [f] { return f->GetProjectedPoints(); } },
-    { "UnprojectedPoints", [f] { return f->GetUnprojectedPoints(); } },
-    { "SmoothedSurfaces", [f] { return f->GetSmoothedSurfaces(); } },
-    { "KeptSurfaces", [f] { return f->GetKeptSurfaces(); } } };
-}
-
-Getters gettersOf(vtkMorphShapes* f)
-{
-  return { { "MorphStatus", [f] { return f->GetMorphStatus(); } },
-    { "MinScaledJacobian", [f] { return f->GetMinScaledJacobian(); } },
-    { "MeanScaledJacobian", [f] { return f->GetMeanScaledJacobian(); } },
-    { "InvertedCells", [f] { return f->GetInvertedCells(); } },
-    { "DegenerateCells", [f] { return f->GetDegenerateCells(); } },
-    { "InvertedBefore", [f] { return f->GetInvertedBefore(); } },
-    { "CrossingFaces", [f] { return f->GetCrossingFaces(); } },
-    { "NewInvertedCells", [f] { return f->GetNewInvertedCells(); } },
-    { "WorstCellId", [f] { return f->GetWorstCellId(); } },
-    { "MirroredBodies", [f] { return f->GetMirroredBodies(); } },
-    { "SurfaceInvertedCells", [f] { return f->GetSurfaceInvertedCells(); } },
-    { "ValidRanges", [f] { return f->GetValidRanges(); } },
-    { "LargestFactor", [f] { return f->GetLargestFactor(); } },
-    { "InvertingDesigns", [f] { return f->GetInvertingDesigns(); } },
-    { "PrepareSeconds", [f] { return f->GetPrepareSeconds(); } },
-    { "EvaluateSeconds", [f] { return f->GetEvaluateSeconds(); } },
-    { "PrepareCount", [f] { return f->GetPrepareCount(); } },
-    { "SolveCount", [f] { return f->GetSolveCount(); } },
-    { "PrescribedPoints", [f] { return f->GetPrescribedPoints(); } },
-    { "SolverIterations", [f] { return f->GetSolverIterations(); } } };
-}
-
-Getters gettersOf(vtkScaledJacobian* f)
-{
-  return { { "MinScaledJacobian", [f] { return f->GetMinScaledJacobian(); } },
-    { "MeanScaledJacobian", [f] { return f->GetMeanScaledJacobian(); } },
-    { "MeasuredCells", [f] { return f->GetMeasuredCells(); } },
-    { "InvertedCells", [f] { return f->GetInvertedCells(); } },
-    { "DegenerateCells", [f] { return f->GetDegenerateCells(); } },
-    { "WorstCellId", [f] { return f->GetWorstCellId(); } },
-    { "UnmeasuredCells", [f] { return f->GetUnmeasuredCells(); } },
-    { "MirroredBodies", [f] { return f->GetMirroredBodies(); } },
-    { "CertifiedCells", [f] { return f->GetCertifiedCells(); } },
-    { "UncertifiedCells", [f] { return f->GetUncertifiedCells(); } },
-    { "UndecidedCells", [f] { return f->GetUndecidedCells(); } } };
-}
-
-Getters countsOf(vtkInversionFreeMorph* f)
-{
-  return { { "NewtonSteps", [f] { return f->GetNewtonSteps(); } },
-    { "BoundaryDeterminedCells", [f] { return f->GetBoundaryDeterminedCells(); } },
-    { "FoldedBoundaryCells", [f] { return f->GetFoldedBoundaryCells(); } },
-    { "LinearIterations", [f] { return f->GetLinearIterations(); } },
-    { "EnergyEvaluations", [f] { return f->GetEnergyEvaluations(); } } };
-}
-
-Getters countsOf(vtkLBWarpMorph* f)
-{
-  return { { "OutsideHullNodes", [f] { return f->GetOutsideHullNodes(); } },
-    { "TwoRingNodes", [f] { return f->GetTwoRingNodes(); } },
-    { "AffineNodes", [f] { return f->GetAffineNodes(); } },
-    { "StiffnessNodes", [f] { return f->GetStiffnessNodes(); } } };
-}
-
-Getters countsOf(vtkRadialBasisMorph* f)
-{
-  return { { "Centers", [f] { return f->GetCenters(); } },
-    { "CorrectedSites", [f] { return f->GetCorrectedSites(); } },
-    { "LargestResidualPPM", [f] { return f->GetLargestResidualPPM(); } } };
-}
-
-Getters countsOf(vtkSimplexLinearMorph* f)
-{
-  return { { "FoldedTetrahedra", [f] { return f->GetFoldedTetrahedra(); } },
-    { "ExtrapolatedNodes", [f] { return f->GetExtrapolatedNodes(); } },
-    { "AffineNodes", [f] { return f->GetAffineNodes(); } } };
-}
-
-Getters countsOf(vtkSimplexNaturalNeighborMorph* f)
-{
-  return { { "BarycentricNodes", [f] { return f->GetBarycentricNodes(); } },
-    { "ExtrapolatedNodes", [f] { return f->GetExtrapolatedNodes(); } },
-    { "WeightsStored", [f] { return f->GetWeightsStored(); } } };
-}
-
-Getters countsOf(vtkSmoothingMorph* f)
-{
-  return { { "UntangleSteps", [f] { return f->GetUntangleSteps(); } },
-    { "NewtonSteps", [f] { return f->GetNewtonSteps(); } },
-    { "BoundaryDeterminedCells", [f] { return f->GetBoundaryDeterminedCells(); } },
-    { "SmoothingPatches", [f] { return f->GetSmoothingPatches(); } },
-    { "ConditionSteps", [f] { return f->GetConditionSteps(); } },
-    { "NodesTakenBack", [f] { return f->GetNodesTakenBack(); } },
-    { "LinearIterations", [f] { return f->GetLinearIterations(); } },
-    { "EnergyEvaluations", [f] { return f->GetEnergyEvaluations(); } } };
-}
-
-void expectSameNames(const std::vector<Row>& rows, const Getters& getters)
-{
-  std::vector<std::string> named, got;
-  for (const Row& row : rows)
-  {
-    if (row.Kind != "counts")
-    {
-      named.push_back(row.Name);
-    }
-  }
-  for (const auto& getter : getters)
-  {
-    got.push_back(getter.first);
-  }
-  std::sort(named.begin(), named.end());
-  EXPECT_EQ(named, got);
 }
 
 int typeOf(const std::string& kind)
@@ -247,19 +75,14 @@ std::string asPrinted(const vtkVariant& value)
 }
 
 /// Getter, field data and line of PrintSelf of each row, after an execution.
-void expectOneValue(
-  vtkAlgorithm* filter, const std::vector<Row>& rows, const Getters& getters, bool hasResult)
+void expectOneValue(vtkAlgorithm* filter, const std::vector<Row>& rows, bool hasResult)
 {
   vtkFieldData* fields = filter->GetOutputDataObject(0)->GetFieldData();
   std::map<int, int> arrayAt; // of the places
   for (const Row& row : rows)
   {
-    if (row.Kind == "counts")
-    {
-      continue;
-    }
     SCOPED_TRACE(row.Name);
-    const vtkVariant got = getters.at(row.Name)();
+    const vtkVariant got = row.Get(filter);
     EXPECT_EQ(printed(filter, row.Name), asPrinted(got));
     int index = -1;
     vtkAbstractArray* array = fields->GetAbstractArray(row.Name.c_str(), index);
@@ -283,13 +106,13 @@ void expectOneValue(
   }
 }
 
-void expectReset(const std::vector<Row>& rows, const Getters& getters)
+void expectReset(vtkAlgorithm* filter, const std::vector<Row>& rows)
 {
   for (const Row& row : rows)
   {
-    if (row.Kind != "counts" && row.None != "kept" && row.Name != "MorphStatus")
+    if (row.None != "kept" && row.Name != "MorphStatus")
     {
-      EXPECT_EQ(getters.at(row.Name)().ToString(), row.None) << row.Name;
+      EXPECT_EQ(row.Get(filter).ToString(), row.None) << row.Name;
     }
   }
 }
@@ -308,9 +131,7 @@ TEST(Results, OfAMorphAreGetterFieldAndLine)
   const std::vector<Row> rows = rowsOf("vtkMorphAlgorithm");
   auto grid = grids::hexes(4);
   vtkNew<vtkLBWarpMorph> filter;
-  const Getters getters = gettersOf(filter.Get());
-  expectSameNames(rows, getters);
-  expectReset(rows, getters);
+  expectReset(filter, rows);
   EXPECT_STREQ(filter->GetMorphStatus(), "None");
   filter->SetInputData(grid);
   filter->SetBoundaryData(grids::boundary(grid, grids::twist));
@@ -318,7 +139,7 @@ TEST(Results, OfAMorphAreGetterFieldAndLine)
   filter->PostSmoothOn();
   filter->Update();
   EXPECT_STREQ(filter->GetMorphStatus(), "Valid");
-  expectOneValue(filter, rows, getters, true);
+  expectOneValue(filter, rows, true);
   int counts = -1, iterations = -1, status = -1;
   vtkFieldData* fields = filter->GetOutput()->GetFieldData();
   fields->GetAbstractArray("SolverIterations", iterations);
@@ -332,8 +153,8 @@ TEST(Results, OfAMorphAreGetterFieldAndLine)
   filter->SetBoundaryData(nullptr);
   filter->Update();
   EXPECT_STREQ(filter->GetMorphStatus(), "Failed");
-  expectReset(rows, getters);
-  expectOneValue(filter, rows, getters, false);
+  expectReset(filter, rows);
+  expectOneValue(filter, rows, false);
   EXPECT_EQ(filter->GetPrepareCount(), 1) << "kept";
 }
 
@@ -342,20 +163,18 @@ TEST(Results, OfABoundaryAreGetterFieldAndLine)
   const std::vector<Row> rows = rowsOf("vtkMorphBoundary");
   auto grid = grids::hexes(4);
   vtkNew<vtkMorphBoundary> filter;
-  const Getters getters = gettersOf(filter.Get());
-  expectSameNames(rows, getters);
-  expectReset(rows, getters);
+  expectReset(filter, rows);
   filter->SetInputData(grid);
   filter->SetBoundaryData(grids::boundary(grid, grids::twist));
   filter->Update();
   EXPECT_GT(filter->GetGivenPoints(), 0);
-  expectOneValue(filter, rows, getters, true);
+  expectOneValue(filter, rows, true);
 
   const grids::Listener quiet(filter);
   filter->SetBoundaryData(nullptr);
   filter->Update();
-  expectReset(rows, getters);
-  expectOneValue(filter, rows, getters, false);
+  expectReset(filter, rows);
+  expectOneValue(filter, rows, false);
 }
 
 TEST(Results, OfShapesAreGetterFieldAndLine)
@@ -363,22 +182,20 @@ TEST(Results, OfShapesAreGetterFieldAndLine)
   const std::vector<Row> rows = rowsOf("vtkMorphShapes");
   auto grid = grids::hexes(4);
   vtkNew<vtkMorphShapes> filter;
-  const Getters getters = gettersOf(filter.Get());
-  expectSameNames(rows, getters);
-  expectReset(rows, getters);
+  expectReset(filter, rows);
   filter->SetInputDataObject(grid);
   filter->AddShapeData(grids::boundary(grid, grids::twist));
   filter->SetWeight(0, .5);
   filter->Update();
   EXPECT_STREQ(filter->GetMorphStatus(), "Valid");
   EXPECT_GT(filter->GetSolverIterations(), 0);
-  expectOneValue(filter, rows, getters, true);
+  expectOneValue(filter, rows, true);
 
   const grids::Listener quiet(filter);
   filter->RemoveAllShapes();
   filter->Update();
-  expectReset(rows, getters);
-  expectOneValue(filter, rows, getters, false);
+  expectReset(filter, rows);
+  expectOneValue(filter, rows, false);
   EXPECT_EQ(filter->GetSolveCount(), 1) << "kept";
 }
 
@@ -386,19 +203,17 @@ TEST(Results, OfScaledJacobiansAreGetterFieldAndLine)
 {
   const std::vector<Row> rows = rowsOf("vtkScaledJacobian");
   vtkNew<vtkScaledJacobian> filter;
-  const Getters getters = gettersOf(filter.Get());
-  expectSameNames(rows, getters);
   filter->SetInputData(grids::hexes(4));
   filter->CertifyOn();
   filter->Update();
   EXPECT_EQ(filter->GetMeasuredCells(), 64);
-  expectOneValue(filter, rows, getters, true);
+  expectOneValue(filter, rows, true);
 
   const grids::Listener quiet(filter);
   filter->SetInputData(0, grids::cloud(morph::Points::Zero(1, 3)));
   filter->Update();
-  expectReset(rows, getters);
-  expectOneValue(filter, rows, getters, false);
+  expectReset(filter, rows);
+  expectOneValue(filter, rows, false);
 }
 
 TYPED_TEST(MethodCounts, AreGetterFieldAndLine)
@@ -406,10 +221,8 @@ TYPED_TEST(MethodCounts, AreGetterFieldAndLine)
   auto grid = grids::hexes(4);
   vtkNew<TypeParam> filter;
   const std::vector<Row> rows = rowsOf(filter->GetClassName());
-  const Getters getters = countsOf(filter.Get());
-  expectSameNames(rows, getters);
   filter->SetInputData(grid);
   filter->SetBoundaryData(grids::boundary(grid, grids::twist));
   filter->Update();
-  expectOneValue(filter, rows, getters, true);
+  expectOneValue(filter, rows, true);
 }

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "TestGrids.h"
 #include "vtkScaledJacobian.h"
 
 #include <gtest/gtest.h>
 
-#include <vtkCallbackCommand.h>
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
 #include <vtkDataSetAttributes.h>
 #include <vtkDoubleArray.h>
-#include <vtkExecutive.h>
 #include <vtkFieldData.h>
 #include <vtkMeshQuality.h>
 #include <vtkNew.h>
@@ -22,8 +21,6 @@
 
 #include <array>
 #include <cmath>
-#include <cstdlib>
-#include <iostream>
 #include <limits>
 #include <numeric>
 #include <random>
@@ -43,14 +40,6 @@ const Corners PyramidCorners = { { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, 
   { .5, .5, std::sqrt(.5) } };
 const Corners UnitWedge = { { 0, 0, 0 }, { 0, 1, 0 }, { 1, 0, 0 }, { 0, 0, 1 }, { 0, 1, 1 },
   { 1, 0, 1 } };
-
-unsigned seed()
-{
-  const char* text = std::getenv("MORPH_TEST_SEED");
-  const unsigned value = text ? static_cast<unsigned>(std::atoi(text)) : 4711;
-  std::cout << "random seed " << value << " (MORPH_TEST_SEED sets another)\n";
-  return value;
-}
 
 vtkSmartPointer<vtkUnstructuredGrid> emptyGrid(int precision = VTK_DOUBLE)
 {
@@ -97,30 +86,11 @@ vtkDataArray* quality(vtkUnstructuredGrid* output)
 {
   return output->GetCellData()->GetArray("ScaledJacobian");
 }
-
-/// Counts an algorithm's errors or warnings and keeps the text.
-struct Messages
-{
-  Messages(vtkObject* object, unsigned long event)
-  {
-    this->Command->SetClientData(this);
-    this->Command->SetCallback(
-      [](vtkObject*, unsigned long, void* self, void* text)
-      {
-        ++static_cast<Messages*>(self)->Count;
-        static_cast<Messages*>(self)->Text += static_cast<const char*>(text);
-      });
-    object->AddObserver(event, this->Command);
-  }
-  vtkNew<vtkCallbackCommand> Command;
-  int Count = 0;
-  std::string Text;
-};
 }
 
 TEST(ScaledJacobianFilter, AgreesWithVerdictOnRandomValidCells)
 {
-  std::mt19937 random(seed());
+  std::mt19937 random(meshes::seed());
   auto grid = emptyGrid();
   for (int i = 0; i < 2000; ++i)
   {
@@ -155,7 +125,7 @@ TEST(ScaledJacobianFilter, AgreesWithVerdictOnRandomValidCells)
 TEST(ScaledJacobianFilter, CriteriaAgreeWithVerdictOnRandomCells)
 {
   using Measure = vtkMeshQuality::QualityMeasureTypes;
-  std::mt19937 random(seed());
+  std::mt19937 random(meshes::seed());
   auto grid = emptyGrid();
   for (int i = 0; i < 300; ++i)
   {
@@ -290,13 +260,11 @@ TEST(ScaledJacobianFilter, RefusesCriteriaThatThereAreNot)
   {
     vtkNew<vtkScaledJacobian> filter;
     filter->SetInputData(grid);
-    Messages errors(filter, vtkCommand::ErrorEvent);
+    grids::Listener listener(filter);
     filter->SetCriteria(text);
     filter->Update();
-    EXPECT_EQ(errors.Count, 1) << text;
     const bool lacksArray = std::string(text) == "FirstHeight:Wall";
-    const char* wayOut = lacksArray ? "no point or cell array 'Wall'" : "There are AspectRatio, ";
-    EXPECT_NE(errors.Text.find(wayOut), std::string::npos) << errors.Text;
+    listener.ExpectError(lacksArray ? "no point or cell array 'Wall'" : "There are AspectRatio, ");
     EXPECT_EQ(filter->GetInvertedCells(), -1);
   }
 }
@@ -385,9 +353,9 @@ TEST(ScaledJacobianFilter, GhostCellsAreNotMeasured)
   grid->GetCellData()->AddArray(ghosts);
   vtkNew<vtkScaledJacobian> filter;
   filter->SetInputData(grid);
-  Messages warnings(filter, vtkCommand::WarningEvent);
+  grids::Listener listener(filter);
   filter->Update();
-  EXPECT_EQ(warnings.Count, 0) << warnings.Text;
+  EXPECT_TRUE(listener.Warnings.empty());
   EXPECT_EQ(filter->GetMeasuredCells(), 2);
   EXPECT_EQ(filter->GetInvertedCells(), 0);
   EXPECT_EQ(filter->GetUnmeasuredCells(), 0);
@@ -425,7 +393,7 @@ TEST(ScaledJacobianFilter, LowerDimensionsAreNaNAmongVolumes)
   add(grid, VTK_TRIANGLE, UnitTriangle);
   add(grid, VTK_HEXAHEDRON, Cube);
   vtkNew<vtkScaledJacobian> filter;
-  Messages warnings(filter, vtkCommand::WarningEvent);
+  grids::Listener listener(filter);
   filter->SetInputData(grid);
   filter->Update();
   vtkDataArray* values = quality(filter->GetOutput());
@@ -433,7 +401,7 @@ TEST(ScaledJacobianFilter, LowerDimensionsAreNaNAmongVolumes)
   EXPECT_TRUE(std::isnan(values->GetTuple1(1)));
   EXPECT_EQ(filter->GetMeasuredCells(), 1);
   EXPECT_EQ(filter->GetWorstCellId(), 2);
-  EXPECT_EQ(warnings.Count, 0) << warnings.Text;
+  EXPECT_TRUE(listener.Warnings.empty());
 }
 
 TEST(ScaledJacobianFilter, SurfacesAreMeasured)
@@ -466,12 +434,11 @@ TEST(ScaledJacobianFilter, UnknownCellsAreNamedAndCounted)
   const vtkIdType nodes[] = { first, first + 1, first + 2, first + 3 };
   grid->InsertNextCell(VTK_CONVEX_POINT_SET, 4, nodes);
   vtkNew<vtkScaledJacobian> filter;
-  Messages warnings(filter, vtkCommand::WarningEvent), errors(filter, vtkCommand::ErrorEvent);
+  grids::Listener listener(filter);
   filter->SetInputData(grid);
   filter->Update();
-  EXPECT_EQ(errors.Count, 0) << errors.Text;
-  EXPECT_EQ(warnings.Count, 1);
-  EXPECT_NE(warnings.Text.find("onvexPointSet"), std::string::npos) << warnings.Text;
+  EXPECT_TRUE(listener.Errors.empty());
+  listener.ExpectWarning("onvexPointSet");
   EXPECT_EQ(filter->GetUnmeasuredCells(), 1);
   // Not judged by its boundary triangle
   EXPECT_EQ(filter->GetMeasuredCells(), 0);
@@ -484,7 +451,7 @@ TEST(ScaledJacobianFilter, UnknownCellsAreNamedAndCounted)
   filter->Update();
   EXPECT_EQ(filter->GetMeasuredCells(), 1);
   EXPECT_EQ(filter->GetUnmeasuredCells(), 2);
-  EXPECT_EQ(warnings.Count, 2);
+  EXPECT_EQ(listener.Warnings.size(), 2u);
 }
 
 TEST(ScaledJacobianFilter, MirroredBodiesAreValidAndReported)
@@ -515,7 +482,7 @@ TEST(ScaledJacobianFilter, MirroredBodiesAreValidAndReported)
 
 TEST(ScaledJacobianFilter, FloatPointsAreMeasuredAsTheyAre)
 {
-  std::mt19937 random(seed());
+  std::mt19937 random(meshes::seed());
   auto floats = emptyGrid(VTK_FLOAT), doubles = emptyGrid();
   for (int i = 0; i < 50; ++i)
   {
@@ -538,7 +505,7 @@ TEST(ScaledJacobianFilter, FloatPointsAreMeasuredAsTheyAre)
 
 TEST(ScaledJacobianFilter, ThreadCountDoesNotShow)
 {
-  std::mt19937 random(seed());
+  std::mt19937 random(meshes::seed());
   auto grid = emptyGrid();
   for (int i = 0; i < 20000; ++i)
   {
@@ -571,24 +538,22 @@ TEST(ScaledJacobianFilter, OverlappingLevelsAreRefused)
   auto grid = emptyGrid();
   add(grid, VTK_HEXAHEDRON, Cube);
   vtkNew<vtkScaledJacobian> filter;
-  Messages errors(filter, vtkCommand::ErrorEvent);
   filter->SetInputDataObject(levels);
-  Messages pipeline(filter->GetExecutive(), vtkCommand::ErrorEvent);
+  grids::Listener listener(filter);
   filter->Update();
-  EXPECT_EQ(errors.Count, 1);
-  EXPECT_NE(errors.Text.find("vtkOverlappingAMR"), std::string::npos) << errors.Text;
+  listener.ExpectError("vtkOverlappingAMR");
   EXPECT_EQ(filter->GetOutput()->GetNumberOfCells(), 0);
 
   filter->SetInputData(grid);
   filter->Update();
-  EXPECT_EQ(errors.Count, 1);
+  EXPECT_EQ(listener.Errors.size(), 1u);
   EXPECT_EQ(filter->GetMeasuredCells(), 1);
 
   // After an error no numbers of the grid before remain.
   filter->SetInputDataObject(levels);
   filter->Update();
-  EXPECT_EQ(errors.Count, 2);
-  EXPECT_EQ(pipeline.Count, 0) << pipeline.Text;
+  EXPECT_EQ(listener.Errors.size(), 2u);
+  EXPECT_TRUE(listener.ExecutiveErrors.empty());
   EXPECT_EQ(filter->GetMeasuredCells(), 0);
   EXPECT_EQ(filter->GetMinScaledJacobian(), -1);
   EXPECT_EQ(filter->GetInvertedCells(), -1);
@@ -608,11 +573,10 @@ TEST(ScaledJacobianFilter, BadGridsGiveOneError)
   for (vtkUnstructuredGrid* grid : { notFinite.Get(), outOfRange.Get() })
   {
     vtkNew<vtkScaledJacobian> filter;
-    Messages errors(filter, vtkCommand::ErrorEvent);
-    Messages pipeline(filter->GetExecutive(), vtkCommand::ErrorEvent);
+    grids::Listener listener(filter);
     filter->SetInputData(grid);
     filter->Update();
-    EXPECT_EQ(errors.Count, 1) << errors.Text;
+    EXPECT_EQ(listener.Errors.size(), 1u);
     EXPECT_EQ(filter->GetOutput()->GetNumberOfCells(), 0);
   }
 }
@@ -621,12 +585,11 @@ TEST(ScaledJacobianFilter, EmptyGridHasNoQuality)
 {
   vtkNew<vtkUnstructuredGrid> grid;
   vtkNew<vtkScaledJacobian> filter;
-  Messages errors(filter, vtkCommand::ErrorEvent), warnings(filter, vtkCommand::WarningEvent);
+  grids::Listener listener(filter);
   filter->SetInputData(grid);
   filter->Update();
-  EXPECT_EQ(errors.Count, 0) << errors.Text;
-  EXPECT_EQ(warnings.Count, 1);
-  EXPECT_NE(warnings.Text.find("no cells"), std::string::npos) << warnings.Text;
+  EXPECT_TRUE(listener.Errors.empty());
+  listener.ExpectWarning("no cells");
   EXPECT_EQ(filter->GetMeasuredCells(), 0);
   EXPECT_EQ(filter->GetWorstCellId(), -1);
   EXPECT_TRUE(std::isnan(filter->GetMinScaledJacobian()));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Curved shells that go to a target, slide along their edges, or run into themselves.
+#include "MorphFilters.h"
 #include "TestGrids.h"
 
 #include "vtkCompareMorphMethods.h"
@@ -74,16 +75,7 @@ void name(vtkUnstructuredGrid* grid, const char* edge, const std::function<bool(
     marks->InsertNextValue(isOn(n));
   }
   grid->GetPointData()->AddArray(marks);
-  auto* names =
-    vtkStringArray::SafeDownCast(grid->GetFieldData()->GetAbstractArray("SurfaceNames"));
-  if (!names)
-  {
-    vtkNew<vtkStringArray> made;
-    made->SetName("SurfaceNames");
-    grid->GetFieldData()->AddArray(made);
-    names = made;
-  }
-  names->InsertNextValue(edge);
+  grids::addTexts(grid, "SurfaceNames", { edge });
 }
 
 constexpr double Radius = 2;
@@ -174,9 +166,7 @@ TEST(Shells, AClosedOneGoesToItsTarget)
   filter->SetTargetData(target);
   filter->SetDisplacementToTarget();
   filter->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
-  grids::Listener listener(filter);
-  filter->Update();
-  ASSERT_TRUE(listener.Errors.empty()) << listener.Errors[0];
+  grids::update(filter);
   EXPECT_EQ(filter->GetPrescribedPoints(), shell->GetNumberOfPoints());
   EXPECT_LT(filter->GetMaxTargetDistance(), 1e-12);
   EXPECT_EQ(filter->GetInvertedCells(), 0);
@@ -198,9 +188,7 @@ TEST(Shells, WhatIsWrongWithATargetIsNamedByThePointsOfTheShell)
   ASSERT_TRUE(listener.Errors.empty()) << listener.Errors[0];
   filter->SetKeepLayers(1);
   filter->Update();
-  ASSERT_EQ(listener.Errors.size(), 1u);
-  EXPECT_NE(listener.Errors[0].find("tick the edges that move"), std::string::npos)
-    << listener.Errors[0];
+  listener.ExpectError("tick the edges that move");
 }
 
 TEST(Shells, OnlyTheEdgesThatAreTickedGoToTheTarget)
@@ -210,9 +198,7 @@ TEST(Shells, OnlyTheEdgesThatAreTickedGoToTheTarget)
   auto filter = onto(grid, cylinder());
   filter->AddSurface("Ends");
   filter->SetSurroundingsToFollow();
-  grids::Listener listener(filter);
-  filter->Update();
-  ASSERT_TRUE(listener.Errors.empty()) << listener.Errors[0];
+  grids::update(filter);
   const Points moved = grids::points(filter->GetOutput());
   EXPECT_GT(radii(moved.topRows(Nodes)).first, Radius * std::cos(M_PI / 96) - 1e-6);
   EXPECT_LT(radii(moved.bottomRows(Nodes)).second, Radius + 1e-6);
@@ -307,9 +293,7 @@ TEST(Shells, StepsZonesAndLayersAreAsForSolids)
   filter->SetVector(-0.1, 0, 0.4);
   filter->SetNumberOfSteps(3);
   filter->SetStepping(vtkMorphAlgorithm::STEPPING_RELATIVE);
-  grids::Listener listener(filter);
-  filter->Update();
-  ASSERT_TRUE(listener.Errors.empty()) << listener.Errors[0];
+  grids::update(filter);
   EXPECT_EQ(filter->GetInvertedCells(), 0);
   const Points rest = grids::points(grid), moved = grids::points(filter->GetOutput());
   for (Index n = 0; n < 3 * Nodes; ++n) // the edge and its two layers, but for the other edges
@@ -337,9 +321,7 @@ TEST(Shells, ComparedMethodsHaveTheQualityOfTheFiltersThemselves)
   compare->SetNumberOfSteps(1);
   compare->SetSimplexLinear(false);
   compare->SetSimplexNaturalNeighbor(false);
-  grids::Listener listener(compare);
-  compare->Update();
-  ASSERT_TRUE(listener.Errors.empty()) << listener.Errors[0];
+  grids::update(compare);
   const vtkNew<vtkFEMWarpMorph> femwarp;
   const vtkNew<vtkWeightedResidualMorph> residual;
   vtkTable* rows = compare->GetOutput(0);
@@ -370,9 +352,7 @@ TEST(Shells, AShapeIsTheMorphAndGrowsWithItsWeight)
   auto grid = sheet(Cells, dome);
   auto boundary =
     grids::boundary(grid, [](const Row& x) { return Row(x[0], x[1], x[2] + 0.3 * x[0] * x[1]); });
-  vtkNew<vtkFEMWarpMorph> morph;
-  morph->SetInputData(grid);
-  morph->SetBoundaryData(boundary);
+  auto morph = grids::morphed<vtkFEMWarpMorph>(grid, boundary);
   morph->Update();
   vtkNew<vtkMorphShapes> shapes;
   shapes->SetInputData(grid);

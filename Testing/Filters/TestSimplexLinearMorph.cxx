@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What is particular to simplex-linear; TestMorphFilters.cxx has what it shares with the other
 // filters.
+#include "MorphFilters.h"
 #include "TestGrids.h"
 
 #include "vtkSimplexLinearMorph.h"
@@ -47,13 +48,8 @@ TEST(SimplexLinearMorph, PrescribedNodesInOnePlaneAreOneError)
   }
   auto boundary = grids::cloud(meshes::rows(grids::points(grid), bottom));
   grids::addIds(boundary, "MorphPointId", bottom);
-  vtkNew<vtkSimplexLinearMorph> filter;
-  filter->SetInputData(grid);
-  filter->SetBoundaryData(boundary);
+  auto filter = grids::morphed<vtkSimplexLinearMorph>(grid, boundary);
   filter->FixUnnamedBoundaryOff();
-  grids::Listener listener(filter);
-  filter->Update();
-  ASSERT_EQ(listener.Errors.size(), 1u);
-  EXPECT_NE(listener.Errors[0].find("one plane"), std::string::npos) << listener.Errors[0];
+  grids::expectError(filter, "one plane");
   EXPECT_STREQ(filter->GetMorphStatus(), "Failed");
 }

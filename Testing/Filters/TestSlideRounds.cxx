@@ -38,26 +38,11 @@ Row push(const Row& x)
   return isAt(x[2], 0) ? Row(0.3 * s * x[0], 0, s) : Row(0, 0, 0);
 }
 
-void addPush(vtkUnstructuredGrid* grid)
+/// The nodes at z = 0 move by `push`.
+void configure(vtkMorphMesh* filter, vtkUnstructuredGrid* grid, const grids::Map& motion = push)
 {
-  vtkNew<vtkDoubleArray> by, bottom;
-  by->SetName("Push");
-  by->SetNumberOfComponents(3);
-  bottom->SetName("Bottom");
-  const Points points = grids::points(grid);
-  for (Index n = 0; n < points.rows(); ++n)
-  {
-    const Row u = push(points.row(n));
-    by->InsertNextTuple3(u[0], u[1], u[2]);
-    bottom->InsertNextValue(isAt(points(n, 2), 0));
-  }
-  grid->GetPointData()->AddArray(by);
-  grid->GetPointData()->AddArray(bottom);
-}
-
-void configure(vtkMorphMesh* filter, vtkUnstructuredGrid* grid)
-{
-  addPush(grid);
+  grids::addVectors(grid, "Push", grids::mapped(grids::points(grid), motion));
+  grids::mark(grid, "Bottom", [](const Row& x) { return isAt(x[2], 0); });
   filter->SetInputData(grid);
   filter->SetMoving(vtkMorphMesh::MOVING_ARRAY);
   filter->SetMovingArray("Bottom");
@@ -157,31 +142,16 @@ TEST(SlideRounds, NodesStayOnACylinderAndTheForceFalls)
 {
   auto grid = grids::make(quarterPipe());
   // One end turns and stretches radially by nothing: its nodes stay on the cylinders.
-  vtkNew<vtkDoubleArray> by, end;
-  by->SetName("Push");
-  by->SetNumberOfComponents(3);
-  end->SetName("Bottom");
-  const Points rest = grids::points(grid);
-  for (Index n = 0; n < rest.rows(); ++n)
+  const auto turn = [](const Row& x)
   {
-    const double r = std::hypot(rest(n, 0), rest(n, 1));
-    const double phi = std::atan2(rest(n, 1), rest(n, 0));
+    const double r = std::hypot(x[0], x[1]), phi = std::atan2(x[1], x[0]);
     const double to = phi + 0.25 * std::sin(2 * phi);
-    const bool moves = isAt(rest(n, 2), 0);
-    end->InsertNextValue(moves);
-    by->InsertNextTuple3(moves ? r * std::cos(to) - rest(n, 0) : 0,
-      moves ? r * std::sin(to) - rest(n, 1) : 0, moves ? 0.2 : 0);
-  }
-  grid->GetPointData()->AddArray(by);
-  grid->GetPointData()->AddArray(end);
+    return isAt(x[2], 0) ? Row(r * std::cos(to) - x[0], r * std::sin(to) - x[1], 0.2)
+                         : Row(0, 0, 0);
+  };
   vtkNew<vtkMorphMesh> filter;
-  filter->SetInputData(grid);
-  filter->SetMoving(vtkMorphMesh::MOVING_ARRAY);
-  filter->SetMovingArray("Bottom");
-  filter->SetDisplacementToArray();
-  filter->SetDisplacementArray("Push");
-  filter->SetSurroundings(vtkMorphMesh::SURROUNDINGS_STAY);
-  filter->SetValidity(0);
+  configure(filter, grid, turn);
+  const Points rest = grids::points(grid);
   const auto radius = [](const Row& x) { return std::hypot(x[0], x[1]); };
   for (const double r : { 1., 2. })
   {
@@ -193,9 +163,7 @@ TEST(SlideRounds, NodesStayOnACylinderAndTheForceFalls)
     filter->AddSlidingSurface(surface(grid, [&](const Row& x) { return isAt(x[c], 0); }).c_str());
   }
   filter->SetSlideRounds(3);
-  grids::Listener listener(filter);
-  filter->Update();
-  ASSERT_TRUE(listener.Errors.empty()) << listener.Errors[0];
+  grids::update(filter);
   const Points moved = grids::points(filter->GetOutput());
   double slid = 0;
   for (Index n = 0; n < rest.rows(); ++n)
@@ -230,9 +198,7 @@ TEST(SlideRounds, MidSideNodesStayInThePlaneWithTheirCorners)
   configure(filter, grid);
   filter->AddSlidingSurface(surface(grid, onPlane).c_str());
   filter->SetSlideRounds(2);
-  grids::Listener listener(filter);
-  filter->Update();
-  ASSERT_TRUE(listener.Errors.empty()) << listener.Errors[0];
+  grids::update(filter);
   const Points rest = grids::points(grid), moved = grids::points(filter->GetOutput());
   int midSides = 0;
   for (Index n = 0; n < rest.rows(); ++n)
@@ -271,9 +237,7 @@ TEST(SlideRounds, AMeshWithoutAFreeNodeHasNothingToSlide)
   filter->AddSlidingSurface(surface(grid, [](const Row& x) { return isAt(x[0], Side); }).c_str());
   filter->SetSurroundings(vtkMorphMesh::SURROUNDINGS_STAY);
   filter->SetSlideRounds(2);
-  grids::Listener listener(filter);
-  filter->Update();
-  EXPECT_TRUE(listener.Errors.empty()) << listener.Errors[0];
+  grids::update(filter);
   const Points rest = grids::points(grid), moved = grids::points(filter->GetOutput());
   for (Index n = 0; n < rest.rows(); ++n)
   {

@@ -67,32 +67,15 @@ vtkSmartPointer<vtkUnstructuredGrid> bar()
     }
   }
   grid->GetCellData()->Initialize();
-  const auto marks = [](const char* name, vtkIdType count)
+  vtkNew<vtkUnsignedCharArray> wall;
+  wall->SetName("wall");
+  for (vtkIdType cell = 0; cell < grid->GetNumberOfCells(); ++cell)
   {
-    auto array = vtkSmartPointer<vtkUnsignedCharArray>::New();
-    array->SetName(name);
-    array->SetNumberOfValues(count);
-    array->FillValue(0);
-    return array;
-  };
-  auto wall = marks("wall", grid->GetNumberOfCells());
-  for (vtkIdType cell = volumes; cell < grid->GetNumberOfCells(); ++cell)
-  {
-    wall->SetValue(cell, 1);
+    wall->InsertNextValue(cell >= volumes);
   }
   grid->GetCellData()->AddArray(wall);
-  auto inlet = marks("inlet", grid->GetNumberOfPoints());
-  const morph::Points x = grids::points(grid);
-  for (morph::Index i = 0; i < x.rows(); ++i)
-  {
-    inlet->SetValue(i, onInlet(x.row(i)));
-  }
-  grid->GetPointData()->AddArray(inlet);
-  vtkNew<vtkStringArray> names;
-  names->SetName("SurfaceNames");
-  names->InsertNextValue("inlet");
-  names->InsertNextValue("wall");
-  grid->GetFieldData()->AddArray(names);
+  grids::mark(grid, "inlet", onInlet);
+  grids::addTexts(grid, "SurfaceNames", { "inlet", "wall" });
   return grid;
 }
 }
@@ -143,8 +126,7 @@ TEST(SurfaceNames, NamesOfTheFileAreListedWithTheirSizes)
 TEST(SurfaceNames, ANameThatIsThereTwiceCountsOnce)
 {
   auto part = bar();
-  vtkStringArray::SafeDownCast(part->GetFieldData()->GetAbstractArray("SurfaceNames"))
-    ->InsertNextValue("wall");
+  grids::addTexts(part, "SurfaceNames", { "wall" });
   vtkNew<vtkMorphMesh> filter;
   filter->SetInputData(part);
   filter->UpdateInformation();
@@ -161,9 +143,7 @@ TEST(SurfaceNames, WhatHasANameMovesAndSlides)
   filter->AddSlidingSurface("wall");
   filter->SetDisplacementToVector();
   filter->SetVector(-0.25, 0.1, 0);
-  grids::Listener listener(filter);
-  filter->Update();
-  ASSERT_TRUE(listener.Errors.empty()) << listener.Errors[0];
+  grids::update(filter);
   const morph::Points x = grids::points(grid), y = grids::points(filter->GetOutput());
   for (morph::Index i = 0; i < x.rows(); ++i)
   {
@@ -184,20 +164,12 @@ TEST(SurfaceNames, APartOfASurfaceCannotSlide)
   filter->AddFreeSurface("inlet");
   grids::Listener listener(filter);
   filter->Update();
-  ASSERT_EQ(listener.Errors.size(), 1u);
-  EXPECT_NE(
-    listener.Errors[0].find("`FreeSurfaces` names 'inlet', which has a part alone of Surface"),
-    std::string::npos)
-    << listener.Errors[0];
+  listener.ExpectError("`FreeSurfaces` names 'inlet', which has a part alone of Surface");
   listener.Errors.clear();
   filter->RemoveAllFreeSurfaces();
   filter->AddSurface("walls");
   filter->Update();
-  ASSERT_EQ(listener.Errors.size(), 1u);
-  EXPECT_NE(
-    listener.Errors[0].find("which the boundary does not have; it has inlet, wall, Surface 0"),
-    std::string::npos)
-    << listener.Errors[0];
+  listener.ExpectError("which the boundary does not have; it has inlet, wall, Surface 0");
 }
 
 namespace
@@ -235,8 +207,6 @@ vtkSmartPointer<vtkUnstructuredGrid> withBaffle()
   }
   patch[21] = "core";
   auto grid = grids::make(mesh);
-  vtkNew<vtkStringArray> names;
-  names->SetName("SurfaceNames");
   for (const char* name : { "plateLeft", "plateRight", "sheet", "core" })
   {
     vtkNew<vtkUnsignedCharArray> marks;
@@ -246,9 +216,8 @@ vtkSmartPointer<vtkUnstructuredGrid> withBaffle()
       marks->InsertNextValue(of == name);
     }
     grid->GetCellData()->AddArray(marks);
-    names->InsertNextValue(name);
+    grids::addTexts(grid, "SurfaceNames", { name });
   }
-  grid->GetFieldData()->AddArray(names);
   return grid;
 }
 }
@@ -279,9 +248,7 @@ TEST(SurfaceNames, ABaffleMovesByItsName)
   filter->AddSurface("plateLeft");
   filter->SetDisplacementToVector();
   filter->SetVector(0.3, 0, 0);
-  grids::Listener listener(filter);
-  filter->Update();
-  ASSERT_TRUE(listener.Errors.empty()) << listener.Errors[0];
+  grids::update(filter);
   const morph::Points x = grids::points(grid), y = grids::points(filter->GetOutput());
   bool anyFollows = false;
   for (morph::Index i = 0; i < x.rows(); ++i)
@@ -299,16 +266,9 @@ TEST(SurfaceNames, ABaffleMovesByItsName)
 TEST(SurfaceNames, ABaffleStaysWhileAnotherSurfaceMoves)
 {
   auto grid = withBaffle();
-  vtkStringArray::SafeDownCast(grid->GetFieldData()->GetAbstractArray("SurfaceNames"))
-    ->InsertNextValue("outlet");
-  vtkNew<vtkUnsignedCharArray> outlet;
-  outlet->SetName("outlet");
+  grids::addTexts(grid, "SurfaceNames", { "outlet" });
+  grids::mark(grid, "outlet", [](const Row& x) { return x[0] == 4; });
   const morph::Points x = grids::points(grid);
-  for (morph::Index i = 0; i < x.rows(); ++i)
-  {
-    outlet->InsertNextValue(x(i, 0) == 4);
-  }
-  grid->GetPointData()->AddArray(outlet);
   vtkNew<vtkMorphMesh> filter;
   filter->SetInputData(grid);
   filter->AddSurface("outlet");
@@ -340,9 +300,7 @@ TEST(SurfaceNames, ASheetMovesByItsNameAndElseGoesAlong)
     filter->SetDisplacementToVector();
     filter->SetVector(0.25, 0, 0);
     filter->SetSurroundingsToStay();
-    grids::Listener listener(filter);
-    filter->Update();
-    EXPECT_TRUE(listener.Errors.empty()) << listener.Errors[0];
+    grids::update(filter);
     return morph::Points(grids::points(filter->GetOutput()) - x);
   };
   const morph::Points bySheet = moved(vtkMorphMesh::MOVING_SURFACES, "plateLeft");
@@ -361,21 +319,10 @@ TEST(SurfaceNames, ASetOfNodesInsideMovesWithItsRim)
 {
   auto grid = grids::make(meshes::hexes(4, 4, 4));
   const morph::Points x = grids::points(grid);
-  vtkNew<vtkStringArray> names;
-  names->SetName("SurfaceNames");
-  for (const char* name : { "MIDDLE", "LINE" })
-  {
-    vtkNew<vtkUnsignedCharArray> marks;
-    marks->SetName(name);
-    for (morph::Index i = 0; i < x.rows(); ++i)
-    {
-      marks->InsertNextValue(
-        x(i, 0) == 2 && (name[0] == 'M' || (x(i, 1) == 2 && x(i, 2) > 0 && x(i, 2) < 4)));
-    }
-    grid->GetPointData()->AddArray(marks);
-    names->InsertNextValue(name);
-  }
-  grid->GetFieldData()->AddArray(names);
+  grids::mark(grid, "MIDDLE", [](const Row& p) { return p[0] == 2; });
+  grids::mark(
+    grid, "LINE", [](const Row& p) { return p[0] == 2 && p[1] == 2 && p[2] > 0 && p[2] < 4; });
+  grids::addTexts(grid, "SurfaceNames", { "MIDDLE", "LINE" });
   vtkNew<vtkMorphMesh> filter;
   filter->SetInputData(grid);
   filter->SetDisplacementToVector();
@@ -395,9 +342,7 @@ TEST(SurfaceNames, ASetOfNodesInsideMovesWithItsRim)
   }
   filter->AddSurface("LINE");
   filter->Update();
-  ASSERT_EQ(listener.Errors.size(), 1u);
-  EXPECT_NE(listener.Errors[0].find("a zone holds or moves the nodes of 'LINE'"), std::string::npos)
-    << listener.Errors[0];
+  listener.ExpectError("a zone holds or moves the nodes of 'LINE'");
 }
 
 TEST(SurfaceNames, ASetInsideThatCannotMoveSaysSo)
@@ -405,11 +350,7 @@ TEST(SurfaceNames, ASetInsideThatCannotMoveSaysSo)
   vtkNew<vtkMorphMesh> filter;
   filter->SetInputData(withBaffle());
   filter->AddSurface("core");
-  grids::Listener listener(filter);
-  filter->Update();
-  ASSERT_EQ(listener.Errors.size(), 1u);
-  EXPECT_NE(listener.Errors[0].find("'core', which lies inside of the mesh"), std::string::npos)
-    << listener.Errors[0];
+  grids::expectError(filter, "'core', which lies inside of the mesh");
 }
 
 namespace
@@ -434,9 +375,7 @@ std::pair<morph::Points, morph::Points> movedBlocks(
   vtkMultiBlockDataSet* data, vtkMorphMesh* filter)
 {
   filter->SetInputData(data);
-  grids::Listener listener(filter);
-  filter->Update();
-  EXPECT_TRUE(listener.Errors.empty()) << listener.Errors[0];
+  grids::update(filter);
   EXPECT_EQ(filter->GetInvertedCells(), 0);
   const auto all = [](vtkDataObject* tree)
   {
@@ -526,10 +465,7 @@ TEST(SurfaceNames, AnInterfaceIsHeldOrSlidesOrGoesAlong)
 TEST(SurfaceNames, PlanesOfSymmetryOfTheFileSlide)
 {
   const auto grid = bar();
-  vtkNew<vtkStringArray> planes;
-  planes->SetName("SymmetrySurfaces");
-  planes->InsertNextValue("wall");
-  grid->GetFieldData()->AddArray(planes);
+  grids::addTexts(grid, "SymmetrySurfaces", { "wall" });
   auto filter = displaced::make(grid);
   filter->SetMovingToSelection();
   filter->SetSelectionData(displaced::indices(
@@ -556,18 +492,14 @@ TEST(SurfaceNames, PlanesOfSymmetryOfTheFileSlide)
 TEST(SurfaceNames, APatchOfSymmetryThatIsAPartOfAPlaneIsNamed)
 {
   const auto grid = bar();
-  vtkNew<vtkStringArray> planes;
-  planes->SetName("SymmetrySurfaces");
-  planes->InsertNextValue("inlet");
-  grid->GetFieldData()->AddArray(planes);
+  grids::addTexts(grid, "SymmetrySurfaces", { "inlet" });
   auto filter = displaced::make(grid);
   filter->AddSurface("wall");
   filter->SetDisplacementToVector();
   filter->SetVector(0.5, 0, 0);
   const grids::Listener listener(filter);
   filter->Update();
-  ASSERT_EQ(listener.Warnings.size(), 1u);
-  EXPECT_NE(listener.Warnings[0].find("'inlet' is one of symmetry"), std::string::npos);
+  listener.ExpectWarning("'inlet' is one of symmetry");
   filter->AddFixedSurface("inlet");
   filter->Update();
   EXPECT_EQ(listener.Warnings.size(), 1u);

@@ -57,36 +57,9 @@ bool isMiddleCell(const Row& x)
 vtkSmartPointer<vtkUnstructuredGrid> marked()
 {
   auto grid = grids::hexes(N);
-  vtkNew<vtkDoubleArray> nodes, cells;
-  nodes->SetName("Nodes");
-  cells->SetName("Cells");
-  const Points points = grids::points(grid);
-  for (Index n = 0; n < points.rows(); ++n)
-  {
-    nodes->InsertNextValue(isMiddle(points.row(n)));
-  }
-  for (vtkIdType c = 0; c < grid->GetNumberOfCells(); ++c)
-  {
-    double bounds[6];
-    grid->GetCellBounds(c, bounds);
-    const Row center(bounds[0] + bounds[1], bounds[2] + bounds[3], bounds[4] + bounds[5]);
-    cells->InsertNextValue(isMiddleCell(center / 2));
-  }
-  grid->GetPointData()->AddArray(nodes);
-  grid->GetCellData()->AddArray(cells);
+  grids::mark(grid, "Nodes", isMiddle);
+  grids::markCells(grid, "Cells", isMiddleCell);
   return grid;
-}
-
-/// Makes arrays sets of the file.
-void name(vtkUnstructuredGrid* grid, const std::vector<std::string>& arrays)
-{
-  vtkNew<vtkStringArray> names;
-  names->SetName("SurfaceNames");
-  for (const std::string& array : arrays)
-  {
-    names->InsertNextValue(array);
-  }
-  grid->GetFieldData()->AddArray(names);
 }
 
 /// Turns and stretches the top, the rest of the boundary follows.
@@ -277,7 +250,7 @@ TEST(Zones, AreListedByTheirNamesWithTheirSizes)
   ghosts->SetNumberOfValues(grid->GetNumberOfCells());
   ghosts->FillValue(0);
   grid->GetCellData()->AddArray(ghosts);
-  name(grid, { "Cells", "Nowhere" });
+  grids::addTexts(grid, "SurfaceNames", { "Cells", "Nowhere" });
   vtkNew<vtkMorphMesh> mesh;
   mesh->SetInputData(grid);
   mesh->UpdateInformation();
@@ -302,15 +275,7 @@ namespace
 vtkSmartPointer<vtkBoundaryDisplacement> withRotor(double scale)
 {
   auto grid = grids::make(meshes::hexes(N, N, N));
-  vtkNew<vtkDoubleArray> rotor;
-  rotor->SetName("Rotor");
-  for (vtkIdType c = 0; c < grid->GetNumberOfCells(); ++c)
-  {
-    double bounds[6];
-    grid->GetCellBounds(c, bounds);
-    rotor->InsertNextValue(bounds[0] >= 4);
-  }
-  grid->GetCellData()->AddArray(rotor);
+  grids::markCells(grid, "Rotor", [](const Row& center) { return center[0] > 4; });
   auto filter = twisted(grid);
   filter->SetRotation(0, 0, 30);
   filter->SetTranslation(0, 0, 0);
@@ -366,15 +331,12 @@ TEST(Zones, SoftOnesGiveWay)
   mesh->SetInputData(grid);
   mesh->SetMoving(vtkMorphMesh::MOVING_EVERYTHING);
   // A motion without an affine part, which all cells would share.
-  vtkNew<vtkDoubleArray> bulge;
-  bulge->SetName("Bulge");
-  bulge->SetNumberOfComponents(3);
-  for (Index n = 0; n < rest.rows(); ++n)
+  const auto bulge = [](const Row& p)
   {
-    const Row x = rest.row(n) / N - Row::Constant(0.5);
-    bulge->InsertNextTuple3(0, 0, 0.5 * std::cos(6 * x[0]) * std::cos(6 * x[1]) * (x[2] > 0));
-  }
-  grid->GetPointData()->AddArray(bulge);
+    const Row x = p / N - Row::Constant(0.5);
+    return Row(0, 0, 0.5 * std::cos(6 * x[0]) * std::cos(6 * x[1]) * (x[2] > 0));
+  };
+  grids::addVectors(grid, "Bulge", grids::mapped(rest, bulge));
   mesh->SetDisplacement(vtkMorphMesh::DISPLACEMENT_ARRAY);
   mesh->SetDisplacementArray("Bulge");
   mesh->SetValidity(vtkMorphAlgorithm::VALIDITY_NONE);
@@ -392,10 +354,7 @@ TEST(Zones, SoftOnesGiveWay)
   EXPECT_NEAR(strain(), before, 1e-7);
 
   mesh->SetMethod(vtkMorphMesh::METHOD_SIMPLEX_LINEAR);
-  grids::Listener listener(mesh);
-  mesh->Update();
-  ASSERT_EQ(listener.Errors.size(), 1u);
-  EXPECT_NE(listener.Errors[0].find("no soft zones"), std::string::npos) << listener.Errors[0];
+  grids::expectError(mesh, "no soft zones");
 }
 
 TEST(Zones, ErrorsNameWhatIsWrong)
@@ -412,7 +371,7 @@ TEST(Zones, ErrorsNameWhatIsWrong)
   auto unknown = twisted(grid);
   unknown->AddFixedZone("Bolt");
   EXPECT_NE(errorOf(unknown).find("The zone 'Bolt' is neither"), std::string::npos);
-  name(grid, { "Cells", "Nodes" });
+  grids::addTexts(grid, "SurfaceNames", { "Cells", "Nodes" });
   EXPECT_NE(errorOf(unknown).find("it has Cells, Nodes."), std::string::npos);
   auto empty = twisted(grid);
   vtkNew<vtkBox> far;
@@ -433,19 +392,13 @@ TEST(Zones, OneThatIsFrozenAndRigidStays)
   auto grid = marked();
   for (const char* name : { "All", "Nodes" })
   {
-    vtkNew<vtkDoubleArray> all;
-    all->SetName("All");
-    all->SetNumberOfTuples(grid->GetNumberOfPoints());
-    all->FillValue(1);
-    grid->GetPointData()->AddArray(all);
+    grids::addNumbers(grid->GetPointData(), "All", grid->GetNumberOfPoints(), 1);
     auto filter = displaced::make(grid);
     filter->SetDisplacementToVector();
     filter->SetVector(0.1, 0, 0);
     filter->AddFixedZone(name);
     filter->AddRigidZone(name);
-    grids::Listener listener(filter);
-    filter->Update();
-    EXPECT_TRUE(listener.Errors.empty()) << listener.Errors[0];
+    grids::update(filter);
     const Points rest = displaced::restPositions(filter->GetOutput());
     const Points moved = grids::points(filter->GetOutput());
     for (vtkIdType i = 0; i < filter->GetOutput()->GetNumberOfPoints(); ++i)

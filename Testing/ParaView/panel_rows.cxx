@@ -38,11 +38,11 @@ QString textOf(const QWidget* widget)
 }
 
 /// A JSON text, to be freed, of the panel in a dock of this width in pixels, 0 as it is: "dock" and
-/// "width", those of the dock and of what is seen of the panel; "height"; "rows", the names of its rows,
-/// titles that fold included; "titles", with what each of them says; "texts", all that labels and
-/// fields say; "styles", of labels with a style of their own, by their texts; "cut", what the edge
-/// of the dock cuts off; "table", the rows of the table of surfaces that are not hidden, each with
-/// its texts, whether it is ticked and whether it is selected; "columns", those that it shows;
+/// "width", those of the dock and of what is seen of the panel; "height"; "rows", the names of its
+/// rows, titles that fold included; "titles", with what each of them says; "texts", all that labels
+/// and fields say; "styles", of labels with a style of their own, by their texts; "cut", what the
+/// edge of the dock cuts off; "table", the rows of the table of surfaces that are not hidden, each
+/// with its texts, whether it is ticked and whether it is selected; "columns", those that it shows;
 /// "bars", the minimum that each bar of quality marks, by its name.
 extern "C" Q_DECL_EXPORT char* panel_rows(int width)
 {

@@ -16,13 +16,12 @@ Eigen::VectorXd weightsBetween(const BoundaryFaces& faces, Index node, const Poi
   return AffineLeastSquares(rest(corners, allColumns), place).weights(place);
 }
 
-std::vector<Index> carryMidNodes(const BoundaryFaces& faces, const Classification& geometry,
+void carryMidNodes(const BoundaryFaces& faces, const Classification& geometry,
   const ProjectionTarget* target, const Points& normals, const Points& before,
   BoundaryMotion& motion)
 {
   using Row = ProjectionTarget::Row;
   const Points shift = motion.moved() - before;
-  std::vector<Index> moved;
   for (std::size_t i = 0; i < faces.nodes.size(); ++i)
   {
     const Index k = static_cast<Index>(i), node = faces.nodes[i];
@@ -42,9 +41,7 @@ std::vector<Index> carryMidNodes(const BoundaryFaces& faces, const Classificatio
         target->closestOnSurface(surface, Row(to), normals.row(node), to))
     {
       motion.displacement.row(node) = to - motion.rest.row(node);
-      moved.push_back(node);
     }
   }
-  return moved;
 }
 }

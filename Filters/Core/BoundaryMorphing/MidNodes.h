@@ -3,8 +3,6 @@
 
 #include "BoundaryMorphing/BoundaryProjection.h"
 
-#include <vector>
-
 namespace morph
 {
 /// The weights of the corners that a mid-side or face node is between. They sum to 1, and their
@@ -29,9 +27,8 @@ Eigen::RowVector3d meanBetween(
 
 /// Moves mid-side and face nodes that their surface moved (state OnSurface) with their corners: by
 /// meanBetween() of the shifts of these since `before` (#nodes x 3, moved positions), and onto the
-/// `target`, if not null. `normals`: of surfaceNodeNormals(), read with a target alone. Returns the
-/// ids of moved nodes, ascending.
-std::vector<Index> carryMidNodes(const BoundaryFaces& faces, const Classification& geometry,
+/// `target`, if not null. `normals`: of surfaceNodeNormals(), read with a target alone.
+void carryMidNodes(const BoundaryFaces& faces, const Classification& geometry,
   const ProjectionTarget* target, const Points& normals, const Points& before,
   BoundaryMotion& motion);
 }

@@ -58,7 +58,7 @@ public:
   {
   }
 
-  SurfaceSmoothing run()
+  void run()
   {
     const FaceQuality now = this->quality(this->position_);
     const FaceQuality rest = this->quality(this->motion_.rest);
@@ -72,11 +72,9 @@ public:
         poor.push_back(static_cast<Index>(f));
       }
     }
-    SurfaceSmoothing result;
-    result.poor = static_cast<Index>(poor.size());
     if (poor.empty())
     {
-      return result;
+      return;
     }
     this->makeCorners();
     const std::vector<Index> patch = this->around(poor);
@@ -95,8 +93,7 @@ public:
         break;
       }
     }
-    result.moved = this->write(patch);
-    return result;
+    this->write(patch);
   }
 
 private:
@@ -289,26 +286,20 @@ private:
     return false;
   }
 
-  /// Writes the corners' new positions to the motion and moves the nodes between them. Returns the
-  /// ids of moved nodes.
-  std::vector<Index> write(const std::vector<Index>& patch)
+  /// Writes the corners' new positions to the motion and moves the nodes between them.
+  void write(const std::vector<Index>& patch)
   {
     const Points before = this->motion_.moved();
-    std::vector<Index> moved;
     for (Index node : patch)
     {
       if (this->position_.row(node) != before.row(node))
       {
         this->motion_.displacement.row(node) =
           this->position_.row(node) - this->motion_.rest.row(node);
-        moved.push_back(node);
       }
     }
-    const std::vector<Index> between = carryMidNodes(
+    carryMidNodes(
       this->faces_, this->geometry_, this->target_, this->normal_, before, this->motion_);
-    moved.insert(moved.end(), between.begin(), between.end());
-    std::sort(moved.begin(), moved.end());
-    return moved;
   }
 
   const BoundaryFaces& faces_;
@@ -323,9 +314,9 @@ private:
 };
 }
 
-SurfaceSmoothing smoothSurfaces(const BoundaryFaces& faces, const Classification& geometry,
+void smoothSurfaces(const BoundaryFaces& faces, const Classification& geometry,
   const ProjectionTarget* target, BoundaryMotion& motion, Monitor& monitor)
 {
-  return Improvement(faces, geometry, target, motion, monitor).run();
+  Improvement(faces, geometry, target, motion, monitor).run();
 }
 }

@@ -5,13 +5,6 @@
 
 namespace morph
 {
-/// The result of smoothSurfaces().
-struct SurfaceSmoothing
-{
-  Index poor = 0;           ///< initial number of poor faces
-  std::vector<Index> moved; ///< node ids, ascending
-};
-
 /// Smooths surfaces where faces are poor: their scaled Jacobian (see faceQuality()) is below 0.2
 /// and has lost half of its undeformed size. Corners that their surface moved (state OnSurface),
 /// within two faces of a poor one, move along the surface. For up to 20 sweeps, each in turn lowers
@@ -31,6 +24,6 @@ struct SurfaceSmoothing
 /// nodes follow their corners. Call it after morphSurfaces(), or after projectSurfaces() if there
 /// is a target. Cost: a few passes over the faces, and some 20 evaluations a sweep for nodes near
 /// poor faces.
-SurfaceSmoothing smoothSurfaces(const BoundaryFaces& faces, const Classification& geometry,
+void smoothSurfaces(const BoundaryFaces& faces, const Classification& geometry,
   const ProjectionTarget* target, BoundaryMotion& motion, Monitor& monitor);
 }

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <Eigen/Core>
-
 namespace morph
 {
 /// The condition number of a map's Jacobian J, over 3: from 1 for a rotation upwards,
@@ -16,12 +14,5 @@ namespace morph
 /// Meth. Engng 53 (2002) 1377-1391.
 struct ConditionDensity
 {
-  /// Returns the density at J; infinite where it cannot be computed.
-  double value(const Eigen::Matrix3d& J) const;
-  /// Returns the density and computes d(density)/dJ, which is undefined where it is infinite.
-  double gradient(const Eigen::Matrix3d& J, Eigen::Matrix3d& derivative) const;
-  /// As FoldoverDensity::hessian(). `J`: with a positive determinant.
-  void hessian(
-    const Eigen::Matrix3d& J, const Eigen::Matrix3d& g, Eigen::Matrix3d (&block)[3][3]) const;
 };
 }

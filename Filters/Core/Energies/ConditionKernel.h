@@ -47,7 +47,7 @@ MORPH_SIMD_INLINE void gradient(const Matrix3<T>& J, T& kappa, Matrix3<T>& deriv
   }
 }
 
-/// ConditionDensity::hessian(); `g` and the blocks by columns.
+/// As foldover::hessian(). `J`: with a positive determinant.
 template <typename T>
 MORPH_SIMD_INLINE void hessian(const Matrix3<T>& J, const Matrix3<T>& g, Matrix3<T> (&block)[3][3])
 {

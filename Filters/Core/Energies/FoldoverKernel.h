@@ -328,7 +328,7 @@ MORPH_SIMD_INLINE void makeSemiDefinite(Matrix3<T>& A)
 /// Computes the second derivative, without its negative eigenvalues, of a density that depends on
 /// the singular values alone. J = U diag(s) V^T. `A`: the second derivatives by s, changed;
 /// `twist`, `shear`: the eigenvalues of rotations and shears between the two other axes; `g`: see
-/// FoldoverDensity::hessian(), by columns as the blocks.
+/// hessian(), by columns as the blocks.
 template <typename T>
 MORPH_SIMD_INLINE void projectedHessian(const Matrix3<T>& U, const Matrix3<T>& V, Matrix3<T>& A,
   const Vector3<T>& twist, const Vector3<T>& shear, const Matrix3<T>& g, Matrix3<T> (&block)[3][3])
@@ -377,7 +377,11 @@ MORPH_SIMD_INLINE void projectedHessian(const Matrix3<T>& U, const Matrix3<T>& V
   }
 }
 
-/// FoldoverDensity::hessian(); `g` and the blocks by columns.
+/// The second derivative without its negative eigenvalues, for displacements of a tetrahedron's
+/// corners 1 to 3. `g`: its columns are the shape function gradients of these corners.
+/// `block`[a][b], by columns: 3 x 3, for corners a <= b. Closed form by the singular values (Smith,
+/// de Goes, Kim, ACM Trans. Graph. 38(1) (2019)). Accurate to about 1e-7, enough for search
+/// directions.
 template <typename T>
 MORPH_SIMD_INLINE void hessian(const Parameters<T>& parameters, const Matrix3<T>& J,
   const Matrix3<T>& g, Matrix3<T> (&block)[3][3])

@@ -238,16 +238,4 @@ EvaluateReport SimplexNaturalNeighbor::displaceTranspose(
   this->sites_.scatterTranspose(part[0], prescribed);
   return {};
 }
-
-void SimplexNaturalNeighbor::forEachNode(
-  const std::function<void(Index, const std::vector<std::int32_t>&, const std::vector<double>&)>&
-    use) const
-{
-  Workspace work(this->neighbors_);
-  for (Index place : this->order_)
-  {
-    this->weightsOf(place, work);
-    use(place, work.sites, work.weights);
-  }
-}
 }

@@ -38,14 +38,6 @@ public:
   /// Sets the maximum number of bytes for the weights. Call it before prepare(). Default 4e9.
   void setMemoryLimit(std::size_t bytes) { this->memoryLimit_ = bytes; }
 
-  /// Returns the sites that the numbers in weightsOf() denote.
-  const InterpolationSites& sites() const { return this->sites_; }
-  /// Calls `use` for each node with its index in NodePartition::free, its sites and weights, for
-  /// checks.
-  void forEachNode(
-    const std::function<void(Index, const std::vector<std::int32_t>&, const std::vector<double>&)>&
-      use) const;
-
   std::unique_ptr<Morpher> copyWithoutCells() const override
   {
     return std::make_unique<SimplexNaturalNeighbor>(*this);

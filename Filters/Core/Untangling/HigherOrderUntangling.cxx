@@ -172,13 +172,12 @@ private:
 };
 }
 
-HigherOrderUntangling untangleHigherOrder(const Mesh& mesh, const NodePartition& partition,
+void untangleHigherOrder(const Mesh& mesh, const NodePartition& partition,
   const std::vector<std::int8_t>& orientation, Points& points, Monitor& monitor)
 {
-  HigherOrderUntangling result;
   if (partition.higherOrderNodes.empty())
   {
-    return result;
+    return;
   }
   std::vector<std::uint8_t> skip(mesh.numberOfCells());
   for (Index c = 0; c < mesh.numberOfCells(); ++c)
@@ -187,11 +186,11 @@ HigherOrderUntangling untangleHigherOrder(const Mesh& mesh, const NodePartition&
     skip[c] =
       !shape || !isQuadraticVolume(*shape) || !(straightVolume(mesh, orientation, c, points) > 0);
   }
-  result.left = invertedCells(mesh, orientation, skip, points, monitor);
-  const std::vector<Index> free = nodesOf(mesh, result.left, partition.higherOrderNodes);
+  const std::vector<Index> before = invertedCells(mesh, orientation, skip, points, monitor);
+  const std::vector<Index> free = nodesOf(mesh, before, partition.higherOrderNodes);
   if (free.empty())
   {
-    return result;
+    return;
   }
   // All other cells keep their certificates.
   std::vector<Index> cells;
@@ -209,14 +208,9 @@ HigherOrderUntangling untangleHigherOrder(const Mesh& mesh, const NodePartition&
   limits.steps = Steps;
   limitedMemoryBfgs(
     CoefficientPenalty(mesh, orientation, cells, free, points), trial, limits, effort, monitor);
-  std::vector<Index> left = invertedCells(mesh, orientation, skip, trial, monitor);
-  if (left.size() < result.left.size())
+  if (invertedCells(mesh, orientation, skip, trial, monitor).size() < before.size())
   {
-    result.left.swap(left);
-    result.movedNodes = std::count_if(
-      free.begin(), free.end(), [&](Index node) { return trial.row(node) != points.row(node); });
     points.swap(trial);
   }
-  return result;
 }
 }

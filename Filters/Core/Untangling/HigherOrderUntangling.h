@@ -9,12 +9,6 @@
 
 namespace morph
 {
-struct HigherOrderUntangling
-{
-  Index movedNodes = 0;    ///< higher-order nodes
-  std::vector<Index> left; ///< such cells that stay inverted, ascending
-};
-
 /// Untangles quadratic cells that are inverted although the cells through their corners have a
 /// positive volume. The mid-side, face and body nodes of such cells move if they are not
 /// prescribed; all corners stay. The nodes minimize what the Bernstein coefficients of the Jacobian
@@ -24,6 +18,6 @@ struct HigherOrderUntangling
 /// by their certificates, all nodes stay. `orientation`: #cells, see cellSigns() in Topology.h;
 /// `points`: #nodes x 3, start and result. The result does not depend on threads. Cost: certify(),
 /// and some milliseconds a cell that is inverted.
-HigherOrderUntangling untangleHigherOrder(const Mesh& mesh, const NodePartition& partition,
+void untangleHigherOrder(const Mesh& mesh, const NodePartition& partition,
   const std::vector<std::int8_t>& orientation, Points& points, Monitor& monitor);
 }
