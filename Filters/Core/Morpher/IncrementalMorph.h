@@ -62,10 +62,11 @@ SubStepResult takeSubSteps(const Points& rest, const SubStepLimits& limits,
 /// 3. `orientation`: #cells, of the undeformed mesh. Cells of `before` that are no worse do not
 /// count as inverted. Throws Error for an undeformed mesh with other inverted cells, and errors of
 /// prepare() at the first attempt. Cost: prepare() and evaluate() for each of at most
-/// `limits.attempts`, of which at most `limits.failures` fail.
+/// `limits.attempts`, of which at most `limits.failures` fail. `processes`: see Morpher::prepare();
+/// cells are named by their numbers in the whole mesh then.
 SubStepResult morphIncrementally(const Mesh& rest, const Points& reference,
   const NodePartition& partition, const std::vector<std::int8_t>& orientation,
   const InvertedBefore& before, const BoundaryPath& path,
   const std::function<std::unique_ptr<Morpher>()>& make, const SubStepLimits& limits,
-  Monitor& monitor);
+  Monitor& monitor, const std::shared_ptr<const Communicator>& processes = nullptr);
 }
