@@ -20,7 +20,7 @@ from window_events import MAIN, Events  # noqa: E402
 
 MESH = ROOT / "Data/Models/small/canister_hex_small.vtu"
 WIDTH, HEIGHT = 1150, 800
-COLORS = 32  # of a picture: the window has few
+COLORS = 128  # of a picture
 
 
 class Tutorial(Events):
@@ -30,6 +30,7 @@ class Tutorial(Events):
         super().__init__()
         self.load_plugin(plugin)
         self.open(str(MESH))
+        self.do(MAIN + "cameraToolbar/actionIsometricView", "activate")
 
     def tick(self, row):
         """In the table of surfaces."""

@@ -392,6 +392,11 @@ def domain(row):
         return ('<KeptArraySelectionDomain name="list"><RequiredProperties>'
                 f'<Property function="ArrayList" name="{LISTS[row.kind]}List"/>'
                 "</RequiredProperties></KeptArraySelectionDomain>")
+    if row["box"]:
+        kind = {"corner": 'mode="normal" default_mode="min"',
+                "lengths": 'mode="extents" default_mode="max"'}[row["box"]]
+        return (f'<BoundsDomain name="range" {kind}><RequiredProperties>'
+                '<Property function="Input" name="Input"/></RequiredProperties></BoundsDomain>')
     if (low, high) == (None, None):
         return ""
     kind = "Int" if row.kind.startswith("integer") else "Double"

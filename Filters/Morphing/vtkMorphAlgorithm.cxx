@@ -149,7 +149,7 @@ int vtkMorphAlgorithm::RequestData(
   const auto morph = [&](vtkUnstructuredGrid* grid, vtkDataObject* boundary, bool isDistributed,
                        filters::Monitor& monitor)
   {
-    kept.Motion.Boundary = [&](int step)
+    const auto boundaryAt = [&](int step)
     {
       // On several processes all ask for the same steps, whatever time the boundary has here.
       if (isDistributed || step != kept.BoundaryStep)
@@ -159,6 +159,11 @@ int vtkMorphAlgorithm::RequestData(
       }
       return boundary;
     };
+    kept.Motion.Boundary = {};
+    if (kept.Motion.Steps.FromBoundary())
+    {
+      kept.Motion.Boundary = boundaryAt;
+    }
     partial = kept.Morpher.Morph(
       grid, boundary, isDistributed, kept.Motion, kept.Method(), outputs, monitor);
   };

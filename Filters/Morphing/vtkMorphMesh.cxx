@@ -105,7 +105,8 @@ public:
   {
     return filters::GridMorpher::IsSeries(this->Filter->MeshOptions->Stepping, this->Motion.Steps);
   }
-  /// What displaces the boundary. MOVING_NOTHING: nothing moves yet. Collective on ranks.
+  /// What displaces the boundary in the step that is asked for. MOVING_NOTHING: nothing moves yet.
+  /// Collective on ranks.
   morph::DisplacementOptions Displacement(const Inputs& inputs);
   /// Displaces the boundary, unless it has been. `mesh`: a grid.
   void Displace(const morph::DisplacementOptions& options, const filters::Input::Mesh& mesh,
@@ -114,8 +115,9 @@ public:
   void Show(
     vtkUnstructuredGrid* grid, const Inputs& inputs, const filters::GridMorpher::Outputs& outputs);
   /// Returns an error that comes with a result, or nothing.
-  std::string Morph(const filters::Input::Mesh& mesh, const Inputs& inputs,
-    const filters::GridMorpher::Outputs& outputs, morph::Monitor& monitor);
+  std::string Morph(morph::DisplacementOptions options, const filters::Input::Mesh& mesh,
+    const Inputs& inputs, const filters::GridMorpher::Outputs& outputs,
+    morph::filters::Monitor& monitor);
   void Say(const char* kind, const std::string& message)
   {
     this->Messages->InsertNextValue(kind);
@@ -252,7 +254,17 @@ int vtkMorphMesh::RequestUpdateExtent(
   motion.Step = motion.Steps.Asked(filters::Ports::Asked(request, outputVector));
   if (this->Morphing->IsSeries())
   {
-    this->Morphing->Morpher.CheckSeries(this->GetMTime(), false, 0, motion.Step);
+    vtkMTimeType inputs = 0;
+    for (int port = 0; port < this->GetNumberOfInputPorts(); ++port)
+    {
+      for (int i = 0; i < this->GetNumberOfInputConnections(port); ++i)
+      {
+        auto* const upstream =
+          vtkDemandDrivenPipeline::SafeDownCast(this->GetInputExecutive(port, i));
+        inputs = std::max(inputs, upstream ? upstream->GetPipelineMTime() : 0);
+      }
+    }
+    this->Morphing->Morpher.CheckSeries(this->GetMTime(), true, inputs, motion.Step);
   }
   return 1;
 }
@@ -292,8 +304,7 @@ int vtkMorphMesh::RequestData(
     }
     else if (mesh.IsDistributed || !mesh.IsElsewhere)
     {
-      morph::ProgressRange morphing(monitor, 0.3, 1);
-      partial = own.Morph(mesh, inputs, outputs, morphing);
+      partial = own.Morph(options, mesh, inputs, outputs, monitor);
       if (this->Internals->IsTeller())
       {
         control->ShallowCopy(this->Internals->ControlPoints);
@@ -346,7 +357,7 @@ morph::DisplacementOptions vtkMorphMesh::vtkMorphing::Displacement(const Inputs&
   morph::DisplacementOptions options = *this->Filter->Options;
   // The boundary in the precision of the computation: the output alone is rounded.
   options.OutputPointsPrecision = DOUBLE_PRECISION;
-  if (this->Motion.Steps.Any() && !this->IsSeries())
+  if (this->Motion.Steps.Any())
   {
     options.ScaleFactor *= this->Motion.Steps.Fraction(this->Motion.Step);
   }
@@ -524,8 +535,9 @@ filters::GridMorpher::Method vtkMorphMesh::vtkMorphing::MethodOf(vtkUnstructured
     } };
 }
 
-std::string vtkMorphMesh::vtkMorphing::Morph(const filters::Input::Mesh& mesh, const Inputs& inputs,
-  const filters::GridMorpher::Outputs& outputs, morph::Monitor& monitor)
+std::string vtkMorphMesh::vtkMorphing::Morph(morph::DisplacementOptions options,
+  const filters::Input::Mesh& mesh, const Inputs& inputs,
+  const filters::GridMorpher::Outputs& outputs, filters::Monitor& monitor)
 {
   auto* grid = vtkUnstructuredGrid::SafeDownCast(mesh.Data);
   const std::vector<double> soft = this->SoftCells(grid, inputs);
@@ -537,11 +549,20 @@ std::string vtkMorphMesh::vtkMorphing::Morph(const filters::Input::Mesh& mesh, c
   const bool isRough = this->Filter->MeshOptions->Live && !isAffineSomewhere;
   const auto take = [&] { method = this->MethodOf(grid, soft, isRough, monitor); };
   mesh.IsDistributed ? filters::Ranks::Together(take) : take();
-  // The boundary is that of the step, but in a series, which divides the whole motion.
-  const filters::GridMorpher::Motion motion =
-    this->IsSeries() ? this->Motion : filters::GridMorpher::Motion();
-  std::string partial =
-    this->Morpher.Morph(grid, this->Boundary, mesh.IsDistributed, motion, method, outputs, monitor);
+  filters::GridMorpher::Motion motion; // Boundary has made it
+  if (this->IsSeries())
+  {
+    motion = this->Motion;
+    motion.Boundary = [&](int step)
+    {
+      options.ScaleFactor = this->Filter->Options->ScaleFactor * this->Motion.Steps.Fraction(step);
+      this->Displace(options, mesh, inputs, monitor);
+      return this->Boundary.Get();
+    };
+  }
+  morph::ProgressRange morphing(monitor, 0.3, 1);
+  std::string partial = this->Morpher.Morph(
+    grid, this->Boundary, mesh.IsDistributed, motion, method, outputs, morphing);
   for (const char* name : { "SlideChange", "SlideForce", "ContactGaps" })
   {
     if (vtkDataArray* array = this->Boundary->GetFieldData()->GetArray(name))

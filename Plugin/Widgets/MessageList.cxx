@@ -17,6 +17,7 @@
 #include <vtkIdTypeArray.h>
 #include <vtkNew.h>
 #include <vtkPVDataInformation.h>
+#include <vtkSMEnumerationDomain.h>
 #include <vtkSMProperty.h>
 #include <vtkSMPropertyHelper.h>
 #include <vtkSMProxy.h>
@@ -41,10 +42,29 @@ namespace
 {
 constexpr int Most = 400; ///< characters that are shown; a tool tip has them all
 
+/// "set `Property` to value" or "`Property` set to value".
 const QRegularExpression& remedy()
 {
-  static const QRegularExpression found("[Ss]et `(\\w+)` to ('[^']+'(?:, '[^']+')*|[\\w.-]*\\w)");
+  static const QRegularExpression found(
+    "(?|[Ss]et `(\\w+)`|`(\\w+)` set) to ('[^']+'(?:, '[^']+')*|[\\w.-]*\\w)");
   return found;
+}
+
+/// The entry of `property` with which `text` begins, the longest of several, else `word`.
+QString entryOf(vtkSMProperty* property, const QString& text, const QString& word)
+{
+  QString longest;
+  if (const auto domain = property->FindDomain<vtkSMEnumerationDomain>())
+  {
+    for (unsigned int i = 0; i < domain->GetNumberOfEntries(); ++i)
+    {
+      const QString entry = domain->GetEntryText(i);
+      longest = text.startsWith(entry, Qt::CaseInsensitive) && entry.size() > longest.size()
+                  ? entry
+                  : longest;
+    }
+  }
+  return longest.isEmpty() ? word : longest;
 }
 
 /// What a role of surfaces is called, by its list.
@@ -141,11 +161,13 @@ void MessageList::addRemedies(const QString& message, QWidget* row)
   for (auto found = remedy().globalMatch(message); found.hasNext();)
   {
     const QRegularExpressionMatch one = found.next();
-    const QString property = one.captured(1), value = one.captured(2);
-    if (!this->filter()->GetProperty(qPrintable(property)))
+    const QString property = one.captured(1);
+    vtkSMProperty* const changed = this->filter()->GetProperty(qPrintable(property));
+    if (!changed)
     {
       continue;
     }
+    const QString value = entryOf(changed, message.mid(one.capturedStart(2)), one.captured(2));
     const QString role = roleOf(property);
     add(role.isEmpty()
           ? tr("Set %1 to %2").arg(inPanelWords("`" + property + "`"), QString(value).remove('\''))

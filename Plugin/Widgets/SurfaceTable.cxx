@@ -30,15 +30,18 @@
 #include <vtkSMUncheckedPropertyHelper.h>
 
 #include <QComboBox>
+#include <QDockWidget>
 #include <QGridLayout>
 #include <QHeaderView>
 #include <QLabel>
 #include <QLineEdit>
+#include <QMainWindow>
 #include <QMenu>
 #include <QMouseEvent>
 #include <QPainter>
 #include <QPushButton>
 #include <QRegularExpression>
+#include <QScrollArea>
 #include <QSet>
 #include <QStyledItemDelegate>
 #include <QTimer>
@@ -113,6 +116,30 @@ QString fourDigits(const QString& text)
   bool isWhole = false;
   text.toLongLong(&isWhole); // a count, or none
   return isWhole || text.isEmpty() ? text : QString::number(text.toDouble(), 'g', 4);
+}
+
+template <class Ancestor>
+Ancestor* ancestorOf(QWidget* widget)
+{
+  Ancestor* found = nullptr;
+  for (; widget && !found; widget = widget->parentWidget())
+  {
+    found = qobject_cast<Ancestor*>(widget->parentWidget());
+  }
+  return found;
+}
+
+/// In a new window the panel would be too narrow for what it shows.
+void widenDock(QWidget* inside)
+{
+  const auto* const area = ancestorOf<QScrollArea>(inside);
+  auto* const dock = ancestorOf<QDockWidget>(inside);
+  auto* const window = dock ? ancestorOf<QMainWindow>(dock) : nullptr;
+  if (area && window)
+  {
+    const int missing = area->widget()->minimumSizeHint().width() - area->viewport()->width();
+    window->resizeDocks({ dock }, { dock->width() + std::max(missing, 0) }, Qt::Horizontal);
+  }
 }
 }
 
@@ -208,18 +235,25 @@ SurfaceTable::SurfaceTable(vtkSMProxy* filter, vtkSMPropertyGroup* group, QWidge
   QObject::connect(pqPVApplicationCore::instance()->selectionManager(),
     SIGNAL(selectionChanged(pqOutputPort*)), this, SLOT(pickRows(pqOutputPort*)));
   // The panel is being made; its properties are beside this widget.
-  for (QWidget* above = parent; above; above = above->parentWidget())
+  if (auto* const panel = ancestorOf<pqProxyWidget>(this))
   {
-    if (auto* const panel = qobject_cast<pqProxyWidget*>(above))
-    {
-      QObject::connect(panel, &pqProxyWidget::changeAvailable, this, &SurfaceTable::previewLater);
-      break;
-    }
+    QObject::connect(panel, &pqProxyWidget::changeAvailable, this, &SurfaceTable::previewLater);
   }
   this->fill();
 }
 
 SurfaceTable::~SurfaceTable() = default;
+
+void SurfaceTable::showEvent(QShowEvent* event)
+{
+  this->Superclass::showEvent(event);
+  static bool isDone = false; // later widths are the user's
+  if (!isDone)
+  {
+    isDone = true;
+    QTimer::singleShot(0, this, [this] { widenDock(this); });
+  }
+}
 
 vtkSMProperty* SurfaceTable::named(const char* property) const
 {

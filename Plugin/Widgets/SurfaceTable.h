@@ -63,6 +63,8 @@ public Q_SLOTS:
 protected:
   /// A press on a role, and with the right button anywhere, opens the choice of roles.
   bool eventFilter(QObject* object, QEvent* event) override;
+  /// The first one of all widens the panel to its content.
+  void showEvent(QShowEvent* event) override;
 
 private Q_SLOTS:
   void fillLater();

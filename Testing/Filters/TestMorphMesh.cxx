@@ -478,6 +478,51 @@ TEST(MorphMesh, HasStepsInTime)
   EXPECT_FALSE(info->Has(vtkStreamingDemandDrivenPipeline::TIME_STEPS()));
 }
 
+TEST(MorphMesh, RelativeStepsTurnWithThePart)
+{
+  auto grid = box();
+  auto filter = make(grid);
+  filter->SetMovingToEverything();
+  filter->SetDisplacementToTranslateRotateScale();
+  filter->SetRotation(0, 0, 360);
+  filter->SetNumberOfSteps(8);
+  filter->SetSteppingToRelative();
+  const morph::Points rest = grids::points(grid);
+  for (const int step : { 3, 1, 8 }) // jumped to, and back
+  {
+    filter->UpdateTimeStep(step);
+    const double angle = step * EIGEN_PI / 4;
+    morph::Points turned = rest;
+    for (morph::Index i = 0; i < rest.rows(); ++i)
+    {
+      const double x = rest(i, 0) - 2, y = rest(i, 1) - 2;
+      turned(i, 0) = 2 + std::cos(angle) * x - std::sin(angle) * y;
+      turned(i, 1) = 2 + std::sin(angle) * x + std::cos(angle) * y;
+    }
+    EXPECT_LT((grids::points(filter->GetOutput()) - turned).cwiseAbs().maxCoeff(), 1e-9) << step;
+  }
+  const int prepared = filter->GetPrepareCount();
+  filter->UpdateTimeStep(5); // kept
+  EXPECT_EQ(filter->GetPrepareCount(), prepared);
+}
+
+TEST(MorphMesh, RelativeStepsOfAnotherMotionAreAnotherSeries)
+{
+  auto grid = box();
+  auto filter = make(grid);
+  filter->SetNumberOfSteps(2);
+  filter->SetSteppingToRelative();
+  filter->UpdateTimeStep(2);
+  filter->SetVector(2 * Up[0], 2 * Up[1], 0);
+  filter->UpdateTimeStep(1);
+  EXPECT_TRUE(topMovedBy(grid, filter->GetOutput(), Row(Up[0], Up[1], 0)));
+  auto other = box();
+  other->GetPoints()->SetPoint(62, 2, 2, 2.1); // an inner node
+  filter->SetInputData(other);
+  filter->UpdateTimeStep(2);
+  EXPECT_TRUE(topMovedBy(other, filter->GetOutput(), Row(2 * Up[0], 2 * Up[1], 0)));
+}
+
 TEST(MorphMesh, AnAbortGivesTheUndeformedMeshAndNoMessage)
 {
   auto grid = box();

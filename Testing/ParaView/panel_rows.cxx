@@ -37,8 +37,8 @@ QString textOf(const QWidget* widget)
 }
 }
 
-/// A JSON text, to be freed, of the panel in a dock of this width in pixels: "dock" and "width",
-/// those of the dock and of what is seen of the panel; "height"; "rows", the names of its rows,
+/// A JSON text, to be freed, of the panel in a dock of this width in pixels, 0 as it is: "dock" and
+/// "width", those of the dock and of what is seen of the panel; "height"; "rows", the names of its rows,
 /// titles that fold included; "titles", with what each of them says; "texts", all that labels and
 /// fields say; "styles", of labels with a style of their own, by their texts; "cut", what the edge
 /// of the dock cuts off; "table", the rows of the table of surfaces that are not hidden, each with
@@ -48,7 +48,10 @@ extern "C" Q_DECL_EXPORT char* panel_rows(int width)
 {
   auto* const dock = named<QDockWidget>("propertiesDock");
   auto* const window = qobject_cast<QMainWindow*>(dock->parentWidget());
-  window->resizeDocks({ dock }, { width }, Qt::Horizontal);
+  if (width > 0)
+  {
+    window->resizeDocks({ dock }, { width }, Qt::Horizontal);
+  }
   for (int i = 0; i < 5; ++i)
   {
     QApplication::processEvents();

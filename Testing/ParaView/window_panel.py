@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Runs in ParaView's window (paraview --script): each time a state is saved, writes a line of JSON
-on the properties panel to MORPH_ROWS, as panel_rows.cxx gives it in a dock of MORPH_DOCK pixels.
+on the properties panel to MORPH_ROWS, as panel_rows.cxx gives it in a dock of MORPH_DOCK pixels, of
+which 0 leaves it as it is.
 "ghosts" are the bounds of what the active view shows translucent, and no pipeline has."""
 import ctypes
 import json

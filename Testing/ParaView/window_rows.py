@@ -13,7 +13,7 @@ from pathlib import Path
 
 from paraview import simple
 
-from window_events import HERE, Events
+from window_events import HERE, PANEL, Events
 
 SMALL = HERE.parents[1] / "Data/Models/small"
 MOST, DOCK = 12, 340
@@ -70,6 +70,21 @@ class Rows(Panels):
                 self.assertLessEqual(panel["dock"], DOCK)
                 self.assertNotIn("-1", panel["texts"])
 
+    def test_a_new_window_is_wide_enough(self):
+        self.events.filter("MorphMesh")
+        self.look("MorphMesh")
+        panel, = self.play(dock=0)
+        self.assertEqual(panel["cut"], [], panel)
+        self.assertIn("Role", panel["columns"])
+
+    def test_the_lattice_begins_around_the_mesh(self):
+        mesh = simple.OpenDataFile(str(SMALL / self.mesh))
+        morph = MorphMesh(Input=mesh, Displacement="Lattice", LatticeBox="Own")
+        low, high = zip(*zip(*[iter(mesh.GetDataInformation().GetBounds())] * 2))
+        self.assertEqual(list(morph.LatticePosition), list(low))
+        for length, least, most in zip(morph.LatticeLength, low, high):
+            self.assertAlmostEqual(length, most - least, delta=1e-12)
+
     def test_a_title_opens_its_group_and_says_what_it_holds(self):
         self.events.filter("MorphMesh")
         self.look("closed")
@@ -113,6 +128,8 @@ class Status(Panels):
             self.events.set("Vector/DoubleLineEdit2", "set_string", str(height))
             self.events.apply()
             self.look(validity)
+        self.events.set("Validity/Message0/Remedy0", "activate", "")
+        self.events.expect(PANEL + "Validity/ComboBox", "Repair", "currentText")
         self.events.set("Displacement/ComboBox", "set_string", "Radius")
         self.events.set("RadiusChange/DoubleLineEdit0", "set_string", "-9")
         self.events.apply()  # more than there is

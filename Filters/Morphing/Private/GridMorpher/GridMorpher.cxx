@@ -98,9 +98,9 @@ std::string GridMorpher::Morph(vtkUnstructuredGrid* grid, vtkDataObject* boundar
     {
       return this->MorphAlone(grid, boundary, motion, method, outputs, monitor);
     }
-    const bool varies = motion.Steps.FromBoundary();
+    const bool varies = motion.Boundary != nullptr;
     const OnRanks::Motion series = { motion.Step, varies,
-      [&](int step) { return motion.Steps.Fraction(step); },
+      [&](int step) { return varies ? 1 : motion.Steps.Fraction(step); },
       [&](int step) { return Input::RequireBoundary(varies ? motion.Boundary(step) : boundary); } };
     const std::string error = this->Ranks().Run(
       { grid, boundary, fractionOf(motion),
@@ -223,19 +223,19 @@ morph::BoundaryTargets GridMorpher::Match(vtkPointSet* boundary, double fraction
 std::shared_ptr<const morph::StepResult> GridMorpher::MorphSeries(vtkPointSet* displaced,
   const Motion& motion, const MotionOptions& options, morph::Monitor& monitor)
 {
-  const bool varies = motion.Steps.FromBoundary();
+  const bool varies = motion.Boundary != nullptr;
   // A process without cells has no series, and would not know which step to ask the boundary for.
   if (varies && filters::Ranks::Processes() > 1)
   {
-    throw morph::Error("Relative steps after a boundary that varies in time need a mesh with cells "
-                       "on several MPI processes, or a single process. Distribute the mesh, or set "
+    throw morph::Error("Relative steps with a boundary of their own need a mesh with cells on "
+                       "several MPI processes, or a single process. Distribute the mesh, or set "
                        "`Stepping` to Absolute.");
   }
   const auto boundaryOf = [&](int step)
   {
     vtkPointSet* ofStep = varies ? Input::RequireBoundary(motion.Boundary(step)) : displaced;
-    return morph::inStep(
-      step, [&] { return this->Match(ofStep, motion.Steps.Fraction(step), options, monitor); });
+    return morph::inStep(step, [&]
+      { return this->Match(ofStep, varies ? 1 : motion.Steps.Fraction(step), options, monitor); });
   };
   morph::BoundaryTargets whole;
   if (!varies)

@@ -40,7 +40,7 @@ public:
   {
     filters::Steps Steps;
     int Step = -1;
-    /// The boundary at a step, of one that varies in time; for a series alone.
+    /// The boundary at a step, for a series alone. Null: a step has a part of the displacements.
     std::function<vtkDataObject*(int step)> Boundary = {};
   };
   using Outputs = MorphOutput::Outputs;
