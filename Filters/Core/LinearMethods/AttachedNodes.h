@@ -28,8 +28,9 @@ class AttachedNodes
 {
 public:
   AttachedNodes() = default;
-  /// `rest`: on several processes this one's part, with all volume cells around the nodes that count
-  /// here. Holds it and `processes` by reference. Collective. Cost: each process gets all links.
+  /// `rest`: on several processes this one's part, with all volume cells around the nodes that
+  /// count here. Holds it and `processes` by reference. Collective. Cost: each process gets all
+  /// links.
   AttachedNodes(const Mesh& rest, const NodePartition& partition,
     const Communicator& processes = Communicator::alone());
 

@@ -31,8 +31,17 @@ double lastAllowed(const SubStepLimits& limits)
   }
   return allowed;
 }
-}
 
+/// A step of takeSubSteps().
+struct SubStepAttempt
+{
+  Points moved;                ///< #nodes x 3
+  std::vector<Index> inverted; ///< or degenerate cells
+  EvaluateReport report;
+};
+
+/// Calls `attempt` for steps to times up to 1. `from`: #nodes x 3, the last valid mesh, first
+/// `rest`.
 SubStepResult takeSubSteps(const Points& rest, const SubStepLimits& limits,
   const std::function<SubStepAttempt(const Points& from, double time, Monitor& part)>& attempt,
   Monitor& monitor)
@@ -78,6 +87,7 @@ SubStepResult takeSubSteps(const Points& rest, const SubStepLimits& limits,
     result.inverted = limits.forbidden(std::min(1., goal + limits.least));
   }
   return result;
+}
 }
 
 SubStepResult morphIncrementally(const Mesh& rest, const Points& reference,

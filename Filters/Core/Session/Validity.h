@@ -44,7 +44,7 @@ public:
   const NodePartition& partition;
   const std::vector<std::int8_t>& orientation; ///< #cells
   const Points& targets;                       ///< #prescribed x 3
-  /// of `mesh`; on several processes none: that the boundary folds or crosses itself is not foreseen
+  /// of `mesh`; on several processes none, so that folds and crossings are not foreseen
   const BoundaryFaces& faces;
   const HangingNodes& hanging; ///< of the same
   /// the method is the inversion-free one, which messages do not recommend to itself
