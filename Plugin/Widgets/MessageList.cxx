@@ -106,6 +106,20 @@ vtkSMProxy* MessageList::filter() const
 
 void MessageList::showMessages()
 {
+  const vtkSMPropertyHelper messages(this->filter(), "Messages");
+  bool isError = false;
+  for (unsigned int i = 0; i + 1 < messages.GetNumberOfElements(); i += 2)
+  {
+    isError = isError || messages.GetAsString(i) == QString("Error");
+  }
+  // In a drag the panel's rows would jump with each step; what is said then is said on release.
+  vtkSMProperty* const live = this->filter()->GetProperty("Live");
+  const bool isDragged = live && vtkSMPropertyHelper(live).GetAsInt() != 0;
+  if (isDragged && !isError && !this->IsError)
+  {
+    return;
+  }
+  this->IsError = isError;
   for (const QPointer<QWidget>& row : this->Shown)
   {
     if (row)
@@ -115,7 +129,6 @@ void MessageList::showMessages()
     }
   }
   this->Shown.clear();
-  const vtkSMPropertyHelper messages(this->filter(), "Messages");
   for (unsigned int i = 0; i + 1 < messages.GetNumberOfElements(); i += 2)
   {
     const QString message = QString::fromUtf8(messages.GetAsString(i + 1));

@@ -33,6 +33,7 @@ private:
   pqPropertyWidget* Owner;
   QVBoxLayout* Rows;
   QVector<QPointer<QWidget>> Shown;
+  bool IsError = false; ///< one that is shown
 
   vtkSMProxy* filter() const;
   QWidget* rowOf(const QString& kind, const QString& message);
