@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Distributed/CutMesh.h"
 
+#include "Distributed/RankCommunicator.h"
 #include "Support/Error.h"
 
 #include <algorithm>
@@ -9,7 +10,7 @@
 
 namespace morph::distributed
 {
-CutMesh::CutMesh(const DistributedMesh& whole, int layers, Monitor& monitor)
+CutMesh::CutMesh(const DistributedMesh& whole, const Mesh& mesh, int layers, Monitor& monitor)
   : whole_(&whole)
 {
   std::unique_ptr<PolyhedronPieces> cut;
@@ -17,16 +18,21 @@ CutMesh::CutMesh(const DistributedMesh& whole, int layers, Monitor& monitor)
     [&]
     {
       monitor.check();
-      cut = std::make_unique<PolyhedronPieces>(whole.hanging().conforming(whole.mesh()), monitor);
+      cut = std::make_unique<PolyhedronPieces>(whole.hanging().conforming(mesh), monitor);
     });
-  Piece piece = this->ownPieces(*cut);
+  Piece piece = this->ownPieces(*cut, mesh.points);
   this->pieces_ =
     std::make_unique<DistributedMesh>(whole.ranks(), std::move(piece), layers, monitor);
   // Each rank sums up a center in its own order: all take the bits of its owner.
-  *this->pieces_ = this->pieces_->at(this->extend(whole.mesh().points));
+  this->pieces_->setPoints(this->extend(mesh.points));
 }
 
-Piece CutMesh::ownPieces(const PolyhedronPieces& cut)
+std::shared_ptr<const Communicator> CutMesh::processes() const
+{
+  return std::make_shared<RankCommunicator>(*this->pieces_);
+}
+
+Piece CutMesh::ownPieces(const PolyhedronPieces& cut, const Points& points)
 {
   const DistributedMesh& whole = *this->whole_;
   const Mesh& all = cut.mesh();
@@ -64,8 +70,8 @@ Piece CutMesh::ownPieces(const PolyhedronPieces& cut)
 
   const Index plain = static_cast<Index>(this->wholeNode_.size());
   piece.mesh.points.resize(plain + this->means_.rows(), 3);
-  piece.mesh.points.topRows(plain) = whole.mesh().points(this->wholeNode_, allColumns);
-  piece.mesh.points.bottomRows(this->means_.rows()) = this->means_ * whole.mesh().points;
+  piece.mesh.points.topRows(plain) = points(this->wholeNode_, allColumns);
+  piece.mesh.points.bottomRows(this->means_.rows()) = this->means_ * points;
   Index others = 0, highest = -1;
   for (Index c = 0; c < whole.pieceCells(); ++c)
   {
@@ -219,7 +225,7 @@ void CutMesh::agreeOnFaces(const std::vector<Index>& rows, const PolyhedronPiece
   }
 }
 
-Points CutMesh::extend(const Points& points) const
+Points CutMesh::extend(const ConstPoints& points) const
 {
   const DistributedMesh& pieces = *this->pieces_;
   const Index plain = static_cast<Index>(this->wholeNode_.size());
@@ -242,7 +248,7 @@ Points CutMesh::reduce(const Points& all, Points points) const
   return points;
 }
 
-Points CutMesh::extendTranspose(const Points& all) const
+Points CutMesh::extendTranspose(const ConstPoints& all) const
 {
   const Index plain = static_cast<Index>(this->wholeNode_.size());
   Points own = all.topRows(this->pieces_->pieceNodes());
@@ -266,7 +272,7 @@ NodePartition CutMesh::extend(const NodePartition& partition) const
   const DistributedMesh& pieces = *this->pieces_;
   const Index plain = static_cast<Index>(this->wholeNode_.size());
   std::vector<std::uint8_t> isHeld(this->whole_->mesh().numberOfNodes(), 0);
-  for (const Index node : this->whole_->hanging().extend(partition).prescribed)
+  for (const Index node : partition.prescribed)
   {
     isHeld[node] = 1;
   }

@@ -18,38 +18,33 @@ namespace morph::distributed
 /// PolyhedronPieces does: each rank cuts the cells that it owns, and the pieces are a distributed
 /// mesh of their own. Nodes keep their ids. Centers have ids beyond these; the center of a face
 /// between two ranks has one id on both. The first piece of a cell has the id of the cell.
-/// Constructor and extend() are collective.
-class CutMesh
+/// The constructor is collective.
+class CutMesh : public CellPieces
 {
 public:
-  /// `whole` has to outlive this object. `layers`: of ghosts around the pieces. Throws Error on all
-  /// ranks.
-  CutMesh(const DistributedMesh& whole, int layers, Monitor& monitor);
+  /// `mesh`: that of `whole`, at any points. `whole` has to outlive this object. `layers`: of
+  /// ghosts around the pieces. Throws Error on all ranks.
+  CutMesh(const DistributedMesh& whole, const Mesh& mesh, int layers, Monitor& monitor);
 
-  const DistributedMesh& mesh() const { return *this->pieces_; }
-  /// The node of the pieces that a node of the whole mesh is; -1 for one that no own cell has.
-  Index nodeOf(Index node) const { return this->nodeOf_[node]; }
-
-  /// PolyhedronPieces::extend() for points and displacements. `points`: #local nodes x 3 of the
-  /// whole mesh; returns #local nodes x 3 of the pieces, ghosts as their owners have them.
-  Points extend(const Points& points) const;
-  /// Returns the rows of the nodes without the centers, ghosts as their owners have them: #local
-  /// nodes x 3 of the whole mesh. Nodes of no cell keep their row of `points`, of that size.
-  /// Collective.
-  Points reduce(const Points& all, Points points) const;
-  /// The adjoint of extend(): `all` is read at the nodes that this rank owns. Ghosts' rows of the
-  /// result are to be added to their owners'. Not collective.
-  Points extendTranspose(const Points& all) const;
-  /// Of the local nodes; with the owner's choice at ghosts. Nodes that hang on prescribed ones
-  /// alone are prescribed, too.
-  NodePartition extend(const NodePartition& partition) const;
-  /// Returns the values of this rank's pieces; `values`: of the piece's cells. Not collective.
-  std::vector<double> extend(const std::vector<double>& values) const;
+  const DistributedMesh& pieces() const { return *this->pieces_; }
+  const Mesh& mesh() const override { return this->pieces_->mesh(); }
+  /// Holds this object by reference.
+  std::shared_ptr<const Communicator> processes() const override;
+  Index cellOf(Index piece) const override
+  {
+    return piece < static_cast<Index>(this->cellOf_.size()) ? this->cellOf_[piece] : -1;
+  }
+  Index nodeOf(Index node) const override { return this->nodeOf_[node]; }
+  Points extend(const ConstPoints& points) const override;
+  Points reduce(const Points& all, Points points) const override;
+  Points extendTranspose(const ConstPoints& all) const override;
+  NodePartition extend(const NodePartition& partition) const override;
+  std::vector<double> extend(const std::vector<double>& values) const override;
 
 private:
   using Means = Eigen::SparseMatrix<double, Eigen::RowMajor, int>;
 
-  Piece ownPieces(const PolyhedronPieces& cut);
+  Piece ownPieces(const PolyhedronPieces& cut, const Points& points);
   void takeMeans(const PolyhedronPieces& cut, const std::vector<Index>& centers);
   void numberCenters(const PolyhedronPieces& cut, const std::vector<Index>& centers,
     const std::vector<std::uint8_t>& isAtGhost, std::vector<std::int64_t>& ids) const;

@@ -289,13 +289,6 @@ DistributedMesh::DistributedMesh(const Ranks& ranks, Piece piece, int layers, Mo
   this->findOuter(monitor);
 }
 
-DistributedMesh DistributedMesh::at(Points points) const
-{
-  DistributedMesh result = *this;
-  result.mesh_.points = std::move(points);
-  return result;
-}
-
 /// Fills byId_ and doubles_; returns what the directory is to know.
 std::vector<NodeRecord> DistributedMesh::numberNodes()
 {

@@ -34,10 +34,9 @@ public:
   /// each of their nodes, and 8 for each corner.
   DistributedMesh(const Ranks& ranks, Piece piece, int layers, Monitor& monitor);
 
-  /// The same mesh with its nodes elsewhere: what follows from cells, bodies, their orientation,
-  /// the outer boundary and the size stay those of this one. `points`: #nodes x 3, ghosts as their
-  /// owners have them. Not collective.
-  DistributedMesh at(Points points) const;
+  /// Moves the nodes alone: bodies, orientation, outer boundary and size stay as they were found.
+  /// `points`: #nodes x 3, ghosts as their owners have them. Not collective.
+  void setPoints(Points points) { this->mesh_.points = std::move(points); }
 
   const Ranks& ranks() const { return *this->ranks_; }
   const Mesh& mesh() const { return this->mesh_; }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Distributed/RankCommunicator.h"
 
+#include "Distributed/CutMesh.h"
 #include "Distributed/HypreSolver.h"
 #include "Support/ReproducibleSum.h"
 
@@ -181,6 +182,27 @@ std::unique_ptr<Communicator> RankCommunicator::part(const std::vector<Index>& n
   return std::make_unique<RankCommunicator>(this->mesh_, this->ofMesh(nodes));
 }
 
+std::vector<Index> RankCommunicator::idsOfCells(const std::vector<Index>& cells) const
+{
+  std::vector<Index> ids;
+  std::transform(cells.begin(), cells.end(), std::back_inserter(ids),
+    [&](Index cell) { return this->mesh_.cellId(cell); });
+  return ids;
+}
+
+std::vector<Index> RankCommunicator::cellsOf(const std::vector<Index>& ids) const
+{
+  std::vector<Index> cells;
+  for (Index c = 0; c < this->mesh_.mesh().numberOfCells(); ++c)
+  {
+    if (!this->isCopy(c) && std::binary_search(ids.begin(), ids.end(), this->mesh_.cellId(c)))
+    {
+      cells.push_back(c);
+    }
+  }
+  return cells;
+}
+
 std::vector<Index> RankCommunicator::gatherNodes(const std::vector<Index>& nodes) const
 {
   return this->mesh_.ranks().gatherSorted(this->idsOf(nodes));
@@ -255,5 +277,11 @@ std::shared_ptr<LinearSolver> RankCommunicator::makeSolver(bool isSymmetric) con
 {
   return std::make_shared<HypreSolver>(
     this->mesh_.ranks(), isSymmetric ? HypreSolver::Kind::Symmetric : HypreSolver::Kind::General);
+}
+
+std::shared_ptr<CellPieces> RankCommunicator::cut(
+  const Mesh& mesh, int layers, Monitor& monitor) const
+{
+  return std::make_shared<CutMesh>(this->mesh_, mesh, layers, monitor);
 }
 }

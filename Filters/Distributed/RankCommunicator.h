@@ -46,6 +46,12 @@ public:
     return &this->mesh_.orientation();
   }
   bool isCopy(Index cell) const override { return this->mesh_.isGhost()[cell] != 0; }
+  std::vector<double> gather(const std::vector<double>& values) const override
+  {
+    return this->mesh_.ranks().gather(values);
+  }
+  std::vector<Index> idsOfCells(const std::vector<Index>& cells) const override;
+  std::vector<Index> cellsOf(const std::vector<Index>& ids) const override;
   std::vector<Index> gatherNodes(const std::vector<Index>& nodes) const override;
   std::vector<Index> gatherCells(const std::vector<Index>& cells) const override;
   std::vector<Index> nodesOf(const std::vector<Index>& ids) const override;
@@ -56,6 +62,8 @@ public:
     const std::vector<Index>& nodes, const std::vector<Index>& others) const override;
   /// Returns a HypreSolver.
   std::shared_ptr<LinearSolver> makeSolver(bool isSymmetric) const override;
+  /// Returns a CutMesh.
+  std::shared_ptr<CellPieces> cut(const Mesh& mesh, int layers, Monitor& monitor) const override;
 
 private:
   std::vector<Index> ofMesh(std::vector<Index> nodes) const;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Cells of any order, and those with nodes in the middle of faces, against the serial methods.
-#include "Distributed/Methods.h"
 #include "LinearMethods.h"
 #include "Mesh/CellShape.h"
 #include "Mesh/Topology.h"
 #include "Meshes.h"
+#include "Morpher/SiteMethod.h"
 #include "Motions.h"
 #include "Pieces.h"
 
@@ -69,7 +69,7 @@ TEST(RankAnyOrder, MovesAsOnOneRank)
       const auto serial = method.make();
       serial->prepare(whole, morph::partitionNodes(whole, outer), monitor);
       const pieces::OnRanks mine(
-        ranks, whole, outer, morph::distributed::makeMethod(method.make()), ++seed, monitor);
+        ranks, whole, outer, morph::onProcesses(method.make()), ++seed, monitor);
       Points expected, moved;
       const Points target = bend(whole.points);
       serial->evaluate(Points(target(outer, morph::allColumns)), expected, monitor);

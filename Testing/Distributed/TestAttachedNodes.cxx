@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Shells on a volume that several ranks have parts of.
-#include "Distributed/AttachedNodes.h"
+#include "Distributed/RankCommunicator.h"
+#include "LinearMethods/AttachedNodes.h"
 #include "Meshes.h"
 #include "Pieces.h"
 
@@ -48,7 +49,8 @@ TEST(AttachedNodes, AreThoseOfOneRank)
   const Mesh whole = blockWithFin();
   const auto mesh = pieces::distribute(ranks, whole, 1, meshes::seed());
   const auto partition = morph::partitionNodes(mesh.mesh(), pieces::localNodes(mesh, { 0 }));
-  const AttachedNodes attached = morph::distributed::attachedNodes(mesh, partition);
+  const morph::distributed::RankCommunicator processes(mesh);
+  const AttachedNodes attached(mesh.mesh(), partition, processes);
   const AttachedNodes expected(whole, morph::partitionNodes(whole, { 0 }));
   EXPECT_EQ(attached.nodes(), expected.nodes());
   EXPECT_EQ(attached.nodes().size(), 7u);

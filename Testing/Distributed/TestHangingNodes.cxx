@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Nodes that hang on faces of other ranks' cells, against the serial methods on the whole mesh.
 #include "Distributed/DistributedMesh.h"
-#include "Distributed/Methods.h"
-#include "Distributed/PolyhedralMethod.h"
 #include "Distributed/RankCommunicator.h"
 #include "LinearMethods.h"
 #include "Mesh/HangingNodes.h"
 #include "Mesh/Topology.h"
 #include "Morpher/PolyhedralMorpher.h"
+#include "Morpher/SiteMethod.h"
 #include "Motions.h"
 #include "Octree.h"
 #include "Pieces.h"
@@ -56,10 +55,10 @@ protected:
     this->Serial.reset(dynamic_cast<morph::LinearMorpher*>(
       morph::morpherForCells(whole, this->Hanging, method.make()).release()));
     this->Serial->prepare(whole, this->Partition, this->Quiet);
-    this->Mine = std::make_unique<morph::distributed::PolyhedralMethod>(
-      morph::distributed::makeMethod(method.make()));
-    this->Mesh = std::make_unique<DistributedMesh>(
-      pieces::distribute(this->Processes, whole, this->Mine->layers(), seed));
+    this->Mesh =
+      std::make_unique<DistributedMesh>(pieces::distribute(this->Processes, whole, 1, seed));
+    this->Mine =
+      morph::morpherForPolyhedra(morph::onProcesses(method.make()), false, this->Mesh->hanging());
     this->Prescribed = pieces::localNodes(*this->Mesh, this->Partition.prescribed);
     this->Mine->prepare(this->Mesh->mesh(),
       morph::partitionNodes(this->Mesh->mesh(), this->Mesh->hanging(), this->Prescribed),
@@ -159,14 +158,14 @@ TEST(RankHangingNodesOfFollowers, AreRefused)
   const morph::Mesh whole = meshes::dividedInThree();
   Monitor monitor;
   const DistributedMesh mesh = pieces::distribute(ranks, whole, 1, meshes::seed());
-  morph::distributed::PolyhedralMethod method(
-    morph::distributed::makeMethod(meshes::linearMethods().front().make()));
+  const std::unique_ptr<morph::Morpher> method = morph::morpherForPolyhedra(
+    morph::onProcesses(meshes::linearMethods().front().make()), false, mesh.hanging());
   const std::vector<Index> prescribed = pieces::localNodes(mesh, { 0, 3, 12, 15, 32, 33, 34, 35 });
 
   const std::string message = pieces::messageOf(
     [&]
     {
-      method.prepare(mesh.mesh(), morph::partitionNodes(mesh.mesh(), mesh.hanging(), prescribed),
+      method->prepare(mesh.mesh(), morph::partitionNodes(mesh.mesh(), mesh.hanging(), prescribed),
         monitor, std::make_shared<morph::distributed::RankCommunicator>(mesh));
     });
 

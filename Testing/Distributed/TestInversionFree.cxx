@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The inversion-free morph on ranks against the one of one process.
-#include "Distributed/Methods.h"
+#include "Distributed/RankCommunicator.h"
+#include "Mesh/OwnCells.h"
 #include "Mesh/Topology.h"
 #include "Meshes.h"
+#include "Morpher/SiteMethod.h"
 #include "Motions.h"
 #include "Pieces.h"
+#include "Quality/Certificate.h"
 #include "Quality/ScaledJacobian.h"
 #include "Support/Error.h"
+#include "Untangling/HigherOrderUntangling.h"
 #include "Untangling/InversionFree.h"
 
 #include <gtest/gtest.h>
@@ -72,10 +76,17 @@ Result onRanks(const Ranks& ranks, const Mesh& whole, const motions::Map& map, c
   auto settings = std::make_unique<InversionFree>();
   set(*settings);
   const pieces::OnRanks mine(ranks, whole, motions::outerPartition(whole).prescribed,
-    morph::distributed::makeMethod(std::move(settings)), meshes::seed(), monitor);
+    morph::onProcesses(std::move(settings)), meshes::seed(), monitor);
   Points moved;
   const auto report = mine.evaluate(motions::mapped(whole.points, map), moved, monitor);
   return measured(whole, pieces::gathered(mine.mesh, moved), report);
+}
+
+Index nodeAt(const Mesh& mesh, const motions::Row& x)
+{
+  Index node = 0;
+  (mesh.points.rowwise() - x).rowwise().squaredNorm().minCoeff(&node);
+  return node;
 }
 
 void notRaised(InversionFree& method)
@@ -195,13 +206,72 @@ TEST(RankInversionFree, LeavesWhatTheBoundaryInverts)
   EXPECT_EQ(onRanks(ranks, mesh, map, [](InversionFree&) {}).inverted, expected.inverted);
 }
 
+TEST(RankInversionFree, RepairsNearInvertedCellsAndMovesNothingElse)
+{
+  const Ranks ranks = pieces::world();
+  const Mesh whole = meshes::hexes(40, 6, 6);
+  Points expected = whole.points;
+  expected.row(nodeAt(whole, { 3, 3, 3 }))[0] += 1.4; // through its cells
+  expected.row(nodeAt(whole, { 37, 3, 3 }))[0] += 1.4;
+  auto method = std::make_unique<InversionFree>();
+  method->setNearOnly(true);
+  morph::Monitor monitor;
+  const pieces::OnRanks mine(ranks, whole, motions::outerPartition(whole).prescribed,
+    std::move(method), meshes::seed(), monitor);
+  Points moved = expected(mine.mesh.nodeIds(), morph::allColumns);
+
+  const auto report = dynamic_cast<InversionFree&>(*mine.method).repair(moved, monitor);
+
+  const Result result = measured(whole, pieces::gathered(mine.mesh, moved), report);
+  EXPECT_EQ(result.inverted, 0);
+  const Index middle = nodeAt(whole, { 20, 3, 3 }); // beyond the rings that raise the minimum
+  EXPECT_EQ(result.moved.row(middle), whole.points.row(middle));
+}
+
+TEST(RankInversionFree, UntanglesAMeshThatIsInvertedWhenUndeformed)
+{
+  const Ranks ranks = pieces::world();
+  Mesh whole = meshes::hexes(5, 4, 4);
+  whole.points.row(nodeAt(whole, { 2, 2, 2 }))[0] += 1.4;
+  compare(ranks, "tangled", whole, waves, notRaised);
+}
+
+TEST(RankInversionFree, NodesBetweenCornersComeBack)
+{
+  const Ranks ranks = pieces::world();
+  const Mesh whole = meshes::quadraticTets(4, 4, 4);
+  const std::vector<std::int8_t> signs = morph::cellSigns(whole, morph::connectedComponents(whole));
+  const morph::NodePartition partition = motions::outerPartition(whole);
+  Points start = whole.points;
+  for (std::size_t i = 0; i < partition.higherOrderNodes.size(); i += 5)
+  {
+    start.row(partition.higherOrderNodes[i]) += Eigen::RowVector3d(0.5, -0.4, 0.3);
+  }
+  morph::Monitor monitor;
+  ASSERT_GT(morph::certify(whole, start, signs, {}, monitor).inverted, 5);
+  const pieces::OnRanks mine(
+    ranks, whole, partition.prescribed, std::make_unique<InversionFree>(), meshes::seed(), monitor);
+  const morph::distributed::RankCommunicator processes(mine.mesh);
+  const morph::OwnCells own(mine.mesh.mesh(),
+    morph::partitionNodes(mine.mesh.mesh(), mine.prescribed), mine.mesh.orientation(), processes);
+  Points moved = start(mine.mesh.nodeIds(), morph::allColumns), points = own.take(moved);
+
+  morph::untangleHigherOrder(
+    own.mesh(), own.partition(), own.orientation(), points, monitor, own.communicator());
+
+  moved(own.nodes(), morph::allColumns) = points;
+  processes.rows()->update(moved);
+  const Points all = pieces::gathered(mine.mesh, moved);
+  EXPECT_EQ(morph::certify(whole, all, signs, {}, monitor).inverted, 0);
+}
+
 TEST(RankInversionFree, ACancelledRankEndsAll)
 {
   const Ranks ranks = pieces::world();
   const Mesh whole = meshes::hexes(4, 4, 4);
   meshes::ThreadedMonitor monitor;
   const pieces::OnRanks mine(ranks, whole, motions::outerPartition(whole).prescribed,
-    morph::distributed::makeMethod(std::make_unique<InversionFree>()), meshes::seed(), monitor);
+    morph::onProcesses(std::make_unique<InversionFree>()), meshes::seed(), monitor);
   for (const double at : { 0.12, 0.3, 0.6 })
   {
     mine.expectCancelled(motions::mapped(whole.points, waves), at);

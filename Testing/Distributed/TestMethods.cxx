@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "BoundaryShapes.h"
 #include "Distributed/HypreSolver.h"
-#include "Distributed/Methods.h"
 #include "Distributed/RankCommunicator.h"
 #include "LinearMethods/FemWarp.h"
 #include "LinearMethods/LogBarrierWarp.h"
@@ -12,6 +11,7 @@
 #include "Mesh/Topology.h"
 #include "Meshes.h"
 #include "Morpher/BodyByBody.h"
+#include "Morpher/SiteMethod.h"
 #include "Pieces.h"
 #include "Support/Error.h"
 
@@ -79,8 +79,8 @@ double difference(const Ranks& ranks, const Mesh& whole, const std::vector<Index
     serial->prepare(whole, morph::partitionNodes(whole, outer), monitor);
     serial->evaluate(Points(target(outer, morph::allColumns)), expected, monitor);
   }
-  const pieces::OnRanks mine(ranks, whole, outer, morph::distributed::makeMethod(std::move(serial)),
-    meshes::seed(), monitor);
+  const pieces::OnRanks mine(
+    ranks, whole, outer, morph::onProcesses(std::move(serial)), meshes::seed(), monitor);
   Points moved;
   mine.evaluate(target, moved, monitor);
   return pieces::distance(mine.mesh, moved, expected) / meshes::size(whole.points);
@@ -128,8 +128,8 @@ TEST(DistributedMethods, InterpolateEachBodyAlone)
       morph::BodyByBody serial(method->copyWithoutCells());
       serial.prepare(whole, morph::partitionNodes(whole, outer), monitor);
       serial.evaluate(Points(target(outer, morph::allColumns)), expected, monitor);
-      const pieces::OnRanks mine(ranks, whole, outer,
-        morph::distributed::makeMethod(std::move(method)), meshes::seed(), monitor);
+      const pieces::OnRanks mine(
+        ranks, whole, outer, morph::onProcesses(std::move(method)), meshes::seed(), monitor);
       mine.evaluate(target, moved, monitor);
       EXPECT_LT(pieces::distance(mine.mesh, moved, expected), 1e-9) << name;
     }
@@ -187,7 +187,7 @@ TEST(DistributedMethods, ABodyThatMovesByLittleHasAsManyDigits)
   alone.prepare(body, morph::partitionNodes(body, ofOne), monitor);
   alone.evaluate(Points(bend(body.points)(ofOne, morph::allColumns)), expected, monitor);
   const pieces::OnRanks mine(ranks, whole, outer,
-    morph::distributed::makeMethod(std::make_unique<morph::FemWarp>()), meshes::seed(), monitor);
+    morph::onProcesses(std::make_unique<morph::FemWarp>()), meshes::seed(), monitor);
   Points moved;
   mine.evaluate(target, moved, monitor);
   double off = 0;
@@ -245,7 +245,7 @@ TEST(DistributedMethods, NameABodyWithoutAPrescribedNode)
       prescribed.push_back(n);
     }
   }
-  const auto method = morph::distributed::makeMethod(std::make_unique<morph::FemWarp>());
+  const auto method = morph::onProcesses(std::make_unique<morph::FemWarp>());
   const std::string message = pieces::messageOf(
     [&]
     {

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Linear methods on meshes with polyhedra, against the serial methods on the whole mesh.
 #include "Distributed/CutMesh.h"
-#include "Distributed/Methods.h"
-#include "Distributed/PolyhedralMethod.h"
 #include "Distributed/RankCommunicator.h"
 #include "LinearMethods/FemWarp.h"
 #include "LinearMethods/LogBarrierWarp.h"
@@ -12,6 +10,7 @@
 #include "Mesh/PolyhedronPieces.h"
 #include "Mesh/Topology.h"
 #include "Morpher/PolyhedralMorpher.h"
+#include "Morpher/SiteMethod.h"
 #include "Pieces.h"
 #include "PolyhedralMeshes.h"
 
@@ -84,8 +83,7 @@ Points affine(const Points& x)
 
 std::unique_ptr<Morpher> onPieces(std::unique_ptr<Morpher> serial)
 {
-  return std::make_unique<morph::distributed::PolyhedralMethod>(
-    morph::distributed::makeMethod(std::move(serial)));
+  return morph::morpherForPolyhedra(morph::onProcesses(std::move(serial)));
 }
 
 std::vector<Index> outerNodes(const Mesh& mesh)
@@ -192,8 +190,8 @@ TEST(DistributedPolyhedra, AreCutIntoThePiecesOfOneRank)
     SCOPED_TRACE(name);
     const morph::PolyhedronPieces expected(whole, monitor);
     const DistributedMesh mesh = pieces::distribute(ranks, whole, 1, ++seed);
-    const CutMesh cut(mesh, 1, monitor);
-    const DistributedMesh& found = cut.mesh();
+    const CutMesh cut(mesh, mesh.mesh(), 1, monitor);
+    const DistributedMesh& found = cut.pieces();
     Index cells = 0, nodes = 0;
     for (Index c = 0; c < found.pieceCells(); ++c)
     {

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Smoothing of a mesh on ranks against that of one process.
-#include "Distributed/SmoothMesh.h"
+#include "Distributed/RankCommunicator.h"
+#include "Mesh/OwnCells.h"
 #include "Mesh/Topology.h"
 #include "Meshes.h"
 #include "Motions.h"
 #include "Pieces.h"
 #include "Quality/ScaledJacobian.h"
+#include "Untangling/SmoothMesh.h"
 
 #include <gtest/gtest.h>
 
@@ -44,10 +46,15 @@ void compare(const Ranks& ranks, const std::string& name, const Mesh& whole, con
     morph::cellSigns(whole, morph::connectedComponents(whole)), outer, options, expected, monitor);
 
   const DistributedMesh mesh = pieces::distribute(ranks, whole, 1, meshes::seed());
-  Points mine = moved(mesh.nodeIds(), morph::allColumns);
-  const morph::SmoothingReport report = morph::distributed::smoothMesh(mesh, mesh.mesh().points,
-    morph::partitionNodes(mesh.mesh(), pieces::localNodes(mesh, outer.prescribed)), options, mine,
-    monitor);
+  const morph::distributed::RankCommunicator processes(mesh);
+  const morph::OwnCells part(mesh.mesh(),
+    morph::partitionNodes(mesh.mesh(), pieces::localNodes(mesh, outer.prescribed)),
+    mesh.orientation(), processes);
+  Points mine = moved(mesh.nodeIds(), morph::allColumns), ofCells = part.take(mine);
+  const morph::SmoothingReport report = morph::smoothMesh(part.mesh(), part.orientation(),
+    part.partition(), options, ofCells, monitor, part.communicator());
+  mine(part.nodes(), morph::allColumns) = ofCells;
+  processes.rows()->update(mine);
   const Points all = pieces::gathered(mesh, mine);
   Index bad = 0, expectedBad = 0;
   const double least = minimumOf(whole, expected, expectedBad), own = minimumOf(whole, all, bad);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Smoothing as a morph, on ranks against one process.
-#include "Distributed/Methods.h"
 #include "Mesh/CellShape.h"
 #include "Mesh/Topology.h"
 #include "Meshes.h"
+#include "Morpher/SiteMethod.h"
 #include "Motions.h"
 #include "Pieces.h"
 #include "Quality/ScaledJacobian.h"
@@ -61,7 +61,7 @@ Result onRanks(const Ranks& ranks, const Mesh& whole, const NodePartition& parti
   auto settings = std::make_unique<Smoothing>();
   settings->setOptions(options);
   const pieces::OnRanks mine(ranks, whole, partition.prescribed,
-    morph::distributed::makeMethod(std::move(settings)), meshes::seed(), monitor);
+    morph::onProcesses(std::move(settings)), meshes::seed(), monitor);
   Points moved;
   Result result;
   result.report = mine.evaluate(target, moved, monitor);
@@ -308,7 +308,7 @@ TEST(RankSmoothing, ACancelledRankEndsAll)
   const Mesh whole = meshes::hexes(4, 4, 4);
   meshes::ThreadedMonitor monitor;
   const pieces::OnRanks mine(ranks, whole, motions::outerPartition(whole).prescribed,
-    morph::distributed::makeMethod(std::make_unique<Smoothing>()), meshes::seed(), monitor);
+    morph::onProcesses(std::make_unique<Smoothing>()), meshes::seed(), monitor);
   for (const double at : { 0.1, 0.45, 0.7 })
   {
     mine.expectCancelled(motions::mapped(whole.points, wavy), at);

@@ -160,6 +160,24 @@ TEST(RankSteps, RepairGivesAValidMesh)
   EXPECT_TRUE(mine.Errors.empty());
 }
 
+TEST(RankSteps, RepairTreatsWhatWasInvertedBeforeAsOnOneRank)
+{
+  const Ranks ranks = pieces::world();
+  morph::Mesh whole = block();
+  whole.points.row(7 * (3 + 7 * 3) + 3)[0] += 1.6; // a node in the middle goes through its cells
+  for (const bool all : { false, true })
+  {
+    const auto repair = [&](vtkFEMWarpMorph* filter)
+    { all ? filter->SetValidityToRepairAll() : filter->SetValidityToRepair(); };
+    Result serial;
+    rank_grids::alone([&] { serial = morphed(grids::make(whole), waves, repair); });
+    const Result mine = morphed(rank_grids::piece(ranks, whole), waves, repair);
+    EXPECT_EQ(serial.Status, "Repaired");
+    EXPECT_EQ(mine.Status, "Repaired");
+    EXPECT_EQ(mine.Inverted, serial.Inverted);
+  }
+}
+
 TEST(RankSteps, InversionFreeIsValidWhereTheSerialOneIs)
 {
   const Ranks ranks = pieces::world();

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The stiffness of the cells, and the adjoint, of a mesh on several MPI ranks.
-#include "Distributed/Methods.h"
 #include "Distributed/RankCommunicator.h"
 #include "LinearMethods/FemWarp.h"
 #include "LinearMethods/LogBarrierWarp.h"
@@ -10,6 +9,7 @@
 #include "LinearMethods/WeightedResidual.h"
 #include "Mesh/Topology.h"
 #include "Meshes.h"
+#include "Morpher/SiteMethod.h"
 #include "Pieces.h"
 
 #include <gtest/gtest.h>
@@ -112,8 +112,7 @@ std::pair<double, double> differences(
   serial->applyTranspose(gradient, expectedGradient, monitor);
 
   const DistributedMesh mesh = pieces::distribute(ranks, whole, 2, meshes::seed());
-  const std::unique_ptr<morph::Morpher> method =
-    morph::distributed::makeMethod(make(ofPiece(mesh, stiffness)));
+  const std::unique_ptr<morph::Morpher> method = morph::onProcesses(make(ofPiece(mesh, stiffness)));
   const std::vector<Index> prescribed = pieces::localNodes(mesh, outer);
   method->prepare(mesh.mesh(), morph::partitionNodes(mesh.mesh(), prescribed), monitor,
     std::make_shared<morph::distributed::RankCommunicator>(mesh));

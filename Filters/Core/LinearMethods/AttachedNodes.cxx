@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <numeric>
 #include <tuple>
 #include <utility>
 
@@ -86,36 +87,10 @@ void sortUnique(std::vector<Index>& ids)
   std::sort(ids.begin(), ids.end());
   ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
 }
-}
 
-std::vector<AttachedNodes::Link> AttachedNodes::linksOf(
-  const Mesh& mesh, const std::vector<std::uint8_t>& skip)
-{
-  const std::vector<std::uint8_t> isUsed = nodesOfVolume(mesh);
-  std::vector<Link> links;
-  for (Index c = 0; c < mesh.numberOfCells(); ++c)
-  {
-    const CellShape* shape = cellShape(mesh, c);
-    const Index *cell = mesh.cell(c), size = mesh.cellSize(c);
-    if (!shape || shape->dimension == 0 || shape->dimension == 3 || (!skip.empty() && skip[c]) ||
-        std::all_of(cell, cell + size, [&](Index n) { return isUsed[n] != 0; }))
-    {
-      continue;
-    }
-    forPairs(*shape, size,
-      [&](Index i, Index j)
-      {
-        const Index a = std::min(cell[i], cell[j]), b = std::max(cell[i], cell[j]);
-        if (a != b)
-        {
-          links.push_back({ a, b, (mesh.points.row(a) - mesh.points.row(b)).norm() });
-        }
-      });
-  }
-  return links;
-}
-
-std::vector<Index> AttachedNodes::anchorsOf(
+/// The nodes of links that are anchors, ascending.
+template <typename Link>
+std::vector<Index> anchorsOf(
   const Mesh& mesh, const std::vector<Link>& links, const std::vector<Index>& prescribed)
 {
   std::vector<Index> anchors;
@@ -141,31 +116,72 @@ std::vector<Index> AttachedNodes::anchorsOf(
   sortUnique(anchors);
   return anchors;
 }
+}
 
-AttachedNodes::AttachedNodes(const Mesh& rest, const NodePartition& partition)
-  : rest_(&rest)
-  , piece_{ [](Index id) { return id; }, [](Index) { return true; }, [](double*, std::size_t) {} }
+/// By the nodes here.
+std::vector<AttachedNodes::Link> AttachedNodes::linksHere(const Mesh& mesh) const
 {
-  std::vector<Link> links = linksOf(rest);
-  std::vector<Index> anchors = anchorsOf(rest, links, partition.prescribed);
-  this->prepare(std::move(links), std::move(anchors));
+  const std::vector<std::uint8_t> isUsed = nodesOfVolume(mesh);
+  std::vector<Link> links;
+  for (Index c = 0; c < mesh.numberOfCells(); ++c)
+  {
+    const CellShape* shape = cellShape(mesh, c);
+    const Index *cell = mesh.cell(c), size = mesh.cellSize(c);
+    if (!shape || shape->dimension == 0 || shape->dimension == 3 || this->processes_->isCopy(c) ||
+        std::all_of(cell, cell + size, [&](Index n) { return isUsed[n] != 0; }))
+    {
+      continue;
+    }
+    forPairs(*shape, size,
+      [&](Index i, Index j)
+      {
+        const Index a = std::min(cell[i], cell[j]), b = std::max(cell[i], cell[j]);
+        if (a != b)
+        {
+          links.push_back({ a, b, (mesh.points.row(a) - mesh.points.row(b)).norm() });
+        }
+      });
+  }
+  return links;
+}
+
+/// By ids.
+std::vector<AttachedNodes::Link> AttachedNodes::linksOfAll(std::vector<Link> links) const
+{
+  std::vector<double> numbers;
+  for (const Link& link : links)
+  {
+    const std::vector<Index> ids = this->processes_->idsOf({ link.a, link.b });
+    numbers.insert(numbers.end(), { static_cast<double>(std::min(ids[0], ids[1])),
+                                    static_cast<double>(std::max(ids[0], ids[1])), link.length });
+  }
+  numbers = this->processes_->gather(numbers);
+  links.clear();
+  for (std::size_t i = 0; i < numbers.size(); i += 3)
+  {
+    links.push_back(
+      { static_cast<Index>(numbers[i]), static_cast<Index>(numbers[i + 1]), numbers[i + 2] });
+  }
+  return links;
 }
 
 AttachedNodes::AttachedNodes(
-  const Mesh& rest, std::vector<Link> links, std::vector<Index> anchors, Piece piece)
+  const Mesh& rest, const NodePartition& partition, const Communicator& processes)
   : rest_(&rest)
-  , piece_(std::move(piece))
+  , processes_(&processes)
 {
-  sortUnique(anchors);
-  this->prepare(std::move(links), std::move(anchors));
+  std::vector<Link> links = this->linksHere(rest);
+  if (processes.all(links.empty()))
+  {
+    return;
+  }
+  std::vector<Index> anchors = processes.gatherNodes(anchorsOf(rest, links, partition.prescribed));
+  sortUnique(anchors); // of several processes
+  this->prepare(this->linksOfAll(std::move(links)), std::move(anchors));
 }
 
 void AttachedNodes::prepare(std::vector<Link> links, std::vector<Index> anchors)
 {
-  if (links.empty())
-  {
-    return;
-  }
   std::sort(links.begin(), links.end(),
     [](const Link& l, const Link& r)
     { return std::tie(l.a, l.b, l.length) < std::tie(r.a, r.b, r.length); });
@@ -238,7 +254,39 @@ void AttachedNodes::prepare(std::vector<Link> links, std::vector<Index> anchors)
   this->factor_ = std::make_shared<Eigen::SimplicialLDLT<Matrix>>(laplace);
   this->coupling_.resize(rows, static_cast<int>(this->anchors_.size()));
   this->coupling_.setFromTriplets(coupling.begin(), coupling.end());
+  this->findNodes();
   this->findRings();
+}
+
+void AttachedNodes::findNodes()
+{
+  std::vector<Index> nodes(this->rest_->numberOfNodes());
+  std::iota(nodes.begin(), nodes.end(), Index(0));
+  const std::vector<Index> ids = this->processes_->idsOf(nodes);
+  std::vector<Index> nodeOfAnchor(this->anchors_.size(), -1);
+  this->nodeOf_.assign(this->ids_.size(), -1);
+  for (const Index node : nodes)
+  {
+    if (const Index i = placeOf(this->ids_, ids[node]); i >= 0)
+    {
+      this->nodeOf_[i] = node;
+    }
+    if (const Index a = placeOf(this->anchors_, ids[node]); a >= 0)
+    {
+      nodeOfAnchor[a] = node;
+    }
+  }
+  this->elsewhere_ = this->processes_->rows()->countedElsewhere();
+  for (Index& node : nodeOfAnchor)
+  {
+    node = this->countsHere(node) ? node : -1;
+  }
+  this->nodeOfAnchor_ = std::move(nodeOfAnchor);
+}
+
+bool AttachedNodes::countsHere(Index node) const
+{
+  return node >= 0 && placeOf(this->elsewhere_, node) < 0;
 }
 
 void AttachedNodes::findRings()
@@ -248,8 +296,8 @@ void AttachedNodes::findRings()
   double origin[3] = { 0, 0, 0 };
   for (std::size_t a = 0; a < rings.size(); ++a)
   {
-    const Index node = this->piece_.nodeOf(this->anchors_[a]);
-    if (node >= 0 && this->piece_.owns(node))
+    const Index node = this->nodeOfAnchor_[a];
+    if (node >= 0)
     {
       anchorAt[node] = static_cast<Index>(a);
       if (a == 0)
@@ -258,7 +306,7 @@ void AttachedNodes::findRings()
       }
     }
   }
-  this->piece_.sum(origin, 3);
+  this->processes_->sum(origin, 3);
   this->origin_ = Eigen::Map<Row>(origin, 3);
   for (Index c = 0; c < this->rest_->numberOfCells(); ++c)
   {
@@ -271,14 +319,6 @@ void AttachedNodes::findRings()
         std::vector<Index>& ring = rings[anchorAt[*node]];
         ring.insert(ring.end(), first, last);
       }
-    }
-  }
-  this->nodeOfAnchor_.assign(rings.size(), -1);
-  for (std::size_t n = 0; n < anchorAt.size(); ++n)
-  {
-    if (anchorAt[n] >= 0)
-    {
-      this->nodeOfAnchor_[anchorAt[n]] = static_cast<Index>(n);
     }
   }
   this->rings_.offsets.assign(1, 0);
@@ -323,7 +363,7 @@ void AttachedNodes::apply(Points& moved) const
       moved.row(node) - rest.row(node) - (rest.row(node) - this->origin_) * turn;
     motion.row(a).tail<9>() = Eigen::Map<const Eigen::RowVectorXd>(turn.data(), 9);
   }
-  this->piece_.sum(motion.data(), static_cast<std::size_t>(motion.size()));
+  this->processes_->sum(motion.data(), static_cast<int>(motion.size()));
   // From the motion of one anchor on: what hangs at that alone moves by it, to the last bit.
   Rows right = Rows::Zero(static_cast<Index>(this->ids_.size()), 12);
   forEachEntry(this->coupling_, [&](Index i, Index a, double weight)
@@ -331,7 +371,7 @@ void AttachedNodes::apply(Points& moved) const
   const Rows own = Rows(this->factor_->solve(right)) + motion(this->reference_, allColumns);
   for (Index i = 0; i < own.rows(); ++i)
   {
-    const Index node = this->piece_.nodeOf(this->ids_[i]);
+    const Index node = this->nodeOf_[i];
     if (node < 0)
     {
       continue;
@@ -357,8 +397,8 @@ void AttachedNodes::applyTranspose(Points& gradient) const
   Rows own = Rows::Zero(static_cast<Index>(this->ids_.size()), 12);
   for (Index i = 0; i < own.rows(); ++i)
   {
-    const Index node = this->piece_.nodeOf(this->ids_[i]);
-    if (node >= 0 && this->piece_.owns(node))
+    const Index node = this->nodeOf_[i];
+    if (this->countsHere(node))
     {
       const Square turn = (rest.row(node) - this->origin_).transpose() * gradient.row(node);
       own.row(i).head<3>() = gradient.row(node);
@@ -369,7 +409,7 @@ void AttachedNodes::applyTranspose(Points& gradient) const
       gradient.row(node).setZero();
     }
   }
-  this->piece_.sum(own.data(), static_cast<std::size_t>(own.size()));
+  this->processes_->sum(own.data(), static_cast<int>(own.size()));
   const Rows right = this->factor_->solve(own);
   Rows motion = Rows::Zero(static_cast<Index>(this->anchors_.size()), 12);
   for (Index i = 0; i < own.rows(); ++i)

@@ -4,12 +4,10 @@
 #include "Mesh/Mesh.h"
 #include "Mesh/NodePartition.h"
 #include "Support/Adjacency.h"
+#include "Support/Communicator.h"
 
 #include <Eigen/SparseCholesky>
 
-#include <cstddef>
-#include <cstdint>
-#include <functional>
 #include <memory>
 #include <vector>
 
@@ -29,33 +27,12 @@ namespace morph
 class AttachedNodes
 {
 public:
-  struct Link
-  {
-    Index a, b;
-    double length;
-  };
-
-  /// What a process has of a mesh that is on several.
-  struct Piece
-  {
-    std::function<Index(Index id)> nodeOf; ///< the node of an id, or -1
-    std::function<bool(Index node)> owns;  ///< each node is owned by one process
-    /// adds numbers up over the processes
-    std::function<void(double* values, std::size_t count)> sum;
-  };
-
-  /// The links of a mesh, by its own nodes. `skip`: nonzero for cells without links; may be empty.
-  static std::vector<Link> linksOf(const Mesh& mesh, const std::vector<std::uint8_t>& skip = {});
-  /// The nodes of links that are anchors, ascending.
-  static std::vector<Index> anchorsOf(
-    const Mesh& mesh, const std::vector<Link>& links, const std::vector<Index>& prescribed);
-
   AttachedNodes() = default;
-  /// Of a mesh that this process has whole. `rest` has to outlive it.
-  AttachedNodes(const Mesh& rest, const NodePartition& partition);
-  /// Of a mesh in pieces. `links`, `anchors`: of all processes, by ids. `rest`: the piece, with all
-  /// volume cells around the nodes that it owns.
-  AttachedNodes(const Mesh& rest, std::vector<Link> links, std::vector<Index> anchors, Piece piece);
+  /// `rest`: on several processes this one's part, with all volume cells around the nodes that
+  /// count here. Holds it and `processes` by reference. Collective. Cost: each process gets all
+  /// links.
+  AttachedNodes(const Mesh& rest, const NodePartition& partition,
+    const Communicator& processes = Communicator::alone());
 
   /// The nodes that hang on anchors, and those that hang on none, by ids, ascending.
   ///@{
@@ -75,14 +52,25 @@ private:
   using Rows = Eigen::MatrixXd; ///< 12 columns: a translation, and a 3 x 3 matrix by rows
   using Matrix = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;
 
+  struct Link
+  {
+    Index a, b;
+    double length;
+  };
+  std::vector<Link> linksHere(const Mesh& rest) const;
+  std::vector<Link> linksOfAll(std::vector<Link> links) const;
   void prepare(std::vector<Link> links, std::vector<Index> anchors);
+  void findNodes();
+  bool countsHere(Index node) const;
   void findRings();
   Points ringOf(Index anchor, const Points& points) const;
 
   const Mesh* rest_ = nullptr;
-  Piece piece_;
+  const Communicator* processes_ = &Communicator::alone();
   std::vector<Index> ids_, loose_, anchors_;
-  std::vector<Index> nodeOfAnchor_; ///< #anchors; -1 for those that another process owns
+  std::vector<Index> nodeOf_;       ///< #nodes, here; -1 for those that only others have
+  std::vector<Index> nodeOfAnchor_; ///< #anchors; -1 for those that count on another process
+  std::vector<Index> elsewhere_;    ///< nodes here that count on another process
   Matrix coupling_;                 ///< #nodes x #anchors
   std::vector<int> reference_;      ///< #nodes, an anchor of its part
   std::shared_ptr<Eigen::SimplicialLDLT<Matrix>> factor_;

@@ -14,13 +14,13 @@ namespace
 {
 SubMesh ownPart(Mesh mesh, bool isWhole, const Communicator& processes)
 {
+  const std::vector<std::uint8_t> isOther = OwnCells::others(mesh, processes);
   std::vector<Index> cells;
-  for (Index c = 0; !isWhole && c < mesh.numberOfCells(); ++c)
+  for (std::size_t c = 0; c < isOther.size(); ++c)
   {
-    const CellShape* shape = cellShape(mesh.types[c]);
-    if (!processes.isCopy(c) && shape && shape->dimension == 3)
+    if (isOther[c] == 0)
     {
-      cells.push_back(c);
+      cells.push_back(static_cast<Index>(c));
     }
   }
   SubMesh part(mesh, cells);
@@ -52,6 +52,17 @@ OwnCells::OwnCells(Mesh mesh, const NodePartition& partition,
   , partition_(this->isWhole_ ? partition : partitionOf(this->part_, partition))
   , communicator_(processes.part(this->part_.nodes))
 {
+}
+
+std::vector<std::uint8_t> OwnCells::others(const Mesh& mesh, const Communicator& processes)
+{
+  std::vector<std::uint8_t> result(processes.bodies() ? mesh.numberOfCells() : 0);
+  for (std::size_t c = 0; c < result.size(); ++c)
+  {
+    const CellShape* shape = cellShape(mesh.types[c]);
+    result[c] = processes.isCopy(static_cast<Index>(c)) || !shape || shape->dimension < 3;
+  }
+  return result;
 }
 
 ConnectedComponents OwnCells::bodies(const ConnectedComponents& ofMesh) const

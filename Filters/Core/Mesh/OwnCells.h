@@ -42,6 +42,9 @@ public:
   /// Returns the numbers in the whole mesh of these cells of all processes, ascending. Collective.
   std::vector<Index> gatherIds(const std::vector<Index>& cells) const;
 
+  /// Nonzero for the cells that are left out; empty for one process. Not collective.
+  static std::vector<std::uint8_t> others(const Mesh& mesh, const Communicator& processes);
+
 private:
   const Communicator& processes_;
   bool isWhole_;

@@ -339,6 +339,8 @@ PolyhedronPieces::PolyhedronPieces(const Mesh& mesh, Monitor& monitor, bool cuts
   this->pieces_.points = this->extend(ConstPoints(mesh.points));
 }
 
+CellPieces::~CellPieces() = default;
+
 Index PolyhedronPieces::cellOf(Index piece) const
 {
   const Index cells = this->pieces_.numberOfCells() - static_cast<Index>(this->cellOfOther_.size());
@@ -351,6 +353,12 @@ Points PolyhedronPieces::extend(const ConstPoints& points) const
   all.topRows(this->nodes_) = points;
   all.bottomRows(this->means_.rows()) = this->means_ * points;
   return all;
+}
+
+Points PolyhedronPieces::reduce(const Points& all, Points points) const
+{
+  points = all.topRows(this->nodes_);
+  return points;
 }
 
 Points PolyhedronPieces::extendTranspose(const ConstPoints& all) const
@@ -396,5 +404,15 @@ NodePartition PolyhedronPieces::extend(const NodePartition& partition) const
     }
   }
   return partitionNodes(this->pieces_, std::move(prescribed));
+}
+
+std::shared_ptr<const CellPieces> cutCells(const Mesh& mesh, const HangingNodes& hanging,
+  const Communicator& processes, int layers, Monitor& monitor, bool cutsAll)
+{
+  if (std::shared_ptr<const CellPieces> pieces = processes.cut(mesh, layers, monitor))
+  {
+    return pieces;
+  }
+  return std::make_shared<PolyhedronPieces>(hanging.conforming(mesh), monitor, cutsAll);
 }
 }

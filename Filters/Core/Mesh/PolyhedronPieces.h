@@ -1,16 +1,52 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Mesh/HangingNodes.h"
 #include "Mesh/Mesh.h"
 #include "Mesh/NodePartition.h"
+#include "Support/Communicator.h"
 #include "Support/Monitor.h"
 
 #include <Eigen/SparseCore>
 
+#include <memory>
 #include <vector>
 
 namespace morph
 {
+/// The pieces that methods see of the cells of a mesh, or of a process's part of one.
+class CellPieces
+{
+public:
+  virtual ~CellPieces();
+
+  /// The pieces and the other cells, with the centers at their first places.
+  virtual const Mesh& mesh() const = 0;
+  /// Those that have the other parts of mesh(); null for one process.
+  virtual std::shared_ptr<const Communicator> processes() const { return nullptr; }
+  /// The cell that a piece is cut from; -1 for a copy of another process's piece.
+  virtual Index cellOf(Index piece) const = 0;
+  /// The node of the pieces that a node is; -1 for one that no cell of this process has.
+  virtual Index nodeOf(Index node) const = 0;
+
+  /// Returns `points` or displacements, #nodes x 3, for the nodes of mesh(): the center of a face
+  /// is the mean of its nodes, and that of a cell the mean of its faces, weighted by their
+  /// undeformed areas. Affine motions map them, too. Collective.
+  virtual Points extend(const ConstPoints& points) const = 0;
+  /// Returns the rows of the nodes without the centers. Nodes of no cell keep their row of
+  /// `points`, #nodes x 3. Collective.
+  virtual Points reduce(const Points& all, Points points) const = 0;
+  /// Adds the gradient of the centers to that of the nodes that they are means of: the adjoint of
+  /// extend(). Returns #nodes x 3; copies' rows are to be added to those that count.
+  virtual Points extendTranspose(const ConstPoints& all) const = 0;
+  /// The groups of all nodes. Centers of faces whose nodes are all prescribed are prescribed, too;
+  /// the other centers are free. Nodes that no cell here has are left out. `partition`: of the mesh
+  /// without centers. Collective.
+  virtual NodePartition extend(const NodePartition& partition) const = 0;
+  /// Returns `values`, one a cell, for each piece of this process: that of the cell it is cut from.
+  virtual std::vector<double> extend(const std::vector<double>& values) const = 0;
+};
+
 /// A mesh whose polyhedra are cut into tetrahedra and pyramids, for methods that know these alone.
 ///
 /// Each polyhedron gets a node at its center, and each face a piece up to there: a tetrahedron on a
@@ -22,33 +58,25 @@ namespace morph
 ///
 /// Node ids stay; the centers of faces follow, then those of cells. Cell ids stay, too: that of a
 /// polyhedron is now its first piece, and its other pieces come after all cells.
-class PolyhedronPieces
+class PolyhedronPieces : public CellPieces
 {
 public:
   /// `mesh`: valid, its polyhedra oriented (Polyhedra.h). `cutsAll`: cuts tetrahedra and hexahedra,
   /// too, for tests. Cost: see faceTable(), and a pass.
   PolyhedronPieces(const Mesh& mesh, Monitor& monitor, bool cutsAll = false);
 
-  /// The pieces and the other cells, with the centers at their first places.
-  const Mesh& mesh() const { return this->pieces_; }
-  /// Returns `points`, #nodes x 3, and after them the centers: the mean of a face's nodes, and the
-  /// mean of a cell's faces, weighted by their undeformed areas. Affine motions map them, too.
-  Points extend(const ConstPoints& points) const;
-  /// Adds the gradient of the centers to that of the nodes that they are means of: the adjoint of
-  /// extend(). `all`: with the centers; returns #nodes x 3.
-  Points extendTranspose(const ConstPoints& all) const;
-  /// The groups of all nodes. Centers of faces whose nodes are all prescribed are prescribed, too,
-  /// and come last; the other centers are free. Nodes that no cell here has are left out.
-  /// `partition`: of the mesh without centers.
-  NodePartition extend(const NodePartition& partition) const;
+  const Mesh& mesh() const override { return this->pieces_; }
+  Index cellOf(Index piece) const override;
+  Index nodeOf(Index node) const override { return node; }
+  Points extend(const ConstPoints& points) const override;
+  Points reduce(const Points& all, Points points) const override;
+  Points extendTranspose(const ConstPoints& all) const override;
+  NodePartition extend(const NodePartition& partition) const override;
+  std::vector<double> extend(const std::vector<double>& values) const override;
 
-  /// Returns `values`, one a cell, for each piece: that of the cell it is cut from.
-  std::vector<double> extend(const std::vector<double>& values) const;
-
-  /// For the parts of a distributed mesh: the cell that a piece is cut from, the number of centers
-  /// of faces, which come before those of cells, and the weights of the nodes in all centers.
+  /// For the parts of a distributed mesh: the number of centers of faces, which come before those
+  /// of cells, and the weights of the nodes in all centers.
   ///@{
-  Index cellOf(Index piece) const;
   Index faceCenters() const { return this->faceCenters_; }
   const Eigen::SparseMatrix<double, Eigen::RowMajor, int>& means() const { return this->means_; }
   ///@}
@@ -60,4 +88,9 @@ private:
   Index faceCenters_ = 0;
   Eigen::SparseMatrix<double, Eigen::RowMajor, int> means_; ///< #centers x #nodes
 };
+
+/// Cuts the polyhedra of a mesh, and its cells at divided faces. `hanging`: of the mesh. `layers`:
+/// of copies around the pieces of a process. `cutsAll`: see PolyhedronPieces. Collective.
+std::shared_ptr<const CellPieces> cutCells(const Mesh& mesh, const HangingNodes& hanging,
+  const Communicator& processes, int layers, Monitor& monitor, bool cutsAll = false);
 }

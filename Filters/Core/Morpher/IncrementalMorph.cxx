@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Morpher/IncrementalMorph.h"
 
+#include "Mesh/OwnCells.h"
 #include "Quality/ScaledJacobian.h"
 #include "Support/Error.h"
 #include "Support/ProgressRange.h"
@@ -30,8 +31,17 @@ double lastAllowed(const SubStepLimits& limits)
   }
   return allowed;
 }
-}
 
+/// A step of takeSubSteps().
+struct SubStepAttempt
+{
+  Points moved;                ///< #nodes x 3
+  std::vector<Index> inverted; ///< or degenerate cells
+  EvaluateReport report;
+};
+
+/// Calls `attempt` for steps to times up to 1. `from`: #nodes x 3, the last valid mesh, first
+/// `rest`.
 SubStepResult takeSubSteps(const Points& rest, const SubStepLimits& limits,
   const std::function<SubStepAttempt(const Points& from, double time, Monitor& part)>& attempt,
   Monitor& monitor)
@@ -78,16 +88,22 @@ SubStepResult takeSubSteps(const Points& rest, const SubStepLimits& limits,
   }
   return result;
 }
+}
 
 SubStepResult morphIncrementally(const Mesh& rest, const Points& reference,
   const NodePartition& partition, const std::vector<std::int8_t>& orientation,
   const InvertedBefore& before, const BoundaryPath& path,
   const std::function<std::unique_ptr<Morpher>()>& make, const SubStepLimits& limits,
-  Monitor& whole)
+  Monitor& whole, const std::shared_ptr<const Communicator>& processes)
 {
   ProgressRange monitor(whole, 0, 1);
+  const Communicator& all = processes ? *processes : Communicator::alone();
+  const std::vector<std::uint8_t> others = OwnCells::others(rest, all);
   const auto inverted = [&](const Points& points)
-  { return before.added(points, invertedCells(rest, points, orientation, monitor)); };
+  {
+    return all.gatherCells(before.added(
+      points, invertedCells(measureQuality(rest, points, orientation, others, monitor))));
+  };
   const std::vector<Index> atRest = inverted(rest.points);
   if (!atRest.empty())
   {
@@ -103,7 +119,7 @@ SubStepResult morphIncrementally(const Mesh& rest, const Points& reference,
     valid.points = from;
     std::unique_ptr<Morpher> morpher = make();
     morpher->setReference(reference);
-    morpher->prepare(valid, partition, first);
+    morpher->prepare(valid, partition, first, processes);
     SubStepAttempt made;
     made.report = morpher->evaluate(path(time), made.moved, second);
     made.inverted = inverted(made.moved);

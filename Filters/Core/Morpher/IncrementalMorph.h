@@ -42,30 +42,17 @@ struct SubStepResult
   EvaluateReport report; ///< of the last attempt; iterations are the sum of all
 };
 
-/// A step of takeSubSteps().
-struct SubStepAttempt
-{
-  Points moved;                ///< #nodes x 3
-  std::vector<Index> inverted; ///< or degenerate cells
-  EvaluateReport report;
-};
-
-/// Calls `attempt` for steps to times up to 1. `from`: #nodes x 3, the last valid mesh, first
-/// `rest`. A step that leaves inverted cells is undone and halved; after two good steps the length
-/// doubles. At most `limits.attempts` are made, of which at most `limits.failures` fail.
-SubStepResult takeSubSteps(const Points& rest, const SubStepLimits& limits,
-  const std::function<SubStepAttempt(const Points& from, double time, Monitor& part)>& attempt,
-  Monitor& monitor);
-
-/// Follows the path by takeSubSteps(), with a method prepared on the last valid mesh. `make`:
-/// creates the method with its options, not prepared; it gets setReference(`reference`), #nodes x
-/// 3. `orientation`: #cells, of the undeformed mesh. Cells of `before` that are no worse do not
-/// count as inverted. Throws Error for an undeformed mesh with other inverted cells, and errors of
-/// prepare() at the first attempt. Cost: prepare() and evaluate() for each of at most
-/// `limits.attempts`, of which at most `limits.failures` fail.
+/// Follows the path up to time 1 by steps, with a method prepared on the last valid mesh. A step
+/// that leaves inverted cells is undone and halved; after two good steps the length doubles.
+/// `make`: creates the method with its options, not prepared; it gets setReference(`reference`),
+/// #nodes x 3. `orientation`: #cells, of the undeformed mesh. Cells of `before` that are no worse
+/// do not count as inverted. Throws Error for an undeformed mesh with other inverted cells, and
+/// errors of prepare() at the first attempt. Cost: prepare() and evaluate() for each of at most
+/// `limits.attempts`, of which at most `limits.failures` fail. `processes`: see Morpher::prepare();
+/// cells are named by their numbers in the whole mesh then.
 SubStepResult morphIncrementally(const Mesh& rest, const Points& reference,
   const NodePartition& partition, const std::vector<std::int8_t>& orientation,
   const InvertedBefore& before, const BoundaryPath& path,
   const std::function<std::unique_ptr<Morpher>()>& make, const SubStepLimits& limits,
-  Monitor& monitor);
+  Monitor& monitor, const std::shared_ptr<const Communicator>& processes = nullptr);
 }

@@ -4,6 +4,7 @@
 #include "Mesh/IndexLimits.h"
 #include "Mesh/ShellLayer.h"
 #include "Support/Error.h"
+#include "Support/FirstSpeaks.h"
 #include "Support/Parallel.h"
 #include "Support/ProgressRange.h"
 #include "Support/ReproducibleSum.h"
@@ -68,27 +69,6 @@ void requireFound(
   }
 }
 
-/// Keeps back the warnings of all processes but the first: they are of the whole mesh.
-class FirstSpeaks : public ProgressRange
-{
-public:
-  FirstSpeaks(Monitor& whole, const Communicator& processes)
-    : ProgressRange(whole, 0, 1)
-    , speaks_(processes.isFirst())
-  {
-  }
-  void warn(const std::string& message) override
-  {
-    if (this->speaks_)
-    {
-      ProgressRange::warn(message);
-    }
-  }
-
-private:
-  bool speaks_;
-};
-
 /// Returns the nodes that are in no list of the partition.
 std::vector<Index> outside(const NodePartition& partition, Index nodes)
 {
@@ -145,11 +125,16 @@ void Morpher::prepare(const Mesh& rest, const NodePartition& partition, Monitor&
 }
 
 void Morpher::prepare(std::shared_ptr<const Mesh> rest,
-  std::shared_ptr<const NodePartition> partition, Monitor& monitor)
+  std::shared_ptr<const NodePartition> partition, Monitor& monitor,
+  std::shared_ptr<const Communicator> processes)
 {
-  const std::shared_ptr<const Points> points(rest, &rest->points);
-  this->processes_ = nullptr;
-  this->prepareFor(*rest, points, std::move(partition), monitor);
+  this->processes_ = std::move(processes);
+  this->processes().together(
+    [&]
+    {
+      this->prepareFor(
+        *rest, std::shared_ptr<const Points>(rest, &rest->points), partition, monitor);
+    });
 }
 
 void Morpher::prepareFor(const Mesh& rest, std::shared_ptr<const Points> points,
@@ -278,14 +263,9 @@ void Morpher::place(Index node, const Displacement& displacement, Points& result
 
 void Morpher::complete(Points& displacement) const
 {
-  const auto copy = [&]
-  {
-    displacement(this->copies_->countedElsewhere(), allColumns).setZero();
-    this->copies_->add(displacement);
-  };
-  copy();
+  this->copies_->update(displacement);
   this->higherOrderNodes_.apply(displacement);
-  copy(); // a process may not have all cells of its nodes
+  this->copies_->update(displacement); // a process may not have all cells of its nodes
 }
 
 EvaluateReport Morpher::evaluate(

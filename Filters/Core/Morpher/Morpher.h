@@ -62,7 +62,7 @@ public:
     std::shared_ptr<const Communicator> processes = nullptr);
   /// The same without copies: keeps the mesh and the partition, which must not change any more.
   void prepare(std::shared_ptr<const Mesh> rest, std::shared_ptr<const NodePartition> partition,
-    Monitor& monitor);
+    Monitor& monitor, std::shared_ptr<const Communicator> processes = nullptr);
 
   /// Moves the mesh. `prescribed`: #prescribed x 3 new positions, in the order of
   /// NodePartition::prescribed. `moved`: becomes #nodes x 3. Prescribed nodes are exactly as given;
@@ -132,8 +132,13 @@ protected:
     return this->processes_ ? *this->processes_ : Communicator::alone();
   }
 
-  /// Corners and other nodes that count on another process, ascending.
+  /// The copies of all nodes, and those that count on another process, ascending.
+  ///@{
+  const CopiedRows& copies() const { return *this->copies_; }
   const std::vector<Index>& countedElsewhere() const { return this->copies_->countedElsewhere(); }
+  ///@}
+  /// Completes displacements of the prescribed and the free nodes, #nodes x 3.
+  void complete(Points& displacement) const;
 
   Followers higherOrderNodes_;
 
@@ -149,8 +154,6 @@ private:
 
   void prepareFor(const Mesh& rest, std::shared_ptr<const Points> points,
     std::shared_ptr<const NodePartition> partition, Monitor& monitor);
-  /// Completes displacements of the prescribed and the free nodes, #nodes x 3.
-  void complete(Points& displacement) const;
   EvaluateReport evaluateHere(const ConstPoints& prescribed, Points& moved, Monitor& monitor) const;
   /// Returns #prescribed x 3; throws Error where it is not finite.
   Points displacementOf(const ConstPoints& prescribed, Monitor& monitor) const;

@@ -5,8 +5,11 @@
 #include "Mesh/Polyhedra.h"
 #include "Mesh/PolyhedronPieces.h"
 #include "Morpher/CellStiffness.h"
+#include "Support/Error.h"
 
+#include <algorithm>
 #include <utility>
+#include <vector>
 
 namespace morph
 {
@@ -22,40 +25,37 @@ public:
     , cutsAll_(cutsAll)
     , hanging_(std::move(hanging))
   {
+    if (const auto* stiff = dynamic_cast<const StiffMethod*>(this->method_.get()))
+    {
+      this->stiffness_ = stiff->stiffness();
+    }
   }
 
   Method& method() const { return *this->method_; }
   void setReference(Points reference) { this->reference_ = std::move(reference); }
 
-  void prepare(const Mesh& rest, const NodePartition& partition, Monitor& monitor)
+  void prepare(const Mesh& rest, const NodePartition& partition, const Communicator& processes,
+    Monitor& monitor)
   {
-    this->pieces_ =
-      std::make_unique<PolyhedronPieces>(this->hanging_.conforming(rest), monitor, this->cutsAll_);
+    if (processes.bodies()) // the method's message would count pieces
+    {
+      requirePrescribedBodies(*processes.bodies(), partition, processes);
+    }
     this->nodes_ = rest.numberOfNodes();
-    if (this->reference_.rows() > 0)
+    this->copies_ = processes.rows();
+    this->findTies(rest, partition, processes);
+    this->pieces_ = cutCells(rest, this->hanging_, processes, std::max(1, this->method_->layers()),
+      monitor, this->cutsAll_);
+    if (!processes.all(this->reference_.rows() == 0))
     {
       this->method_->setReference(this->pieces_->extend(this->reference_));
     }
-    auto* stiff = dynamic_cast<StiffMethod*>(this->method_.get());
-    if (stiff)
+    if (auto* stiff = dynamic_cast<StiffMethod*>(this->method_.get()))
     {
-      stiff->setFirstCenter(this->nodes_);
+      this->setStiffness(*stiff);
     }
-    if (stiff &&
-        static_cast<Index>(stiff->stiffness().values.size()) == rest.numberOfCells()) // not yet
-    {
-      CellStiffness stiffness = stiff->stiffness();
-      stiffness.values = this->pieces_->extend(stiffness.values);
-      stiff->setStiffness(std::move(stiffness));
-    }
-    if (!this->hanging_.empty())
-    {
-      HigherOrderNodes followers;
-      followers.prepare(rest, partition);
-      this->ties_ = this->hanging_.following(followers);
-    }
-    const NodePartition ofMesh = this->ties_.extend(partition);
-    this->method_->prepare(this->pieces_->mesh(), this->pieces_->extend(ofMesh), monitor);
+    this->method_->prepare(this->pieces_->mesh(),
+      this->pieces_->extend(this->ties_.extend(partition)), monitor, this->pieces_->processes());
   }
 
   EvaluateReport displace(
@@ -73,10 +73,8 @@ public:
       targets.row(i) = rest.row(ids[i]) + all.row(ids[i]);
     }
     const EvaluateReport report = this->method_->evaluate(targets, moved, monitor);
-    for (const Index node : partition.free)
-    {
-      displacement.row(node) = moved.row(node) - rest.row(node);
-    }
+    displacement = this->pieces_->reduce(moved - rest, std::move(displacement));
+    displacement(partition.prescribed, allColumns) = prescribed;
     this->ties_.apply(displacement);
     free = displacement(partition.free, allColumns);
     return report;
@@ -90,16 +88,17 @@ public:
     fourth(partition.prescribed, 0) = prescribed.col(3);
     this->ties_.apply(three);
     this->ties_.apply(fourth);
-    three = this->pieces_->extend(three);
-    fourth = this->pieces_->extend(fourth);
+    Points all = this->pieces_->extend(three), other = this->pieces_->extend(fourth);
     const std::vector<Index>& ids = this->method_->partition().prescribed;
     FourFields given(static_cast<Index>(ids.size()), 4);
-    given << three(ids, allColumns), fourth(ids, 0);
+    given << all(ids, allColumns), other(ids, 0);
     EvaluateReport report;
-    const FourFields all = this->method_->fields(given, monitor, &report);
-    three = all.topLeftCorner(this->nodes_, 3);
-    fourth.setZero();
-    fourth.col(0) = all.col(3).head(this->nodes_);
+    const FourFields found = this->method_->fields(given, monitor, &report);
+    all = found.leftCols<3>();
+    other.setZero();
+    other.col(0) = found.col(3);
+    three = this->pieces_->reduce(all, std::move(three));
+    fourth = this->pieces_->reduce(other, std::move(fourth));
     this->ties_.apply(three);
     this->ties_.apply(fourth);
     free << three(partition.free, allColumns), fourth(partition.free, 0);
@@ -109,27 +108,93 @@ public:
   EvaluateReport displaceTranspose(
     const NodePartition& partition, const Points& free, Points& prescribed, Monitor& monitor) const
   {
+    // What hangs gives to copies, which give to the nodes that count.
+    const auto give = [&](Points& rows)
+    {
+      this->ties_.applyTranspose(rows);
+      this->copies_->collect(rows);
+      prescribed += rows(partition.prescribed, allColumns);
+    };
     Points own = Points::Zero(this->nodes_, 3);
     own(partition.free, allColumns) = free;
-    this->ties_.applyTranspose(own);
-    prescribed += own(partition.prescribed, allColumns);
+    give(own);
     Points gradient = Points::Zero(this->method_->restPoints().rows(), 3), given;
-    gradient(partition.free, allColumns) = own(partition.free, allColumns);
+    for (const Index node : partition.free)
+    {
+      if (const Index place = this->pieces_->nodeOf(node); place >= 0)
+      {
+        gradient.row(place) = own.row(node);
+      }
+    }
     const EvaluateReport report = this->method_->applyTranspose(gradient, given, monitor);
     Points all = Points::Zero(gradient.rows(), 3);
     all(this->method_->partition().prescribed, allColumns) = given;
     own = this->pieces_->extendTranspose(all);
-    this->ties_.applyTranspose(own);
-    prescribed += own(partition.prescribed, allColumns);
+    this->copies_->collect(own);
+    give(own);
     return report;
   }
 
 private:
+  void findTies(const Mesh& rest, const NodePartition& partition, const Communicator& processes)
+  {
+    this->ties_ = {};
+    if (!this->hanging_.empty())
+    {
+      HigherOrderNodes followers;
+      followers.prepare(rest, partition);
+      this->ties_ = this->hanging_.following(followers);
+    }
+    if (!processes.bodies())
+    {
+      return;
+    }
+    // A process that does not have all cells around a follower has other weights of it.
+    Points follows = Points::Zero(this->nodes_, 3);
+    follows(partition.higherOrderNodes, 0).setOnes();
+    this->copies_->update(follows);
+    std::vector<Index> followers;
+    for (Index n = 0; n < this->nodes_; ++n)
+    {
+      if (follows(n, 0) != 0)
+      {
+        followers.push_back(n);
+      }
+    }
+    const std::vector<Index> loose = this->hanging_.tiedTo(followers);
+    if (!loose.empty())
+    {
+      throw Error("Nodes hang on faces of quadratic cells whose middle nodes are no corners of the "
+                  "small cells, which several MPI processes cannot treat: point ids " +
+                  listIds(processes.idsOf(loose)) + ". Run on one process.");
+    }
+  }
+
+  void setStiffness(StiffMethod& method) const
+  {
+    CellStiffness stiffness = this->stiffness_;
+    if (!stiffness.values.empty())
+    {
+      stiffness.values = this->pieces_->extend(stiffness.values);
+    }
+    for (Index& node : stiffness.walls)
+    {
+      node = stiffness.areWallsGlobal ? node : this->pieces_->nodeOf(node);
+    }
+    method.setStiffness(std::move(stiffness));
+    if (!this->pieces_->processes())
+    {
+      method.setFirstCenter(this->nodes_);
+    }
+  }
+
   std::unique_ptr<Method> method_;
+  CellStiffness stiffness_; ///< with values of the cells that the pieces are cut from
   bool cutsAll_;
   HangingNodes hanging_;
   HangingNodes ties_; ///< of hanging_, to nodes that are given or solved for
-  std::unique_ptr<PolyhedronPieces> pieces_;
+  std::shared_ptr<const CopiedRows> copies_;
+  std::shared_ptr<const CellPieces> pieces_;
   Points reference_;
   Index nodes_ = 0;
 };
@@ -156,12 +221,13 @@ public:
   {
     this->onPieces_.setReference(std::move(reference));
   }
+  int layers() const override { return std::min(1, this->onPieces_.method().layers()); }
   Morpher& wrapped() override { return this->onPieces_.method(); }
 
 protected:
   void doPrepare(const Mesh& rest, Monitor& monitor) override
   {
-    this->onPieces_.prepare(rest, this->partition(), monitor);
+    this->onPieces_.prepare(rest, this->partition(), this->processes(), monitor);
   }
   EvaluateReport displace(const Points& prescribed, Points& free, Monitor& monitor) const override
   {

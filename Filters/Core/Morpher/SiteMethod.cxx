@@ -109,4 +109,13 @@ EvaluateReport SiteMethod::displaceTranspose(
   report.statistics.clear();
   return report;
 }
+
+std::unique_ptr<Morpher> onProcesses(std::unique_ptr<Morpher> method)
+{
+  if (method->copyWithoutCells())
+  {
+    return std::make_unique<SiteMethod>(std::move(method));
+  }
+  return method->layers() > 0 ? std::move(method) : nullptr;
+}
 }

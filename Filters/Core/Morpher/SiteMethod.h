@@ -32,4 +32,8 @@ private:
   /// Of each prescribed node that counts here, its number and that of its site.
   std::vector<std::pair<Index, Index>> sites_;
 };
+
+/// The form that a method, not prepared, takes on several processes: its own, or a SiteMethod. Null
+/// for a method that needs one process.
+std::unique_ptr<Morpher> onProcesses(std::unique_ptr<Morpher> method);
 }

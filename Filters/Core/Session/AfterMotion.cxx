@@ -2,39 +2,37 @@
 #include "Session/AfterMotion.h"
 
 #include "Mesh/HigherOrderNodes.h"
+#include "Mesh/OwnCells.h"
 #include "Mesh/PolyhedronPieces.h"
 #include "Mesh/Topology.h"
-#include "Morpher/PolyhedralMorpher.h"
 #include "Quality/BoundaryDetermined.h"
 #include "Quality/ScaledJacobian.h"
 #include "Support/ProgressRange.h"
 #include "Untangling/InversionFree.h"
+#include "Untangling/SmoothMesh.h"
 
 #include <algorithm>
+#include <limits>
+#include <memory>
 #include <utility>
 
 namespace morph
 {
 namespace
 {
-/// Whether there are more bad cells or, with as many, a lower minimum.
-bool isWorse(const Quality& after, const Quality& before)
-{
-  const auto bad = [](const Quality& quality) { return quality.inverted + quality.degenerate; };
-  return bad(after) > bad(before) ||
-         (bad(after) == bad(before) && !(after.minimum >= before.minimum));
-}
-
 /// Returns the cells, ascending, that no position of the free nodes makes valid.
-std::vector<Index> cellsThatStay(const PolyhedronPieces& pieces, const NodePartition& partition,
-  const Points& points, Monitor& monitor)
+std::vector<Index> cellsThatStay(const CellPieces& pieces, const NodePartition& partition,
+  const Points& points, const Communicator& processes, Monitor& monitor)
 {
   const Mesh& mesh = pieces.mesh();
   const std::vector<std::int8_t> signs =
-    cellSigns(mesh, connectedComponents(mesh, monitor), monitor);
-  std::vector<Index> cells = boundaryDeterminedInversions(mesh, partition, signs, points);
+    cellSigns(mesh, connectedComponents(mesh, monitor, processes), monitor, processes);
   const auto cellOf = [&](Index piece) { return pieces.cellOf(piece); };
-  std::transform(cells.begin(), cells.end(), cells.begin(), cellOf);
+  std::vector<Index> cells;
+  for (const Index piece : boundaryDeterminedInversions(mesh, partition, signs, points))
+  {
+    cells.push_back(cellOf(piece));
+  }
   for (const NodeWithoutPlace& node : nodesWithoutPlace(mesh, partition, signs, points, monitor))
   {
     // One of several cells stays inverted, but not each.
@@ -52,8 +50,9 @@ std::vector<Index> cellsThatStay(const PolyhedronPieces& pieces, const NodeParti
 /// Places what the pieces of cells do not have where their nodes have gone, from `before` to
 /// `after`: nodes between corners, and then those that hang.
 void placeOthers(const Mesh& mesh, const HangingNodes& hanging, const NodePartition& partition,
-  const Points& before, Points& after)
+  const Communicator& processes, const Points& before, Points& after)
 {
+  const std::unique_ptr<CopiedRows> copies = processes.rows();
   if (!hanging.empty() && !partition.higherOrderNodes.empty())
   {
     HigherOrderNodes followers;
@@ -65,7 +64,22 @@ void placeOthers(const Mesh& mesh, const HangingNodes& hanging, const NodePartit
       after.row(node) = before.row(node) + change.row(node);
     }
   }
+  copies->update(after);
   hanging.place(mesh.points, after);
+  copies->update(after);
+}
+
+SmoothingReport smoothOwnCells(const Mesh& rest, const std::vector<std::int8_t>& orientation,
+  const NodePartition& partition, const SmoothingOptions& options, Points& moved,
+  const Communicator& processes, Monitor& monitor)
+{
+  const OwnCells own(rest, partition, orientation, processes);
+  Points points = own.take(moved);
+  const SmoothingReport report = smoothMesh(
+    own.mesh(), own.orientation(), own.partition(), options, points, monitor, own.communicator());
+  moved(own.nodes(), allColumns) = points;
+  processes.rows()->update(moved);
+  return report;
 }
 }
 
@@ -80,73 +94,83 @@ void adaptToPieces(Morpher& method)
 bool repairPolyhedra(const Mesh& mesh, const HangingNodes& hanging, const Points& reference,
   const NodePartition& partition,
   const std::function<std::vector<Index>(const Points& points)>& bad, Points& moved,
-  Monitor& monitor)
+  Monitor& monitor, const Communicator& processes)
 {
   constexpr int Rounds = 4;
   std::vector<Index> left = bad(moved);
-  if (left.empty())
+  if (processes.all(left.empty()))
   {
     return true;
   }
   ProgressRange preparing(monitor, 0, 0.3);
-  const PolyhedronPieces pieces(hanging.conforming(mesh), preparing);
-  const NodePartition ofPieces = pieces.extend(hanging.extend(partition));
-  const std::vector<Index> stay = cellsThatStay(pieces, ofPieces, pieces.extend(moved), preparing);
+  const auto pieces = cutCells(mesh, hanging, processes, 1, preparing);
+  const std::shared_ptr<const Communicator> ofPieces = pieces->processes();
+  const NodePartition nodes = pieces->extend(hanging.extend(partition));
+  const std::vector<Index> stay = cellsThatStay(
+    *pieces, nodes, pieces->extend(moved), ofPieces ? *ofPieces : Communicator::alone(), preparing);
   const auto canBeMended = [&]
-  { return !std::includes(stay.begin(), stay.end(), left.begin(), left.end()); };
+  { return !processes.all(std::includes(stay.begin(), stay.end(), left.begin(), left.end())); };
   if (!canBeMended())
   {
     return false;
   }
   InversionFree repair;
-  repair.setReference(pieces.extend(reference));
-  repair.prepare(pieces.mesh(), ofPieces, preparing);
+  repair.setReference(pieces->extend(reference));
+  repair.prepare(pieces->mesh(), nodes, preparing, ofPieces);
+  const auto count = [&](const std::vector<Index>& cells)
+  { return processes.sum(static_cast<Index>(cells.size())); };
   for (int round = 0; round < Rounds && canBeMended(); ++round)
   {
     ProgressRange part(monitor, 0.3 + 0.7 * round / Rounds, 0.3 + 0.7 * (round + 1) / Rounds);
-    Points all = pieces.extend(moved);
+    Points all = pieces->extend(moved);
     repair.repair(all, part);
-    Points repaired = all.topRows(moved.rows());
-    placeOthers(mesh, hanging, partition, moved, repaired);
+    Points repaired = pieces->reduce(all, moved);
+    placeOthers(mesh, hanging, partition, processes, moved, repaired);
     std::vector<Index> now = bad(repaired);
-    if (now.size() >= left.size())
+    if (count(now) >= count(left))
     {
       break; // what is left cannot be mended
     }
     left.swap(now);
     moved = std::move(repaired);
   }
-  return left.empty();
+  return processes.all(left.empty());
 }
 
-SmoothingOptions postSmoothing(int iterationLimit)
+Index smoothAfterwards(const Mesh& rest, const HangingNodes& hanging, bool onPieces,
+  const std::vector<std::int8_t>& orientation, const NodePartition& partition, int iterationLimit,
+  Points& moved, Monitor& monitor, const Communicator& processes)
 {
   SmoothingOptions options;
   options.target = SmoothingTarget::Initial;
   options.iterationLimit = iterationLimit;
   options.neverWorse = true;
-  return options;
-}
-
-Index smoothAfterwards(const Mesh& rest, const HangingNodes& hanging,
-  const std::vector<std::int8_t>& orientation, const NodePartition& partition, int iterationLimit,
-  Points& moved, Monitor& monitor)
-{
-  const SmoothingOptions options = postSmoothing(iterationLimit);
   SmoothingReport report;
-  if (needsPieces(rest, hanging))
+  if (onPieces)
   {
-    const PolyhedronPieces pieces(hanging.conforming(rest), monitor);
-    const Mesh& mesh = pieces.mesh();
-    Points all = pieces.extend(moved);
-    report = smoothMesh(mesh, cellSigns(mesh, connectedComponents(mesh)),
-      pieces.extend(hanging.extend(partition)), options, all, monitor);
-    Points smoothed = all.topRows(moved.rows());
-    placeOthers(rest, hanging, partition, moved, smoothed);
+    const auto pieces = cutCells(rest, hanging, processes, 1, monitor);
+    const std::shared_ptr<const Communicator> shared = pieces->processes();
+    const Communicator& ofPieces = shared ? *shared : Communicator::alone();
+    const Mesh& mesh = pieces->mesh();
+    Points all = pieces->extend(moved);
+    report = smoothOwnCells(mesh,
+      cellSigns(mesh, connectedComponents(mesh, monitor, ofPieces), monitor, ofPieces),
+      pieces->extend(hanging.extend(partition)), options, all, ofPieces, monitor);
+    Points smoothed = pieces->reduce(all, moved);
+    placeOthers(rest, hanging, partition, processes, moved, smoothed);
+    const std::vector<std::uint8_t> others = OwnCells::others(rest, processes);
+    // Bad cells, and the minimum.
     const auto measure = [&](const Points& points)
-    { return measureQuality(rest, points, orientation, {}, monitor); };
+    {
+      const Quality quality = measureQuality(rest, points, orientation, others, monitor);
+      constexpr double None = std::numeric_limits<double>::infinity();
+      return std::pair(processes.sum(quality.inverted + quality.degenerate),
+        processes.minimum(quality.measured > 0 ? quality.minimum : None));
+    };
     // What is better for the pieces may be worse for the polyhedra.
-    if (isWorse(measure(smoothed), measure(moved)))
+    const auto [bad, minimum] = measure(smoothed);
+    const auto [badBefore, minimumBefore] = measure(moved);
+    if (bad > badBefore || (bad == badBefore && !(minimum >= minimumBefore)))
     {
       return 0;
     }
@@ -154,7 +178,7 @@ Index smoothAfterwards(const Mesh& rest, const HangingNodes& hanging,
   }
   else
   {
-    report = smoothMesh(rest, orientation, partition, options, moved, monitor);
+    report = smoothOwnCells(rest, orientation, partition, options, moved, processes, monitor);
   }
   return report.wasKept ? 0 : report.untangleSteps + report.newtonSteps;
 }

@@ -2,12 +2,14 @@
 #include "Session/Session.h"
 
 #include "Mesh/Extent.h"
+#include "Mesh/OwnCells.h"
 #include "Mesh/ShellLayer.h"
 #include "Morpher/PolyhedralMorpher.h"
 #include "Quality/BoundaryDetermined.h"
 #include "Quality/ScaledJacobian.h"
 #include "Session/AfterMotion.h"
 #include "Support/Error.h"
+#include "Support/FirstSpeaks.h"
 #include "Support/ProgressRange.h"
 #include "Support/Stopwatch.h"
 #include "Untangling/HigherOrderUntangling.h"
@@ -26,7 +28,7 @@ namespace
 /// A method with these options, not prepared, for the cells of `mesh` at its points or others.
 std::unique_ptr<Morpher> makeMethod(const Session::Options& options, const UndeformedMesh& mesh)
 {
-  return mesh.fitted(options.settings(needsPieces(mesh.mesh(), mesh.hanging())));
+  return mesh.fitted(options.settings(mesh.needsPieces()));
 }
 
 void requireAscending(const std::vector<Index>& ids)
@@ -46,7 +48,7 @@ void requireRows(const char* what, Index rows, Index expected)
   }
 }
 
-void requireTargets(const BoundaryTargets& boundary)
+void requireTargets(const BoundaryTargets& boundary, const Communicator& processes)
 {
   requireAscending(boundary.ids);
   requireRows(
@@ -58,7 +60,8 @@ void requireTargets(const BoundaryTargets& boundary)
     {
       row = boundary.ids[row];
     }
-    throw Error("The targets are not finite or beyond 1e50, at node ids " + listIds(wrong) + ".");
+    throw Error("The targets are not finite or beyond 1e50, at node ids " +
+                listIds(processes.idsOf(wrong)) + ".");
   }
 }
 
@@ -110,22 +113,28 @@ void Session::setMesh(std::shared_ptr<const UndeformedMesh> mesh)
     this->samples_.reset();
     this->attached_ = {};
     this->partition_ = std::make_shared<NodePartition>();
+    this->copies_.reset();
     this->steps_.clear();
     this->mesh_ = std::move(mesh);
   }
 }
 
-void Session::reportMesh(const Options& options, Monitor& monitor) const
+void Session::reportMesh(const Options& options, Monitor& whole) const
 {
   const UndeformedMesh& mesh = *this->mesh_;
-  const std::vector<std::int8_t>& signs = mesh.orientation();
-  const auto first = std::find(signs.begin(), signs.end(), -1);
-  warnOfMirrored(mesh.mirroredBodies(), first - signs.begin(), monitor);
+  const Communicator& processes = this->all();
+  FirstSpeaks monitor(whole, processes);
+  warnOfMirrored(mesh.mirroredBodies(), mesh.firstMirrored(), monitor);
   warnOfShared(mesh.repeatedCells(), mesh.touchingNodes(), monitor);
   warnOfUnmapped(mesh.unmappedCells(), monitor);
   if (options.measureAll)
   {
-    const std::string note = Validity::note(options.validity, mesh.before(monitor).cells());
+    std::string note;
+    processes.together(
+      [&] {
+        note =
+          Validity::note(options.validity, processes.gatherCells(mesh.before(monitor).cells()));
+      });
     if (!note.empty())
     {
       monitor.warn(note);
@@ -134,23 +143,43 @@ void Session::reportMesh(const Options& options, Monitor& monitor) const
 }
 
 std::shared_ptr<StepResult> Session::morph(const BoundaryTargets& boundary, const Options& options,
-  Monitor& monitor, const AffineHandle* handle)
+  Monitor& whole, const AffineHandle* handle)
 {
-  return std::make_shared<StepResult>(
-    this->morphStep(this->mesh_->mesh(), boundary, handle, options, monitor));
+  FirstSpeaks monitor(whole, this->all());
+  auto result = std::make_shared<StepResult>();
+  this->all().together(
+    [&] { *result = this->morphStep(this->mesh_->mesh(), boundary, handle, options, monitor); });
+  return result;
+}
+
+std::pair<int, Series::Step> Session::lastUntil(int number) const
+{
+  while (true)
+  {
+    auto kept = this->steps_.lastUntil(number);
+    const auto least = static_cast<int>(this->all().minimum(kept.first));
+    if (this->all().all(kept.first == least))
+    {
+      return kept;
+    }
+    number = least;
+  }
 }
 
 std::shared_ptr<const StepResult> Session::morphSeries(int step,
   const std::function<BoundaryTargets(int step)>& boundaryOf, const BoundaryTargets* whole,
-  const Options& options, Monitor& monitor)
+  const Options& options, Monitor& all)
 {
+  FirstSpeaks monitor(all, this->all());
   this->effort.prepareSeconds = this->effort.evaluateSeconds = 0; // of a last step that is kept
-  if (whole && (whole->ids != this->whole_.ids || whole->targets != this->whole_.targets))
+  const bool isSame =
+    !whole || (whole->ids == this->whole_.ids && whole->targets == this->whole_.targets);
+  if (!this->all().all(isSame))
   {
     this->steps_.clear();
     this->whole_ = *whole;
   }
-  auto [number, result] = this->steps_.lastUntil(step);
+  auto [number, result] = this->lastUntil(step);
   const double first = number, count = step - first;
   constexpr int Most = 10; // messages about steps before the last; a million help nobody
   int partial = 0;
@@ -164,8 +193,13 @@ std::shared_ptr<const StepResult> Session::morphSeries(int step,
       from.points = result->moved;
     }
     ProgressRange part(monitor, (number - 1 - first) / count, (number - first) / count);
-    auto made = std::make_shared<StepResult>(
-      inStep(number, [&] { return this->morphStep(from, boundary, nullptr, options, part); }));
+    auto made = std::make_shared<StepResult>();
+    inStep(number,
+      [&]
+      {
+        this->all().together(
+          [&] { *made = this->morphStep(from, boundary, nullptr, options, part); });
+      });
     made->valid.measured = {}; // a series keeps meshes alone
     result = std::move(made);
     if (number < step && !result->valid.error.empty() && ++partial <= Most)
@@ -181,6 +215,12 @@ std::shared_ptr<const StepResult> Session::morphSeries(int step,
   return result;
 }
 
+bool Session::countsHere(Index node) const
+{
+  const std::vector<Index>& elsewhere = this->copies_->countedElsewhere();
+  return !std::binary_search(elsewhere.begin(), elsewhere.end(), node);
+}
+
 StepResult Session::morphStep(const Mesh& from, const BoundaryTargets& boundary,
   const AffineHandle* handle, const Options& options, Monitor& monitor)
 {
@@ -192,13 +232,23 @@ StepResult Session::morphStep(const Mesh& from, const BoundaryTargets& boundary,
   const Mesh ofBent = isBent ? bent(this->mesh_->mesh()) : Mesh();
   const Mesh& rest = isBent ? ofBent : this->mesh_->mesh();
   const HangingNodes& hanging = this->mesh_->hanging();
-  requireTargets(boundary);
-  if (std::vector<Index> ids = this->mesh_->prescribedFor(boundary.ids); ids != boundary.ids)
+  const Communicator& processes = this->all();
+  const bool onPieces = this->mesh_->needsPieces();
+  requireTargets(boundary, processes);
+  if (std::vector<Index> ids = this->mesh_->prescribedFor(boundary.ids);
+      !processes.all(ids == boundary.ids))
   {
     StepResult result = this->morphStep(
       from, forMethod(boundary, std::move(ids), from, monitor), nullptr, options, monitor);
-    const std::string note =
-      noteOfDropped(droppedTargets(boundary, hanging, result.moved, this->mesh_->size()));
+    std::vector<Index> dropped;
+    for (const Index node : droppedTargets(boundary, hanging, result.moved, this->mesh_->size()))
+    {
+      if (this->countsHere(node))
+      {
+        dropped.push_back(node);
+      }
+    }
+    const std::string note = noteOfDropped(processes.gatherNodes(dropped));
     if (!note.empty() && result.valid.error.empty()) // else there is another reason
     {
       monitor.warn(note);
@@ -214,7 +264,7 @@ StepResult Session::morphStep(const Mesh& from, const BoundaryTargets& boundary,
   const Validity validity{ options.validity, options.maximumSubSteps, from, rest.points, before,
     partition, orientation, boundary.targets, this->mesh_->outerFaces(), hanging,
     dynamic_cast<InversionFree*>(options.createMorpher().get()) != nullptr,
-    [&] { return makeMethod(options, *this->mesh_); } };
+    [&] { return makeMethod(options, *this->mesh_); }, onPieces, this->mesh_->processes() };
   validity.requireFeasible();
 
   // A repair, where there is one, takes longest.
@@ -226,23 +276,33 @@ StepResult Session::morphStep(const Mesh& from, const BoundaryTargets& boundary,
   StepResult result;
   const EvaluateReport report = this->evaluate(boundary.targets, handle, result.moved, evaluating);
   placeImages(from, result.moved); // of a sum of modes
-  if (validity.isInversionFree && needsPieces(from, hanging))
+  if (validity.isInversionFree && onPieces)
   {
     auto repairing = part(0.45, 0.5);
+    const std::vector<std::uint8_t> others = OwnCells::others(from, processes);
     const auto bad = [&](const Points& points)
-    { return invertedCells(from, points, orientation, repairing); };
-    repairPolyhedra(from, hanging, rest.points, partition, bad, result.moved, repairing);
+    { return invertedCells(measureQuality(from, points, orientation, others, repairing)); };
+    repairPolyhedra(from, hanging, rest.points, partition, bad, result.moved, repairing, processes);
   }
   if (validity.isInversionFree)
   {
-    auto untangling = part(0.49, 0.5);
-    untangleHigherOrder(from, partition, orientation, result.moved, untangling);
+    if (!processes.all(partition.higherOrderNodes.empty()))
+    {
+      auto untangling = part(0.49, 0.5);
+      const OwnCells own(from, partition, orientation, processes);
+      Points points = own.take(result.moved);
+      untangleHigherOrder(
+        own.mesh(), own.partition(), own.orientation(), points, untangling, own.communicator());
+      result.moved(own.nodes(), allColumns) = points;
+      this->copies_->update(result.moved);
+    }
     hanging.place(from.points, result.moved);
+    this->copies_->update(result.moved);
   }
   if (const auto wrong = immoderateRows(result.moved, &evaluating); !wrong.empty())
   {
     throw Error("The method gave positions that are not finite or beyond 1e50, at node ids " +
-                listIds(wrong) +
+                listIds(processes.idsOf(wrong)) +
                 ". Check the boundary for huge values, and the mesh for cells without "
                 "volume.");
   }
@@ -251,8 +311,8 @@ StepResult Session::morphStep(const Mesh& from, const BoundaryTargets& boundary,
   {
     auto smoothing = part(0.5, 0.7);
     result.statistics.push_back(
-      { "PostSmoothSteps", smoothAfterwards(rest, hanging, orientation, partition,
-                             options.postSmoothIterations, result.moved, smoothing) });
+      { "PostSmoothSteps", smoothAfterwards(rest, hanging, onPieces, orientation, partition,
+                             options.postSmoothIterations, result.moved, smoothing, processes) });
   }
   double seconds = watch.seconds();
   auto checking = part(options.postSmooth ? 0.7 : 0.5, 1);
@@ -263,9 +323,9 @@ StepResult Session::morphStep(const Mesh& from, const BoundaryTargets& boundary,
     {
       this->samples_ = std::make_unique<MovableQuality>(rest, orientation, partition.free);
     }
-    const double minimum =
+    const double minimum = processes.minimum(
       isBent ? MovableQuality(rest, orientation, partition.free).fixedMinimum(result.moved)
-             : this->samples_->fixedMinimum(result.moved);
+             : this->samples_->fixedMinimum(result.moved));
     result.boundaryMinimum =
       std::isfinite(minimum) ? minimum : std::numeric_limits<double>::quiet_NaN();
   }
@@ -282,16 +342,17 @@ StepResult Session::morphStep(const Mesh& from, const BoundaryTargets& boundary,
   {
     seconds = watch.seconds(); // cells were not measured alone, but repaired
   }
-  this->effort.evaluateSeconds = seconds;
+  this->effort.evaluateSeconds = processes.maximum(seconds);
   if (status == "Inverted")
   {
-    result.boundaryInverted = static_cast<Index>(
-      before.without(boundaryDeterminedInversions(from, partition, orientation, result.moved))
-        .size());
+    const std::vector<Index> cells = processes.gatherCells(
+      before.without(boundaryDeterminedInversions(from, partition, orientation, result.moved)));
+    result.boundaryInverted = static_cast<Index>(cells.size());
   }
   result.iterations = report.iterations;
-  result.prescribed = std::count_if(boundary.ids.begin(), boundary.ids.end(),
-    [&](Index node) { return rest.layer.nodes == 0 || node < rest.layer.nodes; });
+  result.prescribed = processes.sum(Index(std::count_if(boundary.ids.begin(), boundary.ids.end(),
+    [&](Index node)
+    { return (rest.layer.nodes == 0 || node < rest.layer.nodes) && this->countsHere(node); })));
   result.unmatched = boundary.unmatched;
   return result;
 }
@@ -314,21 +375,27 @@ EvaluateReport Session::evaluate(
 
 const NodePartition& Session::partitionOf(const std::vector<Index>& prescribed)
 {
-  if (this->partition_->prescribed.empty() || this->partition_->prescribed != prescribed)
+  if (!this->all().all(this->copies_ && this->partition_->prescribed == prescribed))
   {
     this->samples_.reset();
+    this->copies_ = this->all().rows();
     this->partition_ = std::make_shared<NodePartition>(
       partitionNodes(this->mesh_->mesh(), this->mesh_->hanging(), prescribed));
-    this->attached_ = AttachedNodes(this->mesh_->mesh(), *this->partition_);
+    this->attached_ = AttachedNodes(this->mesh_->mesh(), *this->partition_, this->all());
   }
   return *this->partition_;
 }
 
-void Session::prepare(const std::vector<Index>& ids, const Options& options, Monitor& monitor)
+void Session::prepare(const std::vector<Index>& ids, const Options& options, Monitor& whole)
 {
-  requireAscending(ids);
-  this->partitionOf(this->mesh_->prescribedFor(ids));
-  this->prepareFor(this->mesh_->mesh(), options, monitor);
+  FirstSpeaks monitor(whole, this->all());
+  this->all().together(
+    [&]
+    {
+      requireAscending(ids);
+      this->partitionOf(this->mesh_->prescribedFor(ids));
+      this->prepareFor(this->mesh_->mesh(), options, monitor);
+    });
 }
 
 void Session::prepareFor(const Mesh& from, const Options& options, Monitor& monitor)
@@ -337,11 +404,13 @@ void Session::prepareFor(const Mesh& from, const Options& options, Monitor& moni
   this->effort.prepareSeconds = 0;
   // setMesh() drops the method with the mesh that it is prepared for.
   const bool isOfMesh = &from == &rest;
-  std::unique_ptr<Morpher> settings = options.settings(needsPieces(rest, this->mesh_->hanging()));
-  if (this->method_ && this->settings_->preparesLike(*settings) &&
-      this->methodIsCurved_ == from.layer.isCurved() &&
-      this->method_->partition().prescribed == this->partition_->prescribed &&
-      ((isOfMesh && this->methodIsOfMesh_) || this->method_->restPoints() == from.points))
+  std::unique_ptr<Morpher> settings = options.settings(this->mesh_->needsPieces());
+  const bool isPrepared =
+    this->method_ && this->settings_->preparesLike(*settings) &&
+    this->methodIsCurved_ == from.layer.isCurved() &&
+    this->method_->partition().prescribed == this->partition_->prescribed &&
+    ((isOfMesh && this->methodIsOfMesh_) || this->method_->restPoints() == from.points);
+  if (this->all().all(isPrepared))
   {
     methodOf(*this->method_).takeEvaluateOptions(*settings);
     return;
@@ -350,24 +419,25 @@ void Session::prepareFor(const Mesh& from, const Options& options, Monitor& moni
   this->method_.reset();
   this->modes_.clear();
   std::unique_ptr<Morpher> morpher = makeMethod(options, *this->mesh_);
-  if (!isOfMesh && from.points != rest.points)
+  if (!isOfMesh && !this->all().all(from.points == rest.points))
   {
     morpher->setReference(rest.points);
   }
   if (isOfMesh)
   {
-    morpher->prepare(std::shared_ptr<const Mesh>(this->mesh_, &rest), this->partition_, monitor);
+    morpher->prepare(std::shared_ptr<const Mesh>(this->mesh_, &rest), this->partition_, monitor,
+      this->mesh_->processes());
   }
   else
   {
-    morpher->prepare(from, *this->partition_, monitor);
+    morpher->prepare(from, *this->partition_, monitor, this->mesh_->processes());
   }
   this->method_ = std::move(morpher);
   this->methodIsOfMesh_ = isOfMesh;
   this->methodIsCurved_ = from.layer.isCurved();
   this->settings_ = std::move(settings);
   ++this->effort.preparations;
-  this->effort.prepareSeconds = watch.seconds();
+  this->effort.prepareSeconds = this->all().maximum(watch.seconds());
 }
 
 Points Session::transpose(
@@ -389,6 +459,7 @@ Points Session::transpose(
   }
   Points own, all = Points::Zero(gradient.rows(), 3); // what hangs moves by its ties
   this->attached_.applyTranspose(gradient);
+  this->copies_->collect(gradient);
   linear->applyTranspose(gradient, own, applying);
   all(this->partition_->prescribed, allColumns) = own;
   return all(ids, allColumns);

@@ -35,6 +35,10 @@ namespace morph
 /// Lengths are in the unit of the mesh. What is wrong throws Error, which names node or cell ids
 /// and what to do; a warning goes to the monitor. One thread at a time may use a session; a monitor
 /// gives it more.
+///
+/// The mesh may be on several processes (UndeformedMesh::Part). All functions but setMesh() and
+/// steps() are collective then; nodes are those of this process's part, with all copies, while
+/// numbers and messages are those of the whole mesh. Warnings are those of the first process.
 class Session
 {
 public:
@@ -86,7 +90,7 @@ public:
   const UndeformedMesh& mesh() const { return *this->mesh_; }
   /// Warns of what is odd about the mesh: bodies that are mirrored, cells that were inverted before
   /// or are there twice, and nodes where bodies touch.
-  void reportMesh(const Options& options, Monitor& monitor) const;
+  void reportMesh(const Options& options, Monitor& whole) const;
 
   /// Does the part of morph() that depends on the prescribed nodes alone, ascending. Throws Error
   /// as morph().
@@ -118,6 +122,13 @@ public:
     const std::vector<Index>& ids, Points gradient, const Options& options, Monitor& monitor);
 
 private:
+  const Communicator& all() const
+  {
+    return this->mesh_->processes() ? *this->mesh_->processes() : Communicator::alone();
+  }
+  bool countsHere(Index node) const;
+  /// The last step until `number` that all processes keep: their memory may differ.
+  std::pair<int, Series::Step> lastUntil(int number) const;
   StepResult morphStep(const Mesh& from, const BoundaryTargets& boundary,
     const AffineHandle* handle, const Options& options, Monitor& monitor);
   /// Moves the mesh by the prepared method, by its modes where a handle has some.
@@ -132,10 +143,11 @@ private:
   std::shared_ptr<const UndeformedMesh> mesh_ = std::make_shared<UndeformedMesh>();
   /// of mesh_, or empty
   std::shared_ptr<const NodePartition> partition_ = std::make_shared<NodePartition>();
-  AttachedNodes attached_;                  ///< of mesh_ and partition_
-  std::unique_ptr<MovableQuality> samples_; ///< of the same, or null
-  std::unique_ptr<Morpher> method_;         ///< prepared for mesh_ under settings_, or null
-  bool methodIsOfMesh_ = false;             ///< not of a step's points
+  std::shared_ptr<const CopiedRows> copies_; ///< of mesh_; null without a partition
+  AttachedNodes attached_;                   ///< of mesh_ and partition_
+  std::unique_ptr<MovableQuality> samples_;  ///< of the same, or null
+  std::unique_ptr<Morpher> method_;          ///< prepared for mesh_ under settings_, or null
+  bool methodIsOfMesh_ = false;              ///< not of a step's points
   bool methodIsCurved_ = false; ///< of a curved layer, or a plane one that leaves its plane
   std::unique_ptr<const Morpher> settings_;
   AffineModes modes_; ///< of method_

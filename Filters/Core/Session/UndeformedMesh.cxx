@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Session/UndeformedMesh.h"
 
+#include "Mesh/CellShape.h"
 #include "Mesh/Extent.h"
 #include "Mesh/SharedCorners.h"
 #include "Morpher/BodyByBody.h"
 #include "Morpher/PolyhedralMorpher.h"
+#include "Morpher/SiteMethod.h"
 #include "Quality/Certificate.h"
 #include "Support/Error.h"
 
@@ -14,40 +16,60 @@
 
 namespace morph
 {
-UndeformedMesh::UndeformedMesh(Mesh mesh, const UndeformedMesh* sameCells, Monitor& monitor)
-  : mesh_(std::move(mesh))
+UndeformedMesh::UndeformedMesh(Mesh given, const UndeformedMesh* sameCells, Monitor& monitor)
+  : mesh_(std::make_shared<Mesh>(std::move(given)))
 {
-  requireVolumeCells(this->mesh_);
-  const ConnectedComponents bodies = connectedComponents(this->mesh_, monitor);
-  this->orientation_ = cellSigns(this->mesh_, bodies, monitor);
+  const Mesh& mesh = *this->mesh_;
+  requireVolumeCells(mesh);
+  const ConnectedComponents bodies = connectedComponents(mesh, monitor);
+  this->orientation_ = cellSigns(mesh, bodies, monitor);
   this->mirrored_ = morph::mirroredBodies(bodies, this->orientation_);
+  this->firstMirrored_ = std::find(this->orientation_.begin(), this->orientation_.end(), -1) -
+                         this->orientation_.begin();
   // Where nodes hang depends on the points.
   const bool hasOuter = sameCells && sameCells->hanging_.empty();
-  this->outer_ = hasOuter ? sameCells->outer_ : boundaryFaces(this->mesh_, this->hanging_, monitor);
-  this->repeated_ = sameCells ? sameCells->repeated_ : morph::repeatedCells(this->mesh_, monitor);
-  this->unmapped_ = sameCells ? sameCells->unmapped_ : morph::unmappedCells(this->mesh_);
+  this->outer_ = hasOuter ? sameCells->outer_ : boundaryFaces(mesh, this->hanging_, monitor);
+  this->needsPieces_ = morph::needsPieces(mesh, this->hanging_);
+  this->repeated_ = sameCells ? sameCells->repeated_ : morph::repeatedCells(mesh, monitor);
+  this->unmapped_ = sameCells ? sameCells->unmapped_ : morph::unmappedCells(mesh);
   if (sameCells)
   {
     this->touching_ = sameCells->touching_;
   }
   else if (this->hanging_.empty())
   {
-    this->touching_ = morph::touchingNodes(this->mesh_, this->outer_);
+    this->touching_ = morph::touchingNodes(mesh, this->outer_);
   }
   else
   {
-    this->touching_ = morph::touchingNodes(this->hanging_.conforming(this->mesh_), this->outer_);
+    this->touching_ = morph::touchingNodes(this->hanging_.conforming(mesh), this->outer_);
   }
-  this->size_ = meshSize(this->mesh_);
+  this->size_ = meshSize(mesh);
   if (bodies.count > 1)
   {
-    this->bodyOfNode_ = bodyOfNodes(this->mesh_, bodies);
+    this->bodyOfNode_ = bodyOfNodes(mesh, bodies);
   }
+}
+
+UndeformedMesh::UndeformedMesh(Part part)
+  : mesh_(std::move(part.mesh))
+  , processes_(std::move(part.processes))
+  , hanging_(std::move(part.hanging))
+  , size_(part.size)
+  , orientation_(*this->processes_->orientation())
+  , mirrored_(part.mirroredBodies)
+  , firstMirrored_(part.firstMirrored)
+  , needsPieces_(part.needsPieces)
+  , repeated_(std::move(part.repeatedCells))
+  , touching_(std::move(part.touchingNodes))
+  , unmapped_(std::move(part.unmappedCells))
+{
+  this->outer_.offsets = { 0 };
 }
 
 std::vector<Index> UndeformedMesh::prescribedFor(const std::vector<Index>& ids) const
 {
-  if (!ids.empty() && (ids.front() < 0 || ids.back() >= this->mesh_.numberOfNodes()))
+  if (!ids.empty() && (ids.front() < 0 || ids.back() >= this->mesh_->numberOfNodes()))
   {
     return ids; // partitionNodes() names those that do not exist
   }
@@ -78,19 +100,35 @@ std::vector<Index> UndeformedMesh::prescribedFor(const std::vector<Index>& ids) 
 
 std::unique_ptr<Morpher> UndeformedMesh::fitted(std::unique_ptr<Morpher> method) const
 {
-  if (!this->bodyOfNode_.empty() && method->copyWithoutCells())
+  if (this->processes_)
+  {
+    method = onProcesses(std::move(method));
+    if (!method)
+    {
+      throw Error("The method needs one MPI rank, and the mesh is distributed over several.");
+    }
+  }
+  else if (!this->bodyOfNode_.empty() && method->copyWithoutCells())
   {
     method = std::make_unique<BodyByBody>(std::move(method));
   }
-  return morpherForCells(this->mesh_, this->hanging_, std::move(method));
+  return this->needsPieces_ ? morpherForPolyhedra(std::move(method), false, this->hanging_)
+                            : std::move(method);
 }
 
 const InvertedBefore& UndeformedMesh::before(Monitor& monitor) const
 {
   if (!this->before_)
   {
-    this->before_.emplace(this->mesh_, this->orientation_,
-      measureQuality(this->mesh_, this->mesh_.points, this->orientation_, {}, monitor));
+    const Mesh& mesh = *this->mesh_;
+    std::vector<std::uint8_t> skip(this->processes_ ? mesh.numberOfCells() : 0);
+    for (std::size_t c = 0; c < skip.size(); ++c)
+    {
+      const CellShape* shape = cellShape(mesh.types[c]);
+      skip[c] = !shape || shape->dimension < 3; // a part may have no volume cells
+    }
+    this->before_.emplace(mesh, this->orientation_,
+      measureQuality(mesh, mesh.points, this->orientation_, skip, monitor));
   }
   return *this->before_;
 }

@@ -7,6 +7,7 @@
 #include "Morpher/Morpher.h"
 #include "Quality/InvertedBefore.h"
 #include "Session/BoundaryTargets.h"
+#include "Support/Communicator.h"
 #include "Support/Monitor.h"
 
 #include <cstdint>
@@ -27,9 +28,23 @@ public:
   /// points. Throws Error as requireVolumeCells(). Cost: the bodies, and the search of the outer
   /// faces unless `sameCells` has them.
   UndeformedMesh(Mesh mesh, const UndeformedMesh* sameCells, Monitor& monitor);
+  /// What processes know of a mesh of which each has a part, with copies of the cells around its
+  /// nodes.
+  struct Part
+  {
+    std::shared_ptr<const Mesh> mesh;
+    HangingNodes hanging;     ///< of `mesh`
+    bool needsPieces = false; ///< see needsPieces(); of the whole mesh
+    double size = 0;          ///< of the whole mesh
+    Index mirroredBodies = 0, firstMirrored = 0;
+    std::vector<Index> repeatedCells, touchingNodes, unmappedCells; ///< of the whole mesh, ids
+    std::shared_ptr<const Communicator> processes;
+  };
+  /// Of several processes. Not collective.
+  explicit UndeformedMesh(Part part);
   UndeformedMesh(const UndeformedMesh&) = delete;
 
-  const Mesh& mesh() const { return this->mesh_; }
+  const Mesh& mesh() const { return *this->mesh_; }
   const BoundaryFaces& outerFaces() const { return this->outer_; }
   const HangingNodes& hanging() const { return this->hanging_; }
   /// See meshSize().
@@ -37,6 +52,12 @@ public:
   /// #cells; see cellSigns().
   const std::vector<std::int8_t>& orientation() const { return this->orientation_; }
   Index mirroredBodies() const { return this->mirrored_; }
+  /// The first cell of orientation -1, if there are mirrored bodies.
+  Index firstMirrored() const { return this->firstMirrored_; }
+  /// Whether a method works on pieces of some cells; see morph::needsPieces().
+  bool needsPieces() const { return this->needsPieces_; }
+  /// Those that have the other parts of the mesh; null for one process.
+  const std::shared_ptr<const Communicator>& processes() const { return this->processes_; }
   /// Cells that are there twice, and nodes where bodies touch by chance; see SharedCorners.h.
   ///@{
   const std::vector<Index>& repeatedCells() const { return this->repeated_; }
@@ -46,21 +67,24 @@ public:
   /// The nodes that a method gets as prescribed where the boundary prescribes `ids`, ascending. Not
   /// those that hang, as their ties move them; and all nodes of bodies that have none, which stay.
   std::vector<Index> prescribedFor(const std::vector<Index>& ids) const;
-  /// Makes `method` fit for the mesh: on the pieces of polyhedra and of cells at divided faces, and
-  /// one that reads no cells for each body alone. `method`: not prepared.
+  /// Makes `method` fit for the mesh: on the pieces of polyhedra and of cells at divided faces, one
+  /// that reads no cells for each body alone, and as onProcesses() on several. `method`: not
+  /// prepared.
   std::unique_ptr<Morpher> fitted(std::unique_ptr<Morpher> method) const;
 
-  /// Cost of the first call: a measure of the mesh.
+  /// Copies of other processes' cells count here. Cost of the first call: a measure of the mesh.
   const InvertedBefore& before(Monitor& monitor) const;
 
 private:
-  Mesh mesh_;
+  std::shared_ptr<const Mesh> mesh_ = std::make_shared<Mesh>();
+  std::shared_ptr<const Communicator> processes_;
   BoundaryFaces outer_;
   HangingNodes hanging_;
   std::vector<Index> bodyOfNode_; ///< see bodyOfNodes(); empty for a single body
   double size_ = 0;
   std::vector<std::int8_t> orientation_;
-  Index mirrored_ = 0;
+  Index mirrored_ = 0, firstMirrored_ = 0;
+  bool needsPieces_ = false;
   std::vector<Index> repeated_, touching_, unmapped_;
   mutable std::optional<InvertedBefore> before_; ///< once it was asked for
 };

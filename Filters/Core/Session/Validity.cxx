@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Session/Validity.h"
 
+#include "Mesh/CellShape.h"
+#include "Mesh/OwnCells.h"
 #include "Mesh/Polyhedra.h"
 #include "Mesh/ShellLayer.h"
 #include "Morpher/IncrementalMorph.h"
@@ -22,7 +24,7 @@ namespace morph
 {
 namespace
 {
-/// The mesh without some cells, whose nodes keep their numbers.
+/// The mesh with a vertex, which no method reads, in the place of some cells.
 Mesh withoutCells(const Mesh& mesh, const InvertedBefore& left)
 {
   Mesh rest;
@@ -31,13 +33,11 @@ Mesh withoutCells(const Mesh& mesh, const InvertedBefore& left)
   rest.offsets = { 0 };
   for (Index c = 0; c < mesh.numberOfCells(); ++c)
   {
-    if (!left.positivePlaces(c))
-    {
-      rest.types.push_back(mesh.types[c]);
-      rest.connectivity.insert(
-        rest.connectivity.end(), mesh.cell(c), mesh.cell(c) + mesh.cellSize(c));
-      rest.offsets.push_back(static_cast<Index>(rest.connectivity.size()));
-    }
+    const bool isLeft = left.positivePlaces(c) != nullptr;
+    rest.types.push_back(isLeft ? std::uint8_t(Vertex) : mesh.types[c]);
+    rest.connectivity.insert(
+      rest.connectivity.end(), mesh.cell(c), mesh.cell(c) + (isLeft ? 1 : mesh.cellSize(c)));
+    rest.offsets.push_back(static_cast<Index>(rest.connectivity.size()));
   }
   return rest;
 }
@@ -47,21 +47,6 @@ const InvertedBefore& Validity::beforeFor(Mode mode, const InvertedBefore& befor
 {
   static const InvertedBefore none{};
   return mode == Mode::RepairAll ? none : before;
-}
-
-void Validity::requireFeasible(Mode mode, const std::vector<Index>& determined)
-{
-  if (asksForValidMesh(mode) && !determined.empty())
-  {
-    throw Infeasible(
-      "The boundary itself inverts " + std::to_string(determined.size()) +
-        " cells, at corners that no free node can mend, so no valid mesh exists: "
-        "cell ids " +
-        listIds(determined) +
-        ". Move the boundary less there, leave some of its nodes free, or set `Validity` "
-        "to Report to see the mesh.",
-      static_cast<Index>(determined.size()));
-  }
 }
 
 std::string Validity::note(Mode mode, const std::vector<Index>& ids)
@@ -84,8 +69,41 @@ void Validity::requireFeasible() const
   }
   Points points = this->mesh.points;
   points(this->partition.prescribed, allColumns) = this->targets;
-  requireFeasible(this->mode, this->before.without(boundaryDeterminedInversions(
-                                this->mesh, this->partition, this->orientation, points)));
+  const std::vector<Index> determined = this->all().gatherCells(this->before.without(
+    boundaryDeterminedInversions(this->mesh, this->partition, this->orientation, points)));
+  if (!determined.empty())
+  {
+    throw Infeasible(
+      "The boundary itself inverts " + std::to_string(determined.size()) +
+        " cells, at corners that no free node can mend, so no valid mesh exists: "
+        "cell ids " +
+        listIds(determined) +
+        ". Move the boundary less there, leave some of its nodes free, or set `Validity` "
+        "to Report to see the mesh.",
+      static_cast<Index>(determined.size()));
+  }
+}
+
+Quality Validity::measure(const Points& points, Monitor& monitor) const
+{
+  return measureQuality(
+    this->mesh, points, this->orientation, OwnCells::others(this->mesh, this->all()), monitor);
+}
+
+Index Validity::count(const std::vector<Index>& cells) const
+{
+  return this->all().sum(static_cast<Index>(cells.size()));
+}
+
+std::vector<Index> Validity::idsOf(const std::vector<Index>& cells) const
+{
+  const std::vector<Index> own = this->all().idsOfCells(cells);
+  const std::vector<double> numbers =
+    this->all().gather(std::vector<double>(own.begin(), own.end()));
+  std::vector<Index> ids(numbers.begin(), numbers.end());
+  std::sort(ids.begin(), ids.end());
+  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+  return ids;
 }
 
 std::vector<Index> Validity::inverted(const Quality& quality, const Points& points) const
@@ -95,27 +113,47 @@ std::vector<Index> Validity::inverted(const Quality& quality, const Points& poin
 
 std::vector<Index> Validity::inverted(const Points& points, Monitor& monitor) const
 {
-  return this->before.added(points, invertedCells(this->mesh, points, this->orientation, monitor));
+  return this->inverted(this->measure(points, monitor), points);
 }
 
-std::vector<Validity::BadCell> Validity::worst(const Mesh& mesh, const std::vector<Index>& cells,
-  const Quality& quality, const Points& points, const std::vector<std::int64_t>* ids)
+std::vector<Validity::BadCell> Validity::worst(
+  const std::vector<Index>& cells, const Quality& quality, const Points& points) const
 {
+  const std::vector<Index> ids = this->all().idsOfCells(cells);
   std::vector<BadCell> result;
-  for (const Index cell : cells)
+  for (std::size_t i = 0; i < cells.size(); ++i)
   {
+    const Index cell = cells[i];
     Eigen::RowVector3d center = Eigen::RowVector3d::Zero();
-    const bool isPrism = mesh.layer.nodes > 0; // of whose front it is
-    const Index corners = cornerCount(mesh, cell, *cellShape(mesh.types[cell])) / (isPrism ? 2 : 1);
+    const bool isPrism = this->mesh.layer.nodes > 0; // of whose front it is
+    const Index corners =
+      cornerCount(this->mesh, cell, *cellShape(this->mesh.types[cell])) / (isPrism ? 2 : 1);
     for (Index k = 0; k < corners; ++k)
     {
-      center += points.row(mesh.cell(cell)[k]) / static_cast<double>(corners);
+      center += points.row(this->mesh.cell(cell)[k]) / static_cast<double>(corners);
     }
-    result.push_back({ quality.scaledJacobian[cell], ids ? (*ids)[cell] : cell,
-      { center[0], center[1], center[2] } });
+    result.push_back({ quality.scaledJacobian[cell], ids[i], { center[0], center[1], center[2] } });
   }
-  std::sort(result.begin(), result.end());
-  result.resize(std::min(result.size(), mostNamed));
+  const auto keepWorst = [&]
+  {
+    std::sort(result.begin(), result.end());
+    result.resize(std::min(result.size(), mostNamed));
+  };
+  keepWorst();
+  std::vector<double> numbers;
+  for (const BadCell& cell : result)
+  {
+    const double* x = cell.center;
+    numbers.insert(
+      numbers.end(), { cell.jacobian, static_cast<double>(cell.id), x[0], x[1], x[2] });
+  }
+  numbers = this->all().gather(numbers);
+  result.clear();
+  for (const double* n = numbers.data(); n != numbers.data() + numbers.size(); n += 5)
+  {
+    result.push_back({ n[0], static_cast<Index>(n[1]), { n[2], n[3], n[4] } });
+  }
+  keepWorst();
   return result;
 }
 
@@ -135,23 +173,16 @@ std::string linesOf(const std::vector<Validity::BadCell>& worst, Index count)
 }
 }
 
-std::string Validity::found(Index count, Index all, const std::vector<BadCell>& worst)
-{
-  return std::to_string(count) + " cells are inverted or degenerate" +
-         (count == all ? "" : " by the motion") +
-         ". The worst, with their centers:" + linesOf(worst, count);
-}
-
 std::string Validity::found(const Quality& quality, const Points& points) const
 {
   const std::vector<Index> inverted = this->inverted(quality, points);
-  return found(static_cast<Index>(inverted.size()),
-    static_cast<Index>(invertedCells(quality).size()),
-    worst(this->mesh, inverted, quality, points));
+  const Index count = this->count(inverted), all = this->count(invertedCells(quality));
+  return std::to_string(count) + " cells are inverted or degenerate" +
+         (count == all ? "" : " by the motion") + ". The worst, with their centers:" +
+         linesOf(this->worst(inverted, quality, points), count);
 }
 
-Validity::Outcome Validity::ofSubSteps(
-  const SubStepResult& result, const char* room, const std::string& cells)
+Validity::Outcome Validity::ofSubSteps(const SubStepResult& result, Monitor& monitor) const
 {
   Outcome outcome{ "SubStepped", result.reached, result.attempts };
   if (result.reached < 1)
@@ -162,13 +193,16 @@ Validity::Outcome Validity::ofSubSteps(
          << " of it, and the result is the valid mesh there. ";
     if (result.isForbidden)
     {
-      text << "The boundary then " << room << " no room to ";
+      text << "The boundary then folds, runs into itself, or leaves no room to ";
     }
     else
     {
       text << "The next step inverted ";
     }
-    text << result.inverted.size() << " cells" << cells
+    const std::vector<Index> cells = this->all().cellsOf(result.inverted);
+    text << result.inverted.size() << " cells, at the result's places:"
+         << linesOf(this->worst(cells, this->measure(result.moved, monitor), result.moved),
+              static_cast<Index>(result.inverted.size()))
          << (result.isForbidden
                 ? "Mend the boundary there, move it less, or give it another path by steps of its "
                   "own."
@@ -182,15 +216,15 @@ Validity::Outcome Validity::ofSubSteps(
 bool Validity::repair(Points& moved, Monitor& monitor) const
 {
   const auto bad = [&](const Points& points) { return this->inverted(points, monitor); };
-  if (needsPieces(this->mesh, this->hanging))
+  if (this->needsPieces)
   {
-    return repairPolyhedra(
-      this->mesh, this->hanging, this->reference, this->partition, bad, moved, monitor);
+    return repairPolyhedra(this->mesh, this->hanging, this->reference, this->partition, bad, moved,
+      monitor, this->all());
   }
-  std::size_t least = bad(moved).size();
+  Index least = this->count(bad(moved));
   // Near the inverted cells at first: the linear methods of the whole mesh take far longer. Cells
   // that were inverted before are not seen there: they would be repaired, too, or nothing would.
-  const bool leavesSome = !this->before.cells().empty();
+  const bool leavesSome = !this->all().all(this->before.cells().empty());
   const Mesh others = leavesSome ? withoutCells(this->mesh, this->before) : Mesh();
   const NodePartition ofOthers =
     leavesSome ? partitionNodes(others, this->partition.prescribed) : NodePartition();
@@ -205,12 +239,12 @@ bool Validity::repair(Points& moved, Monitor& monitor) const
     repair.setReference(this->reference);
     repair.setNearOnly(attempt == 0);
     const bool seesOthers = leavesSome && attempt == 0;
-    repair.prepare(
-      seesOthers ? others : this->mesh, seesOthers ? ofOthers : this->partition, first);
+    repair.prepare(seesOthers ? others : this->mesh, seesOthers ? ofOthers : this->partition, first,
+      this->processes);
     Points repaired = moved;
     repair.repair(repaired, second);
     placeImages(this->mesh, repaired);
-    const std::size_t left = bad(repaired).size();
+    const Index left = this->count(bad(repaired));
     if (left < least)
     {
       moved.swap(repaired);
@@ -224,7 +258,7 @@ Validity::Outcome Validity::remaining(
   const Points& moved, const std::string& reason, Monitor& monitor) const
 {
   Outcome outcome{ "Inverted", std::numeric_limits<double>::quiet_NaN() };
-  outcome.measured = measureQuality(this->mesh, moved, this->orientation, {}, monitor);
+  outcome.measured = this->measure(moved, monitor);
   outcome.error = "No valid mesh was found, and the result is the best that was: " +
                   this->found(outcome.measured, moved) + reason;
   return outcome;
@@ -234,7 +268,8 @@ Validity::Outcome Validity::subStep(
   const std::function<std::unique_ptr<Morpher>()>& make, Points& moved, Monitor& monitor) const
 {
   const bool repairs = this->isInversionFree || Validity::repairs(this->mode);
-  const std::vector<Index> atRest = this->inverted(this->mesh.points, monitor);
+  const std::vector<Index> atRest =
+    this->all().gatherCells(this->inverted(this->mesh.points, monitor));
   if (!atRest.empty())
   {
     return this->remaining(moved,
@@ -253,20 +288,16 @@ Validity::Outcome Validity::subStep(
   {
     limits.failures = repairFailures;
   }
-  limits.forbidden = [&](double time) { return check.at(path(time)).all(this->before); };
+  limits.forbidden = [&](double time)
+  { return this->idsOf(check.at(path(time)).all(this->before)); };
   const SubStepResult result = morphIncrementally(this->mesh, this->reference, this->partition,
-    this->orientation, this->before, path, make, limits, monitor);
+    this->orientation, this->before, path, make, limits, monitor, this->processes);
   moved = result.moved;
+  Outcome outcome = this->ofSubSteps(result, monitor);
   if (result.reached >= 1)
   {
-    return ofSubSteps(result, "", "");
+    return outcome;
   }
-  Outcome outcome = ofSubSteps(result, "folds, runs into itself, or leaves",
-    ", at the result's places:" +
-      linesOf(
-        worst(this->mesh, result.inverted,
-          measureQuality(this->mesh, result.moved, this->orientation, {}, monitor), result.moved),
-        static_cast<Index>(result.inverted.size())));
   if (!result.isForbidden && !this->isInversionFree && this->mode == Mode::SubStep)
   {
     outcome.error += " `Validity` set to Repair often goes all the way where sub-steps stop.";
@@ -276,20 +307,22 @@ Validity::Outcome Validity::subStep(
 
 Validity::Outcome Validity::ensure(Points& moved, Monitor& monitor) const
 {
-  Quality quality = measureQuality(this->mesh, moved, this->orientation, {}, monitor);
+  Quality quality = this->measure(moved, monitor);
   const auto crosses = [&]
   {
     return !crossingCells(
       this->mesh, this->partition, this->orientation, this->faces, moved, monitor)
               .empty();
   };
-  if (this->inverted(quality, moved).empty() && !(this->mode == Mode::SubStep && crosses()))
+  if (this->all().all(this->inverted(quality, moved).empty()) &&
+      !(this->mode == Mode::SubStep && crosses()))
   {
     Outcome valid;
     valid.measured = std::move(quality);
     return valid;
   }
-  if (asksForValidMesh(this->mode) && this->mode != Mode::Refuse && this->partition.free.empty())
+  if (asksForValidMesh(this->mode) && this->mode != Mode::Refuse &&
+      this->all().all(this->partition.free.empty()))
   {
     return this->remaining(
       moved, "Every node is prescribed, so the boundary alone decides.", monitor);
@@ -307,8 +340,12 @@ Validity::Outcome Validity::ensure(Points& moved, Monitor& monitor) const
       {
         return { "Repaired" };
       }
-      const auto make = [this]
-      { return morpherForCells(this->mesh, this->hanging, std::make_unique<InversionFree>()); };
+      const auto make = [this]() -> std::unique_ptr<Morpher>
+      {
+        auto method = std::make_unique<InversionFree>();
+        return this->needsPieces ? morpherForPolyhedra(std::move(method), false, this->hanging)
+                                 : std::move(method);
+      };
       return this->subStep(make, moved, second);
     }
     case Mode::Refuse:

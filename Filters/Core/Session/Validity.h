@@ -7,6 +7,7 @@
 #include "Morpher/Morpher.h"
 #include "Quality/InvertedBefore.h"
 #include "Quality/ScaledJacobian.h"
+#include "Support/Communicator.h"
 #include "Support/Error.h"
 
 #include <cstdint>
@@ -18,7 +19,8 @@
 
 namespace morph
 {
-/// Treats the inverted cells that a motion makes. Holds its arguments by reference.
+/// Treats the inverted cells that a motion makes. Holds its arguments by reference. On several
+/// processes all functions but the static ones are collective, and meshes are this process's part.
 class Validity
 {
 public:
@@ -42,12 +44,16 @@ public:
   const NodePartition& partition;
   const std::vector<std::int8_t>& orientation; ///< #cells
   const Points& targets;                       ///< #prescribed x 3
-  const BoundaryFaces& faces;                  ///< of `mesh`
-  const HangingNodes& hanging;                 ///< of the same
+  /// of `mesh`; on several processes none, so that folds and crossings are not foreseen
+  const BoundaryFaces& faces;
+  const HangingNodes& hanging; ///< of the same
   /// the method is the inversion-free one, which messages do not recommend to itself
   bool isInversionFree = false;
   /// Makes a method with its options, not prepared yet.
   std::function<std::unique_ptr<Morpher>()> make;
+  /// Whether any process has polyhedra, or cells at divided faces.
+  bool needsPieces = false;
+  std::shared_ptr<const Communicator> processes = nullptr; ///< null for one
 
   /// The error of a boundary that itself inverts cells: there is no result.
   struct Infeasible : Error
@@ -84,8 +90,6 @@ public:
   ///@}
   /// What a mode judges by: the cells that were inverted `before`, or none if it repairs all.
   static const InvertedBefore& beforeFor(Mode mode, const InvertedBefore& before);
-  /// Throws Infeasible if the mode asks for a valid mesh and the boundary inverts these cells.
-  static void requireFeasible(Mode mode, const std::vector<Index>& determined);
   /// A warning of cells that were inverted before and do not count in that mode, or nothing. `ids`:
   /// ascending.
   static std::string note(Mode mode, const std::vector<Index>& ids);
@@ -102,19 +106,6 @@ public:
     }
   };
   static constexpr std::size_t mostNamed = 10;
-  /// Returns the worst of these cells, `mostNamed` at most, the worst first. `ids`: #cells, of the
-  /// whole mesh, or null where they are those of `mesh`.
-  static std::vector<BadCell> worst(const Mesh& mesh, const std::vector<Index>& cells,
-    const Quality& quality, const Points& points, const std::vector<std::int64_t>* ids = nullptr);
-  /// "N cells are inverted or degenerate ...", by the motion if `count` of `all` bad cells are, and
-  /// the worst, a line each.
-  static std::string found(Index count, Index all, const std::vector<BadCell>& worst);
-
-  /// The outcome of sub-steps. Where they have not made the whole motion, its error names what
-  /// stopped them: `room`, what the boundary does where the next step is forbidden, as "leaves";
-  /// `cells`, a text of where the cells are, to which a sentence may follow.
-  static Outcome ofSubSteps(
-    const SubStepResult& result, const char* room, const std::string& cells);
 
   /// Throws Infeasible if `mode` asks for a valid mesh and the targets themselves invert cells; the
   /// message names these cells. To be called before the method is evaluated.
@@ -128,13 +119,28 @@ public:
   bool repair(Points& moved, Monitor& monitor) const;
 
 private:
-  /// The inverted cells that count.
+  const Communicator& all() const
+  {
+    return this->processes ? *this->processes : Communicator::alone();
+  }
+  Quality measure(const Points& points, Monitor& monitor) const;
+  Index count(const std::vector<Index>& cells) const;
+  /// The numbers in the whole mesh of these cells of all processes, ascending, each once.
+  std::vector<Index> idsOf(const std::vector<Index>& cells) const;
+  /// Returns the worst of these cells of all processes, `mostNamed` at most, the worst first.
+  std::vector<BadCell> worst(
+    const std::vector<Index>& cells, const Quality& quality, const Points& points) const;
+  /// The outcome of sub-steps. Where they have not made the whole motion, its error names what
+  /// stopped them.
+  Outcome ofSubSteps(const SubStepResult& result, Monitor& monitor) const;
+  /// This process's inverted cells that count.
   std::vector<Index> inverted(const Quality& quality, const Points& points) const;
   std::vector<Index> inverted(const Points& points, Monitor& monitor) const;
   Outcome subStep(
     const std::function<std::unique_ptr<Morpher>()>& make, Points& moved, Monitor& monitor) const;
   /// The outcome of a mesh that stays invalid though `mode` asks for a valid one. `reason`: why.
   Outcome remaining(const Points& moved, const std::string& reason, Monitor& monitor) const;
+  /// "N cells are inverted or degenerate ...", and the worst of those that count, a line each.
   std::string found(const Quality& quality, const Points& points) const;
 };
 }

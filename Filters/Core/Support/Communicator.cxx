@@ -24,6 +24,18 @@ const std::vector<Index>& CopiedRows::countedElsewhere() const
   return none;
 }
 
+void CopiedRows::update(Points& rows) const
+{
+  rows(this->countedElsewhere(), allColumns).setZero();
+  this->add(rows);
+}
+
+void CopiedRows::collect(Points& rows) const
+{
+  this->add(rows);
+  rows(this->countedElsewhere(), allColumns).setZero();
+}
+
 const CopiedRows& CopiedRows::alone()
 {
   static const CopiedRows instance;
@@ -91,6 +103,11 @@ std::vector<Index> Communicator::numbersOf(
 }
 
 std::shared_ptr<LinearSolver> Communicator::makeSolver(bool) const
+{
+  return nullptr;
+}
+
+std::shared_ptr<CellPieces> Communicator::cut(const Mesh&, int, Monitor&) const
 {
   return nullptr;
 }

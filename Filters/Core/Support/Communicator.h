@@ -11,8 +11,10 @@
 
 namespace morph
 {
+class CellPieces;
 class LinearSolver;
 struct ConnectedComponents;
+struct Mesh;
 
 /// Rows of values of some nodes, of which other processes may have copies; see Communicator. This
 /// class is that of one process. Every function is collective.
@@ -26,6 +28,10 @@ public:
   virtual double dot(const Points& a, const Points& b, Monitor& monitor) const;
   /// Returns the rows that count on another process, ascending. Not collective.
   virtual const std::vector<Index>& countedElsewhere() const;
+  /// Gives copies the row of the process on which it counts.
+  void update(Points& rows) const;
+  /// Adds copies to the row that counts, and sets them to zero.
+  void collect(Points& rows) const;
 
   static const CopiedRows& alone();
 };
@@ -110,6 +116,16 @@ public:
   /// Returns a solver of equations whose rows several processes have; null for one process, which
   /// has its own. Not collective.
   virtual std::shared_ptr<LinearSolver> makeSolver(bool isSymmetric) const;
+  /// Returns the numbers of cells in the whole mesh, copies included. Not collective.
+  virtual std::vector<Index> idsOfCells(const std::vector<Index>& cells) const { return cells; }
+  /// Returns the cells here, ascending, that have these ascending numbers in the whole mesh and are
+  /// no copies. Not collective.
+  virtual std::vector<Index> cellsOf(const std::vector<Index>& ids) const { return ids; }
+  /// Returns the lists of all processes, one after the other.
+  virtual std::vector<double> gather(const std::vector<double>& values) const { return values; }
+  /// Returns the pieces of cells that methods see, with so many layers of copies around those of
+  /// each process; null for one process: see cutCells(). `mesh`: of this process, at any points.
+  virtual std::shared_ptr<CellPieces> cut(const Mesh& mesh, int layers, Monitor& monitor) const;
   ///@}
 
   static const Communicator& alone();

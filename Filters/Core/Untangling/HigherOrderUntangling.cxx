@@ -73,13 +73,15 @@ class CoefficientPenalty : public Objective
 public:
   /// `cells`: quadratic ones with a positive straight volume; `free`: ascending.
   CoefficientPenalty(const Mesh& mesh, const std::vector<std::int8_t>& orientation,
-    const std::vector<Index>& cells, const std::vector<Index>& free, const Points& points)
+    const std::vector<Index>& cells, const std::vector<Index>& free, const Points& points,
+    const Communicator& processes)
     : mesh_(mesh)
     , orientation_(orientation)
     , cells_(cells)
     , free_(free)
     , row_(mesh.numberOfNodes(), -1)
   {
+    this->share(processes, free, Eigen::RowVector3d::Zero(), {});
     for (std::size_t i = 0; i < free.size(); ++i)
     {
       this->row_[free[i]] = static_cast<Index>(i);
@@ -94,7 +96,7 @@ public:
 
   Value value(const Points& points, Monitor& monitor) const override
   {
-    std::vector<double> least(this->cells_.size());
+    std::vector<double> least(this->cells_.size() + 1, Margin); // of no cells, too
     const double energy = reproducibleSum(this->size(), monitor, 0.,
       [&](Index i)
       {
@@ -104,8 +106,9 @@ public:
         least[i] = Margin - *std::max_element(lack.begin(), end);
         return std::inner_product(lack.begin(), end, lack.begin(), 0.);
       });
-    const bool isEnough = *std::min_element(least.begin(), least.end()) >= Margin / 2;
-    return { energy, true, isEnough };
+    const double worst =
+      this->communicator().minimum(*std::min_element(least.begin(), least.end()));
+    return { this->communicator().sum(energy), true, worst >= Margin / 2 };
   }
 
   void gradient(const Points& points, Points& result, Monitor& monitor) const override
@@ -136,6 +139,7 @@ public:
         }
       }
     }
+    this->rows().add(result);
   }
 
 private:
@@ -173,9 +177,10 @@ private:
 }
 
 void untangleHigherOrder(const Mesh& mesh, const NodePartition& partition,
-  const std::vector<std::int8_t>& orientation, Points& points, Monitor& monitor)
+  const std::vector<std::int8_t>& orientation, Points& points, Monitor& monitor,
+  const Communicator& processes)
 {
-  if (partition.higherOrderNodes.empty())
+  if (processes.all(partition.higherOrderNodes.empty()))
   {
     return;
   }
@@ -187,8 +192,10 @@ void untangleHigherOrder(const Mesh& mesh, const NodePartition& partition,
       !shape || !isQuadraticVolume(*shape) || !(straightVolume(mesh, orientation, c, points) > 0);
   }
   const std::vector<Index> before = invertedCells(mesh, orientation, skip, points, monitor);
-  const std::vector<Index> free = nodesOf(mesh, before, partition.higherOrderNodes);
-  if (free.empty())
+  std::vector<Index> free = nodesOf(mesh, before, partition.higherOrderNodes);
+  processes.spread(free);
+  std::sort(free.begin(), free.end());
+  if (processes.all(free.empty()))
   {
     return;
   }
@@ -206,9 +213,11 @@ void untangleHigherOrder(const Mesh& mesh, const NodePartition& partition,
   MinimizerEffort effort;
   MinimizerLimits limits;
   limits.steps = Steps;
-  limitedMemoryBfgs(
-    CoefficientPenalty(mesh, orientation, cells, free, points), trial, limits, effort, monitor);
-  if (invertedCells(mesh, orientation, skip, trial, monitor).size() < before.size())
+  limitedMemoryBfgs(CoefficientPenalty(mesh, orientation, cells, free, points, processes), trial,
+    limits, effort, monitor);
+  const auto count = [&](const std::vector<Index>& some)
+  { return processes.sum(static_cast<Index>(some.size())); };
+  if (count(invertedCells(mesh, orientation, skip, trial, monitor)) < count(before))
   {
     points.swap(trial);
   }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "Mesh/NodePartition.h"
+#include "Support/Communicator.h"
 #include "Support/Monitor.h"
 
 #include <cstdint>
@@ -17,7 +18,9 @@ namespace morph
 /// coefficients certify a cell. The search ends once all are. If no fewer cells are inverted then,
 /// by their certificates, all nodes stay. `orientation`: #cells, see cellSigns() in Topology.h;
 /// `points`: #nodes x 3, start and result. The result does not depend on threads. Cost: certify(),
-/// and some milliseconds a cell that is inverted.
+/// and some milliseconds a cell that is inverted. On several processes `mesh` has the cells of this
+/// one, to which the numbers belong.
 void untangleHigherOrder(const Mesh& mesh, const NodePartition& partition,
-  const std::vector<std::int8_t>& orientation, Points& points, Monitor& monitor);
+  const std::vector<std::int8_t>& orientation, Points& points, Monitor& monitor,
+  const Communicator& processes = Communicator::alone());
 }

@@ -56,14 +56,9 @@ void InversionFree::doPrepare(const Mesh& rest, Monitor& monitor)
       quality.measured > 0 ? quality.minimum : std::numeric_limits<double>::infinity());
   };
   this->minimumAtRest_ = minimumAt(atRest);
-  if (!own.isWhole() && !(minimumAt(own.mesh().points) > 0))
-  {
-    throw Error("The undeformed mesh has inverted or degenerate cells. On several MPI ranks the "
-                "inversion-free method needs a valid one: repair it on one rank first.");
-  }
   const MovableQuality quality(
     own.mesh(), own.orientation(), own.partition().free, own.communicator());
-  this->validAtRest_ = !own.isWhole() || quality.measure(atRest, monitor).inverted == 0;
+  this->validAtRest_ = quality.measure(atRest, monitor).inverted == 0;
   if (this->nearOnly_)
   {
     this->hasFemWarp_ = false;
@@ -117,7 +112,8 @@ void InversionFree::prepareFemWarp(const Mesh& rest, Monitor& monitor)
     {
       throw;
     }
-    requirePrescribedBodies(connectedComponents(rest, monitor), this->partition());
+    requirePrescribedBodies(
+      connectedComponents(rest, monitor, this->processes()), this->partition(), this->processes());
     this->hasFemWarp_ = false;
   }
 }
@@ -183,7 +179,8 @@ TargetConstruction InversionFree::findStart(const Points& boundary, const Movabl
   }
   keepBetter(atRest);
   // Where it is the better start, the undeformed shapes are worth nothing.
-  return keepBetter(graphLaplaceMesh(this->own_->mesh(), this->partition(), atRest, monitor))
+  return this->own_->isWhole() &&
+             keepBetter(graphLaplaceMesh(this->own_->mesh(), this->partition(), atRest, monitor))
            ? TargetConstruction::IdealSkew
            : TargetConstruction::Stretched;
 }
@@ -236,29 +233,33 @@ EvaluateReport InversionFree::displace(
   return report;
 }
 
-EvaluateReport InversionFree::repair(Points& moved, Monitor& whole) const
+EvaluateReport InversionFree::repair(Points& moved, Monitor& monitor) const
+{
+  EvaluateReport report;
+  this->processes().together([&] { report = this->repairHere(moved, monitor); });
+  return report;
+}
+
+EvaluateReport InversionFree::repairHere(Points& moved, Monitor& whole) const
 {
   this->requirePrepared();
   const NodePartition& partition = this->partition();
   ProgressRange monitor(whole, 0, 1);
-  if (partition.free.empty())
+  if (this->processes().all(partition.free.empty()))
   {
     return reportImprovement({}, {}, monitor);
   }
-  Points boundary(static_cast<Index>(partition.prescribed.size()), 3);
-  for (Index i = 0; i < boundary.rows(); ++i)
-  {
-    boundary.row(i) = moved.row(partition.prescribed[i]);
-  }
+  const OwnCells& own = *this->own_;
+  const Points boundary = moved(partition.prescribed, allColumns);
   EvaluateReport guesses;
   ProgressRange first(monitor, 0, 0.1);
-  Points points = moved * this->scale_;
+  Points points = own.take(moved) * this->scale_;
   const std::vector<Index> hopeless =
-    boundaryDeterminedInversions(this->own_->mesh(), partition, this->own_->orientation(), points);
+    boundaryDeterminedInversions(own.mesh(), own.partition(), own.orientation(), points);
   const Points guide =
     this->hasFemWarp_ ? this->moved(this->femWarp_, boundary, guesses, first) : points;
   // A mesh that is valid again is enough: the rest of it stays as its method made it.
-  const MeshImprovement::Outcome outcome = this->run(
+  MeshImprovement::Outcome outcome = this->run(
     this->improvement(hopeless), guide, TargetConstruction::Stretched, true, points, monitor);
   if (this->nearOnly_ && !outcome.untangled)
   {
@@ -266,26 +267,30 @@ EvaluateReport InversionFree::repair(Points& moved, Monitor& whole) const
     failed.effort = outcome.effort;
     return reportImprovement(failed, {}, monitor);
   }
-  const std::vector<Index> determined = inversionsByBoundaryMotion(this->own_->mesh(), partition,
-    this->own_->orientation(), this->restPoints() * this->scale_, points, monitor);
+  const std::vector<Index> determined = inversionsByBoundaryMotion(own.mesh(), own.partition(),
+    own.orientation(), own.take(this->restPoints()) * this->scale_, points, monitor);
 
-  Points displacement = Points::Zero(moved.rows(), 3);
-  for (Index node : partition.prescribed)
+  Points found = moved, displacement = Points::Zero(moved.rows(), 3);
+  found(own.nodes(), allColumns) = points / this->scale_;
+  moved(partition.free, allColumns) = found(partition.free, allColumns);
+  for (const std::vector<Index>* nodes : { &partition.prescribed, &partition.free })
   {
-    displacement.row(node) = moved.row(node) - this->restPoints().row(node);
+    displacement(*nodes, allColumns) =
+      moved(*nodes, allColumns) - this->restPoints()(*nodes, allColumns);
   }
-  for (Index node : partition.free)
-  {
-    moved.row(node) = points.row(node) / this->scale_;
-    displacement.row(node) = moved.row(node) - this->restPoints().row(node);
-  }
-  this->higherOrderNodes_.apply(displacement);
+  this->complete(displacement);
   for (Index node : partition.higherOrderNodes)
   {
     moved.row(node) = this->restPoints().row(node) + displacement.row(node);
   }
-  untangleHigherOrder(this->own_->mesh(), partition, this->own_->orientation(), moved, monitor);
+  this->copies().update(moved);
+  points = own.take(moved);
+  untangleHigherOrder(
+    own.mesh(), own.partition(), own.orientation(), points, monitor, own.communicator());
+  moved(own.nodes(), allColumns) = points;
+  this->copies().update(moved);
   monitor.progress(1);
-  return reportImprovement(outcome, determined, monitor);
+  outcome.onFolds = own.gatherIds(outcome.onFolds);
+  return reportImprovement(outcome, own.gatherIds(determined), monitor);
 }
 }

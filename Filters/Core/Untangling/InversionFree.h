@@ -33,8 +33,8 @@ namespace morph
 /// names them, and the other cells are improved without them. If others stay inverted, the count
 /// `Untangled` is 0. A warning names those on a folded face of the boundary (Untangling.h).
 ///
-/// On several processes the stages are the same for the cells of each. The undeformed mesh has to
-/// be valid, and a folded boundary is recognized by the outer faces of each process alone.
+/// On several processes the stages are the same for the cells of each. The graph-Laplace mesh is no
+/// start there, and a folded boundary is recognized by the outer faces of each process alone.
 ///
 /// Counts: `NewtonSteps`, `LinearIterations`, `EnergyEvaluations`, `BoundaryDeterminedCells`,
 /// `FoldedBoundaryCells` and `Untangled` (1 or 0).
@@ -81,6 +81,7 @@ protected:
   EvaluateReport displace(const Points& prescribed, Points& free, Monitor& monitor) const override;
 
 private:
+  EvaluateReport repairHere(Points& moved, Monitor& monitor) const;
   void prepareFemWarp(const Mesh& rest, Monitor& monitor);
   /// Replaces `points`, the undeformed mesh with its boundary moved, by the best of the starts.
   /// Returns the target for which to untangle it.

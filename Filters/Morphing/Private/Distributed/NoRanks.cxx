@@ -27,7 +27,7 @@ MergedBlocks RankBlocks::Make(vtkDataObjectTree*, MergedBlocks::Options)
   refuse();
 }
 
-std::unique_ptr<OnRanks::Morphing> OnRanks::MakeMorphing(Results&)
+std::unique_ptr<OnRanks::Morphing> OnRanks::MakeMorphing(Results&, morph::Session&)
 {
   refuse();
 }

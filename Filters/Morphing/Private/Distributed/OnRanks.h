@@ -6,6 +6,7 @@
 #include "Private/Morph/MorphOutput.h"
 #include "Quality/Certificate.h"
 #include "Quality/ScaledJacobian.h"
+#include "Session/Session.h"
 
 #include <vtkType.h>
 
@@ -63,16 +64,13 @@ public:
   /// The outer faces of this process's cells, if `grid` has the cells of the mesh, or else nothing.
   /// Not collective.
   virtual void WriteUndeformedSurface(vtkUnstructuredGrid* grid, vtkPolyData* surface) const = 0;
-  /// See Series::check(). Not collective.
-  virtual void CheckSeries(vtkMTimeType options, bool varies, vtkMTimeType boundary) = 0;
   /// vtkMorphAlgorithm::ApplyTranspose(). `gradient`: of the piece's points, those of copies as of
   /// the node. Points of several processes that stand for one node get the same derivatives.
   virtual void Transpose(vtkUnstructuredGrid* rest, vtkDataObject* boundary, vtkDataArray* gradient,
     const MotionOptions& options, vtkDoubleArray* boundaryGradient, morph::Monitor& monitor) = 0;
 };
-/// `results`: gets the seconds, the number of preparations and of mirrored bodies. All processes
-/// get the numbers of the whole mesh.
-std::unique_ptr<Morphing> MakeMorphing(Results& results);
+/// `results`: gets the numbers of the whole mesh on all processes. `session`: gets the mesh.
+std::unique_ptr<Morphing> MakeMorphing(Results& results, morph::Session& session);
 
 /// The mesh and method of vtkMorphShapes.
 std::unique_ptr<ModeSolver> MakeModeSolver();

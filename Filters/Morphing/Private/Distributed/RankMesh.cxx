@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Private/Distributed/RankMesh.h"
 
+#include "Distributed/RankCommunicator.h"
 #include "Mesh/Extent.h"
 #include "Mesh/Polyhedra.h"
 #include "Private/Data/GridMesh.h"
 #include "Private/Data/Surface.h"
 #include "Private/RankBlocks/GlobalRanks.h"
 #include "Quality/Certificate.h"
-#include "Session/UndeformedMesh.h"
 #include "Support/Error.h"
 
 #include <vtkCellData.h>
@@ -20,6 +20,7 @@
 #include <vtkUnstructuredGrid.h>
 
 #include <algorithm>
+#include <limits>
 #include <string>
 #include <utility>
 
@@ -95,7 +96,7 @@ bool RankMesh::Take(
     return false;
   }
   this->Distributed.reset();
-  this->Inverted.reset();
+  this->Undeformed.reset();
   ranks.together([&] { this->Copy = GridMesh::FromGrid(grid, unknown); });
   morph::distributed::Piece piece{ this->Copy, ghosts, nodeIds, cellIds };
   morph::distributed::requireNodeIds(ranks, piece);
@@ -150,39 +151,41 @@ void RankMesh::SetFeatureLines(bool on, morph::Monitor& monitor)
     });
 }
 
-const morph::InvertedBefore& RankMesh::Before(morph::Monitor& monitor) const
+const std::shared_ptr<const morph::UndeformedMesh>& RankMesh::Rest() const
 {
-  this->Processes.together(
-    [&]
+  if (this->Undeformed)
+  {
+    return this->Undeformed;
+  }
+  const morph::distributed::DistributedMesh& whole = *this->Distributed;
+  morph::Index first = std::numeric_limits<morph::Index>::max();
+  for (morph::Index c = 0; c < whole.pieceCells(); ++c)
+  {
+    if (whole.isGhost()[c] == 0 && whole.orientation()[c] < 0)
     {
-      if (this->Inverted)
-      {
-        return;
-      }
-      const morph::Mesh& mesh = this->Distributed->mesh();
-      const std::vector<std::int8_t>& orientation = this->Distributed->orientation();
-      std::vector<std::uint8_t> skip(mesh.numberOfCells());
-      std::transform(mesh.types.begin(), mesh.types.end(), skip.begin(),
-        [](std::uint8_t type)
-        { return GridMesh::Dimension(type) < 3; }); // a piece may have no others
-      this->Inverted.emplace(
-        mesh, orientation, morph::measureQuality(mesh, mesh.points, orientation, skip, monitor));
-    });
-  return *this->Inverted;
+      first = std::min<morph::Index>(first, whole.cellId(c));
+    }
+  }
+  morph::UndeformedMesh::Part part;
+  part.mesh = std::shared_ptr<const morph::Mesh>(this->Distributed, &whole.mesh());
+  part.hanging = whole.hanging();
+  part.needsPieces = this->Polyhedral || whole.hasHanging();
+  part.size = whole.size();
+  part.mirroredBodies = whole.mirroredBodies();
+  part.firstMirrored = this->Processes.minimum(first);
+  part.repeatedCells = whole.gatherCells(whole.repeatedCells());
+  part.touchingNodes = this->Processes.gatherSorted(whole.idsOfNodes(whole.touchingNodes()));
+  part.unmappedCells = whole.gatherCells(morph::unmappedCells(whole.mesh()));
+  part.processes = std::make_shared<morph::distributed::RankCommunicator>(whole);
+  this->Undeformed = std::make_shared<morph::UndeformedMesh>(std::move(part));
+  return this->Undeformed;
 }
 
-void RankMesh::WarnOfShared(morph::Monitor& monitor) const
+const morph::InvertedBefore& RankMesh::Before(morph::Monitor& monitor) const
 {
-  const morph::distributed::DistributedMesh& whole = *this->Distributed;
-  const std::vector<morph::Index> cells = whole.gatherCells(whole.repeatedCells()),
-                                  unmapped = whole.gatherCells(morph::unmappedCells(whole.mesh())),
-                                  nodes = this->Processes.gatherSorted(
-                                    whole.idsOfNodes(whole.touchingNodes()));
-  if (this->Processes.rank() == 0)
-  {
-    morph::warnOfShared(cells, nodes, monitor);
-    morph::warnOfUnmapped(unmapped, monitor);
-  }
+  const morph::UndeformedMesh& rest = *this->Rest();
+  this->Processes.together([&] { rest.before(monitor); });
+  return rest.before(monitor);
 }
 
 void RankMesh::RequireVolumeCells() const

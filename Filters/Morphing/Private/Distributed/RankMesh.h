@@ -7,10 +7,10 @@
 #include "Private/Data/GridMesh.h"
 #include "Private/Data/MovedSurface.h"
 #include "Quality/InvertedBefore.h"
+#include "Session/UndeformedMesh.h"
 
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <vector>
 
 class vtkDataSet;
@@ -33,13 +33,13 @@ public:
     vtkUnstructuredGrid* grid, int layers, GridMesh::UnknownCells unknown, morph::Monitor& monitor);
   /// Adds lines to Surface(), or takes them away; see MovedSurface. Each line is on one process.
   void SetFeatureLines(bool on, morph::Monitor& monitor);
-  /// Warns on the first process of cells that are there twice, and of nodes where bodies touch.
-  void WarnOfShared(morph::Monitor& monitor) const;
   /// Throws morph::Error on all processes unless the mesh can be morphed.
   void RequireVolumeCells() const;
 
   const morph::distributed::Ranks& Ranks() const { return this->Processes; }
   const morph::distributed::DistributedMesh& Whole() const { return *this->Distributed; }
+  /// Whole() for the core's code, made when it is first asked for. It outlives this object.
+  const std::shared_ptr<const morph::UndeformedMesh>& Rest() const;
   /// The grid of this process as it came, ghost cells included.
   const morph::Mesh& Piece() const { return this->Copy; }
   /// Of the piece's cells, as of the whole mesh.
@@ -50,8 +50,6 @@ public:
   /// Of the whole mesh.
   ///@{
   int HighestDimension() const { return this->Dimension; }
-  /// See morph::needsPieces().
-  bool NeedsPieces() const { return this->Polyhedral || this->Distributed->hasHanging(); }
   ///@}
   /// Of the cells in Whole(), ghosts included. Collective. Cost of the first call: a measure.
   const morph::InvertedBefore& Before(morph::Monitor& monitor) const;
@@ -71,10 +69,10 @@ private:
   std::vector<std::uint8_t> Ghosts;
   int Layers = 0, Dimension = 0;
   bool Polyhedral = false;
-  std::unique_ptr<morph::distributed::DistributedMesh> Distributed;
+  std::shared_ptr<morph::distributed::DistributedMesh> Distributed;
   std::vector<std::int8_t> Signs;
   std::vector<std::uint8_t> Skip;
   MovedSurface Polygons;
-  mutable std::optional<morph::InvertedBefore> Inverted; ///< once it was asked for
+  mutable std::shared_ptr<const morph::UndeformedMesh> Undeformed; ///< or null
 };
 }

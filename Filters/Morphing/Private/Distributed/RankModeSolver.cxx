@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Distributed/AttachedNodes.h"
 #include "Distributed/DistributedMesh.h"
-#include "Distributed/Methods.h"
 #include "Distributed/Quality.h"
-#include "Distributed/RankCommunicator.h"
-#include "Mesh/NodePartition.h"
+#include "Morpher/SiteMethod.h"
 #include "Private/Data/Quality.h"
 #include "Private/Distributed/OnRanks.h"
 #include "Private/Distributed/RankCrossings.h"
@@ -16,8 +13,6 @@
 #include <vtkPolyData.h>
 #include <vtkUnstructuredGrid.h>
 
-#include <utility>
-
 namespace morph::filters::OnRanks
 {
 namespace
@@ -28,80 +23,28 @@ public:
   bool Take(
     vtkUnstructuredGrid* grid, const CreateMorpher& create, morph::Monitor& monitor) override
   {
-    const int layers = morph::distributed::makeMethod(create())->layers();
+    const int layers = morph::onProcesses(create())->layers();
     const bool isTaken = this->Pieces.Take(grid, layers, GridMesh::UnknownCells::Refuse, monitor);
     if (isTaken)
     {
-      this->Method.reset();
-      this->Hanging = {};
+      this->Forget();
     }
     this->Pieces.RequireVolumeCells();
+    this->Pieces.Rest(); // by all
     return isTaken;
   }
   void SetFeatureLines(bool on, morph::Monitor& monitor) override
   {
     this->Pieces.SetFeatureLines(on, monitor);
   }
-  const morph::Mesh& Mesh() const override { return this->Pieces.Whole().mesh(); }
+  const morph::UndeformedMesh& Rest() const override { return *this->Pieces.Rest(); }
   morph::Index GridNodes() const override { return this->Pieces.Whole().pieceNodes(); }
-  const std::vector<std::int8_t>& Orientation() const override
-  {
-    return this->Pieces.Whole().orientation();
-  }
-  double Size() const override { return this->Pieces.Whole().size(); }
-  morph::Index MirroredBodies() const override { return this->Pieces.Whole().mirroredBodies(); }
-  void ReportMesh(morph::Monitor& monitor) const override { this->Pieces.WarnOfShared(monitor); }
-  const morph::InvertedBefore& Before(morph::Monitor& monitor) const override
-  {
-    return this->Pieces.Before(monitor);
-  }
   bool Owns(morph::Index node) const override { return this->Pieces.Whole().owns(node); }
-  std::int64_t NodeId(morph::Index node) const override
-  {
-    return this->Pieces.Whole().nodeId(node);
-  }
   morph::BoundaryTargets Match(
     vtkPointSet* boundary, const BoundaryMatch::Options& options) const override
   {
     return RankMatch::Match(boundary, this->Pieces.Whole(), options);
   }
-  void Prepare(std::unique_ptr<morph::LinearMorpher> method,
-    const std::vector<morph::Index>& prescribed, morph::Monitor& monitor) override
-  {
-    this->Method.reset();
-    const morph::distributed::DistributedMesh& whole = this->Pieces.Whole();
-    morph::NodePartition partition;
-    whole.ranks().together(
-      [&]
-      {
-        partition =
-          morph::partitionNodes(whole.mesh(), whole.hanging(), whole.hanging().without(prescribed));
-      });
-    auto prepared = morph::distributed::makeMethod(std::move(method), this->Pieces.NeedsPieces());
-    prepared->prepare(whole.mesh(), partition, monitor,
-      std::make_shared<morph::distributed::RankCommunicator>(whole));
-    this->Hanging = morph::distributed::attachedNodes(whole, partition);
-    this->Method.reset(dynamic_cast<morph::LinearMorpher*>(prepared.release()));
-    this->Prescribed = prescribed;
-  }
-  std::vector<morph::Points> Basis(const std::vector<morph::Points>& displacements,
-    std::vector<morph::EvaluateReport>& reports, morph::Monitor& monitor) const override
-  {
-    std::vector<morph::Points> given;
-    for (const morph::Points& displacement : displacements)
-    {
-      morph::Points all = morph::Points::Zero(this->Mesh().numberOfNodes(), 3);
-      all(this->Prescribed, morph::allColumns) = displacement;
-      given.emplace_back(all(this->Method->partition().prescribed, morph::allColumns));
-    }
-    std::vector<morph::Points> fields = this->Method->basis(given, monitor, &reports);
-    for (morph::Points& field : fields)
-    {
-      this->Pieces.Whole().copyToDoubles(field);
-    }
-    return fields;
-  }
-  const morph::AttachedNodes& Attached() const override { return this->Hanging; }
   Measured Write(vtkUnstructuredGrid* grid, const morph::Points& moved, int precision, bool all,
     const MorphOutput::Outputs& outputs, morph::Monitor& monitor) const override
   {
@@ -135,9 +78,6 @@ public:
 
 private:
   RankMesh Pieces;
-  std::unique_ptr<morph::LinearMorpher> Method; ///< prepared, or null
-  std::vector<morph::Index> Prescribed;         ///< by the caller
-  morph::AttachedNodes Hanging;                 ///< of Method
 };
 }
 

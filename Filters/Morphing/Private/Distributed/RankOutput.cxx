@@ -94,8 +94,10 @@ morph::Quality WritePoints(const RankMesh& mesh, vtkUnstructuredGrid* grid,
   mesh.Ranks().together(
     [&]
     {
+      morph::Points placed = moved;
+      mesh.Whole().copyToDoubles(placed);
       Output::Write(
-        grid, piece.points, moved.topRows(piece.numberOfNodes()), precision, output, monitor);
+        grid, piece.points, placed.topRows(piece.numberOfNodes()), precision, output, monitor);
       Quality::Remove(output);
       mine = Quality::Measure(piece, output, mesh.Orientation(), skip, monitor);
     });

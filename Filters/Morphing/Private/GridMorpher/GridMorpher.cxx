@@ -60,11 +60,8 @@ bool GridMorpher::IsSeries(int stepping, const filters::Steps& steps)
 int GridMorpher::CheckSeries(std::uint64_t options, bool varies, std::uint64_t boundary, int step)
 {
   this->Session.steps().check(options, varies, boundary);
-  if (this->Distributed)
-  {
-    this->Distributed->CheckSeries(options, varies, boundary);
-  }
-  return this->Session.steps().lastUntil(step).first;
+  // Processes may keep different steps, and have to ask for the same one.
+  return this->IsOnRanks ? -1 : this->Session.steps().lastUntil(step).first;
 }
 
 MotionOptions GridMorpher::OptionsOf(const Method& method) const
@@ -105,12 +102,14 @@ std::string GridMorpher::Morph(vtkUnstructuredGrid* grid, vtkDataObject* boundar
     const OnRanks::Motion series = { motion.Step, varies,
       [&](int step) { return varies ? 1 : motion.Steps.Fraction(step); },
       [&](int step) { return Input::RequireBoundary(varies ? motion.Boundary(step) : boundary); } };
-    return this->Ranks().Run(
+    const std::string error = this->Ranks().Run(
       { grid, boundary, fractionOf(motion),
         GridMorpher::IsSeries(method.Options.Stepping, motion.Steps) ? &series : nullptr,
         method.Options.OutputPointsPrecision, measuresOf(method.Options),
         method.Options.FeatureLines, outputs },
       this->OptionsOf(method), monitor);
+    this->NoteEffort();
+    return error;
   }
   catch (const morph::Validity::Infeasible& infeasible)
   {
@@ -188,7 +187,7 @@ OnRanks::Morphing& GridMorpher::Ranks()
 {
   if (!this->Distributed)
   {
-    this->Distributed = OnRanks::MakeMorphing(this->Results);
+    this->Distributed = OnRanks::MakeMorphing(this->Results, this->Session);
   }
   return *this->Distributed;
 }
@@ -256,6 +255,7 @@ void GridMorpher::Transpose(vtkUnstructuredGrid* rest, vtkDataObject* boundary, 
   if (isDistributed)
   {
     this->Ranks().Transpose(rest, boundary, gradient, options, boundaryGradient, monitor);
+    this->NoteEffort();
     return;
   }
   morph::Points nodes = Gradient::Require(gradient, rest->GetNumberOfPoints());

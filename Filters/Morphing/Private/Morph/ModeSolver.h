@@ -8,9 +8,8 @@
 #include "Private/Data/Quality.h"
 #include "Private/Morph/BoundaryMatch.h"
 #include "Private/Morph/MorphOutput.h"
-#include "Quality/ScaledJacobian.h"
+#include "Session/UndeformedMesh.h"
 
-#include <cstdint>
 #include <functional>
 #include <memory>
 #include <vector>
@@ -37,37 +36,31 @@ public:
   virtual void SetFeatureLines(bool on, morph::Monitor& monitor) = 0;
 
   /// The mesh of this process. Of a piece, nodes and cells of other processes come behind its own.
-  virtual const morph::Mesh& Mesh() const = 0;
+  virtual const morph::UndeformedMesh& Rest() const = 0;
+  const morph::Mesh& Mesh() const { return this->Rest().mesh(); }
   /// The nodes of the grid itself.
   virtual morph::Index GridNodes() const = 0;
-  /// #cells; see Topology.h.
-  virtual const std::vector<std::int8_t>& Orientation() const = 0;
-  /// Of the whole mesh.
-  ///@{
-  virtual double Size() const = 0;
-  virtual morph::Index MirroredBodies() const = 0;
-  ///@}
   /// Warns of what is odd about the whole mesh.
-  virtual void ReportMesh(morph::Monitor& monitor) const = 0;
+  void ReportMesh(morph::Monitor& monitor) const;
   /// Of Mesh(). Cost of the first call: a measure.
-  virtual const morph::InvertedBefore& Before(morph::Monitor& monitor) const = 0;
+  const morph::InvertedBefore& Before(morph::Monitor& monitor) const;
   /// Whether this process counts a node: one of those that have it does.
   virtual bool Owns(morph::Index node) const = 0;
   /// The number of a node in the whole mesh.
-  virtual std::int64_t NodeId(morph::Index node) const = 0;
+  morph::Index NodeId(morph::Index node) const { return this->All().idsOf({ node }).front(); }
 
   /// BoundaryMatch::Match(). Of Sources the signs alone are known on several processes.
   virtual morph::BoundaryTargets Match(
     vtkPointSet* boundary, const BoundaryMatch::Options& options) const = 0;
   /// Prepares the method for these nodes of Mesh(), ascending.
-  virtual void Prepare(std::unique_ptr<morph::LinearMorpher> method,
-    const std::vector<morph::Index>& prescribed, morph::Monitor& monitor) = 0;
+  void Prepare(std::unique_ptr<morph::LinearMorpher> method,
+    const std::vector<morph::Index>& prescribed, morph::Monitor& monitor);
   /// See LinearMorpher::basis(). After Prepare().
-  virtual std::vector<morph::Points> Basis(const std::vector<morph::Points>& displacements,
-    std::vector<morph::EvaluateReport>& reports, morph::Monitor& monitor) const = 0;
+  std::vector<morph::Points> Basis(const std::vector<morph::Points>& displacements,
+    std::vector<morph::EvaluateReport>& reports, morph::Monitor& monitor) const;
 
   /// The nodes that no volume cell uses. After Prepare(). Their functions are collective.
-  virtual const morph::AttachedNodes& Attached() const = 0;
+  const morph::AttachedNodes& Attached() const { return this->Hanging; }
 
   struct Measured
   {
@@ -85,5 +78,19 @@ public:
   virtual bool Crosses(const morph::Points& moved, morph::Monitor& monitor) const = 0;
   /// The surface of `grid` in its undeformed state, as far as it is known.
   virtual void WriteUndeformedSurface(vtkUnstructuredGrid* grid, vtkPolyData* surface) const = 0;
+
+protected:
+  /// Forgets what was prepared for another mesh.
+  void Forget();
+
+private:
+  const morph::Communicator& All() const
+  {
+    return this->Rest().processes() ? *this->Rest().processes() : morph::Communicator::alone();
+  }
+
+  std::unique_ptr<morph::LinearMorpher> Method; ///< prepared, or null
+  std::vector<morph::Index> Prescribed;         ///< by the caller
+  morph::AttachedNodes Hanging;                 ///< of Method
 };
 }

@@ -205,7 +205,7 @@ void vtkMorphShapes::vtkInternals::Morph(vtkUnstructuredGrid* grid,
     this->SolvedFrom = {};
   }
   this->Modes.SetFeatureLines(this->Filter->Options->FeatureLines, monitor);
-  this->Results.SetInteger("MirroredBodies", this->Modes.GetSolver()->MirroredBodies());
+  this->Results.SetInteger("MirroredBodies", this->Modes.GetSolver()->Rest().mirroredBodies());
   this->Modes.GetSolver()->ReportMesh(monitor);
   morph::ProgressRange solving(monitor, 0, 0.6);
   this->Solve(boundaries, solving);

@@ -224,7 +224,7 @@ void ShapeModes::TellDropped(
     const auto isElsewhere = [&](const Mode& mode)
     {
       return (mode.Field->row(prescribed[i]) - mode.Boundary.row(static_cast<Index>(i))).norm() >
-             1e-6 * this->Solver->Size();
+             1e-6 * this->Solver->Rest().size();
     };
     if (this->Solver->Owns(prescribed[i]) && std::any_of(modes.begin(), modes.end(), isElsewhere))
     {
@@ -272,7 +272,7 @@ ShapeModes::Effort ShapeModes::Solve(
   for (std::size_t i = 0; i < shapes.size(); ++i)
   {
     solved.push_back(this->Describe(shapes[i], matches[i], prescribed,
-      options.Matching.matchTolerance * this->Solver->Size(), modes));
+      options.Matching.matchTolerance * this->Solver->Rest().size(), modes));
   }
 
   Effort effort;

@@ -59,7 +59,7 @@ public:
   /// The processes with pieces of the mesh.
   const RankGroup& Group() const { return this->Processes; }
   const morph::Mesh& Mesh() const { return this->Solver->Mesh(); }
-  const std::vector<std::int8_t>& Orientation() const { return this->Solver->Orientation(); }
+  const std::vector<std::int8_t>& Orientation() const { return this->Solver->Rest().orientation(); }
   /// See KeptMesh. After SetGrid().
   void SetFeatureLines(bool on, morph::Monitor& monitor)
   {

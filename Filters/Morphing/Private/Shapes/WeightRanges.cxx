@@ -47,10 +47,10 @@ morph::Points positions(const morph::NodeMotion& motion, double factor)
 /// more of itself beyond it. 0 without a motion.
 double farthest(const morph::NodeMotion& motion, const ShapeModes& modes)
 {
-  double most =
-    motion.straight && motion.straight->rows() > 0
-      ? std::sqrt(motion.straight->rowwise().squaredNorm().maxCoeff()) / modes.GetSolver()->Size()
-      : 0;
+  double most = motion.straight && motion.straight->rows() > 0
+                  ? std::sqrt(motion.straight->rowwise().squaredNorm().maxCoeff()) /
+                      modes.GetSolver()->Rest().size()
+                  : 0;
   for (const morph::NodeMotion::Turn& turn : motion.turns)
   {
     most = std::max(most, std::abs(turn.angle) / (2 * std::acos(-1.)));
