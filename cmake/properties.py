@@ -397,7 +397,8 @@ def domain(row):
         kind = {"corner": 'mode="normal" default_mode="min"',
                 "lengths": 'mode="extents" default_mode="max"'}[row["box"]]
         return (f'<KnownBoundsDomain name="range" {kind}><RequiredProperties>'
-                '<Property function="Input" name="Input"/></RequiredProperties></KnownBoundsDomain>')
+                '<Property function="Input" name="Input"/>'
+                "</RequiredProperties></KnownBoundsDomain>")
     if (low, high) == (None, None):
         return ""
     kind = "Int" if row.kind.startswith("integer") else "Double"
