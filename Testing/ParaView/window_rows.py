@@ -79,8 +79,10 @@ class Rows(Panels):
 
     def test_the_lattice_begins_around_the_mesh(self):
         mesh = simple.OpenDataFile(str(SMALL / self.mesh))
+        mesh.UpdatePipeline()
         morph = MorphMesh(Input=mesh, Displacement="Lattice", LatticeBox="Own")
         low, high = zip(*zip(*[iter(mesh.GetDataInformation().GetBounds())] * 2))
+        self.assertEqual(list(low), [-1, -1, 0])
         self.assertEqual(list(morph.LatticePosition), list(low))
         for length, least, most in zip(morph.LatticeLength, low, high):
             self.assertAlmostEqual(length, most - least, delta=1e-12)
