@@ -138,18 +138,19 @@ public:
 private:
   void findTies(const Mesh& rest, const NodePartition& partition, const Communicator& processes)
   {
-    this->ties_ = {};
-    if (!this->hanging_.empty())
-    {
-      HigherOrderNodes followers;
-      followers.prepare(rest, partition);
-      this->ties_ = this->hanging_.following(followers);
-    }
+    this->ties_ = this->hanging_;
     if (!processes.bodies())
     {
+      if (!this->hanging_.empty())
+      {
+        HigherOrderNodes followers;
+        followers.prepare(rest, partition);
+        this->ties_ = this->hanging_.following(followers);
+      }
       return;
     }
-    // A process that does not have all cells around a follower has other weights of it.
+    // A process that does not have all cells around a node may take it for a follower, or has
+    // other weights of it.
     Points follows = Points::Zero(this->nodes_, 3);
     follows(partition.higherOrderNodes, 0).setOnes();
     this->copies_->update(follows);
