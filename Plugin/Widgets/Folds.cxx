@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Folds.h"
 
+#include "Ancestor.h"
 #include "Fold.h"
 #include "FoldTitle.h"
 
@@ -138,11 +139,7 @@ void Folds::refresh()
   auto* const panel = static_cast<QWidget*>(this->parent());
   if (!this->Search)
   {
-    const QWidget* above = panel;
-    while (above && !qobject_cast<const pqPropertiesPanel*>(above))
-    {
-      above = above->parentWidget();
-    }
+    const auto* const above = ancestorOf<pqPropertiesPanel>(panel);
     this->Search = above ? above->findChild<pqSearchBox*>() : nullptr;
     if (this->Search)
     {

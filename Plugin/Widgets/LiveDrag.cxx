@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "LiveDrag.h"
 
+#include "Ancestor.h"
 #include "SurfaceTable.h"
 
 #include <pqApplicationCore.h>
@@ -171,14 +172,7 @@ vtkPVXMLElement* LiveDrag::hint() const
 
 pqPropertiesPanel* LiveDrag::panel() const
 {
-  for (QWidget* widget = this->Widget; widget; widget = widget->parentWidget())
-  {
-    if (auto* found = qobject_cast<pqPropertiesPanel*>(widget))
-    {
-      return found;
-    }
-  }
-  return nullptr;
+  return ancestorOf<pqPropertiesPanel>(this->Widget);
 }
 
 void LiveDrag::blockPanel(bool block)

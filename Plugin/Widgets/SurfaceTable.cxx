@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SurfaceTable.h"
 
+#include "Ancestor.h"
 #include "MotionPreview.h"
 #include "SurfaceColors.h"
 #include "SurfaceHighlight.h"
@@ -116,17 +117,6 @@ QString fourDigits(const QString& text)
   bool isWhole = false;
   text.toLongLong(&isWhole); // a count, or none
   return isWhole || text.isEmpty() ? text : QString::number(text.toDouble(), 'g', 4);
-}
-
-template <class Ancestor>
-Ancestor* ancestorOf(QWidget* widget)
-{
-  Ancestor* found = nullptr;
-  for (; widget && !found; widget = widget->parentWidget())
-  {
-    found = qobject_cast<Ancestor*>(widget->parentWidget());
-  }
-  return found;
 }
 
 /// In a new window the panel would be too narrow for what it shows.

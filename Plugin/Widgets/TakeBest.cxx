@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "TakeBest.h"
 
+#include "Ancestor.h"
+
 #include <pqActiveObjects.h>
 #include <pqApplicationCore.h>
 #include <pqCoreUtilities.h>
@@ -74,11 +76,7 @@ void TakeBest::showButton()
 void TakeBest::take()
 {
   pqPipelineSource* const source = this->filter();
-  pqPropertiesPanel* panel = nullptr;
-  for (QWidget* above = this->parentWidget(); above && !panel; above = above->parentWidget())
-  {
-    panel = qobject_cast<pqPropertiesPanel*>(above);
-  }
+  auto* const panel = ancestorOf<pqPropertiesPanel>(this->parentWidget());
   if (!source || !panel)
   {
     return;

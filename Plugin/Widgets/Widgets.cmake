@@ -77,6 +77,7 @@ if (PARAVIEW_USE_QT)
   endif ()
   list(APPEND widget_sources
     Widgets/BadCells.cxx Widgets/BadCells.h
+    Widgets/Ancestor.h
     Widgets/BelowField.cxx Widgets/BelowField.h
     Widgets/BoxAboutCenter.cxx Widgets/BoxAboutCenter.h
     Widgets/FoldTitle.cxx Widgets/FoldTitle.h

@@ -3,6 +3,7 @@
 // TestMorphFilters.cxx is not for it.
 #include "Mesh/NodePartition.h"
 #include "Mesh/Topology.h"
+#include "MorphFilters.h"
 #include "TestGrids.h"
 
 #include "vtkFEMWarpMorph.h"
@@ -22,15 +23,6 @@
 
 namespace
 {
-template <typename Filter>
-vtkSmartPointer<Filter> make(vtkUnstructuredGrid* grid, vtkDataObject* boundary)
-{
-  auto filter = vtkSmartPointer<Filter>::New();
-  filter->SetInputData(grid);
-  filter->SetBoundaryData(boundary);
-  return filter;
-}
-
 grids::Row same(const grids::Row& x)
 {
   return x;
@@ -72,7 +64,7 @@ TEST(SmoothingMorph, PrescribedNodesArriveExactlyAndCellsStayValid)
     meshes::jitterInterior(mesh, .04, meshes::seed());
     auto grid = grids::make(mesh);
     auto boundary = grids::boundary(grid, grids::twist);
-    auto filter = make<vtkSmoothingMorph>(grid, boundary);
+    auto filter = grids::morphed<vtkSmoothingMorph>(grid, boundary);
     filter->SetScaleFactor(.5);
     filter->Update();
     EXPECT_EQ(filter->GetInvertedCells(), 0);
@@ -93,7 +85,7 @@ TEST(SmoothingMorph, PrescribedNodesArriveExactlyAndCellsStayValid)
 TEST(SmoothingMorph, NoMotionSmoothsTheIdealAndKeepsTheInitialShapes)
 {
   auto grid = jittered(4);
-  auto filter = make<vtkSmoothingMorph>(grid, grids::boundary(grid, same));
+  auto filter = grids::morphed<vtkSmoothingMorph>(grid, grids::boundary(grid, same));
   EXPECT_EQ(filter->GetTargetShape(), vtkSmoothingMorph::TARGET_SHAPE_IDEAL);
   filter->Update();
   // Back to the lattice
@@ -108,7 +100,7 @@ TEST(SmoothingMorph, NoMotionSmoothsTheIdealAndKeepsTheInitialShapes)
 TEST(SmoothingMorph, OptionsAndCountsAreReported)
 {
   auto grid = jittered(5);
-  auto filter = make<vtkSmoothingMorph>(grid, grids::boundary(grid, grids::twist));
+  auto filter = grids::morphed<vtkSmoothingMorph>(grid, grids::boundary(grid, grids::twist));
   EXPECT_EQ(filter->GetNewtonSteps(), 0);
   filter->SetIterationLimit(1);
   filter->Update();
@@ -136,7 +128,7 @@ TEST(SmoothingMorph, OptionsAndCountsAreReported)
 TEST(SmoothingMorph, TheObjectiveChoosesTheMeasure)
 {
   auto grid = jittered(5);
-  auto filter = make<vtkSmoothingMorph>(grid, grids::boundary(grid, grids::twist));
+  auto filter = grids::morphed<vtkSmoothingMorph>(grid, grids::boundary(grid, grids::twist));
   EXPECT_EQ(filter->GetObjective(), vtkSmoothingMorph::OBJECTIVE_ADAPTIVE);
   filter->Update();
   const morph::Points adaptive = grids::points(filter->GetOutput());
@@ -159,7 +151,7 @@ TEST(SmoothingMorph, TheObjectiveChoosesTheMeasure)
 TEST(SmoothingMorph, ThreadsDoNotShow)
 {
   auto grid = jittered(6);
-  auto filter = make<vtkSmoothingMorph>(grid, grids::boundary(grid, grids::twist));
+  auto filter = grids::morphed<vtkSmoothingMorph>(grid, grids::boundary(grid, grids::twist));
   filter->SetNumberOfThreads(1);
   filter->Update();
   const morph::Points one = grids::points(filter->GetOutput());
@@ -173,7 +165,7 @@ TEST(PostSmooth, UntanglesWhatTheMethodLeft)
   // FEMWARP turns cells inside out here.
   auto grid = grids::hexes(6);
   auto boundary = grids::boundary(grid, dent);
-  auto filter = make<vtkFEMWarpMorph>(grid, boundary);
+  auto filter = grids::morphed<vtkFEMWarpMorph>(grid, boundary);
   filter->SetValidity(vtkMorphAlgorithm::VALIDITY_NONE);
   EXPECT_FALSE(filter->GetPostSmooth());
   filter->Update();
@@ -207,7 +199,7 @@ TEST(PostSmooth, NeverMakesAMeshWorse)
     SCOPED_TRACE(name);
     meshes::jitterInterior(mesh, .1, meshes::seed());
     auto grid = grids::make(mesh);
-    auto filter = make<vtkFEMWarpMorph>(grid, grids::boundary(grid, grids::twist));
+    auto filter = grids::morphed<vtkFEMWarpMorph>(grid, grids::boundary(grid, grids::twist));
     filter->Update();
     const double least = filter->GetMinScaledJacobian();
     const vtkIdType inverted = filter->GetInvertedCells();
@@ -225,7 +217,7 @@ TEST(PostSmooth, MidSideNodesFollow)
 {
   morph::Mesh mesh = meshes::quadraticTets(3, 3, 3);
   auto grid = grids::make(mesh);
-  auto filter = make<vtkFEMWarpMorph>(grid, grids::boundary(grid, grids::twist));
+  auto filter = grids::morphed<vtkFEMWarpMorph>(grid, grids::boundary(grid, grids::twist));
   filter->PostSmoothOn();
   filter->Update();
   ASSERT_GT(field(filter, "PostSmoothSteps"), 0);
