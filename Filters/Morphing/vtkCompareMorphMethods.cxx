@@ -105,7 +105,7 @@ vtkIdType badCells(
     vtkNew<vtkUnstructuredGrid> measured;
     std::vector<filters::Quality::OfCriterion> none;
     const morph::Quality whole =
-      filters::OnRanks::Measure(grid, false, none, measured, monitor).Whole;
+      filters::OnRanks::Measure(grid, false, none, measured, monitor).first.Whole;
     return static_cast<vtkIdType>(whole.inverted + whole.degenerate);
   }
   const morph::Mesh mesh = filters::GridMesh::FromGrid(grid);

@@ -28,6 +28,7 @@
 #include <array>
 #include <numeric>
 #include <string>
+#include <utility>
 
 namespace filters = morph::filters;
 
@@ -87,23 +88,25 @@ void reportUnmeasured(
     "UnmeasuredCells", std::accumulate(unmeasured.begin(), unmeasured.end(), vtkIdType(0)));
 }
 
-/// Measures a mesh with pieces on several MPI processes.
-void measureOnRanks(vtkScaledJacobian* filter, vtkUnstructuredGrid* input,
-  vtkUnstructuredGrid* output, filters::Results& results, morph::Monitor& monitor)
+/// Measures a mesh that this process has all of, and counts its mirrored bodies.
+std::pair<filters::Quality::Measured, morph::Index> measureAlone(vtkUnstructuredGrid* grid,
+  bool certified, std::vector<filters::Quality::OfCriterion>& criteria, vtkUnstructuredGrid* output,
+  morph::Monitor& monitor)
 {
-  std::vector<filters::Quality::OfCriterion> criteria =
-    filters::Quality::ReadCriteria(filter->GetCriteria());
-  const filters::OnRanks::Measured found =
-    filters::OnRanks::Measure(input, filter->GetCertify(), criteria, output, monitor);
-  results.Set(found.Whole);
-  results.SetInteger("MeasuredCells", found.Whole.measured);
-  if (filter->GetCertify())
-  {
-    results.Set(found.Certificates);
-  }
-  results.SetInteger("MirroredBodies", found.MirroredBodies);
-  results.Write(output);
-  reportUnmeasured(filter, found.Unmeasured, results);
+  const morph::Mesh mesh = filters::GridMesh::FromGrid(grid, filters::GridMesh::UnknownCells::Keep);
+  const morph::ConnectedComponents bodies = morph::connectedComponents(mesh);
+  const std::vector<std::int8_t> orientation = morph::cellSigns(mesh, bodies);
+
+  // A mesh of unknown volume cells must not be judged by its boundary triangles.
+  const DimensionOfType dimension = dimensions(mesh);
+  const int highest = *std::max_element(dimension.begin(), dimension.end());
+  std::vector<std::uint8_t> skip(mesh.types.size());
+  std::transform(mesh.types.begin(), mesh.types.end(), skip.begin(),
+    [&](std::uint8_t type) { return dimension[type] < highest; });
+  const filters::Quality::Part part = { mesh, mesh, orientation, skip, highest,
+    morph::Communicator::alone() };
+  return { filters::Quality::MeasureAll(part, certified, criteria, grid, output, monitor),
+    morph::mirroredBodies(bodies, orientation) };
 }
 }
 
@@ -161,14 +164,9 @@ int vtkScaledJacobian::RequestData(
       isEmpty = mesh.IsEmpty;
       vtkUnstructuredGrid* grid = nullptr;
       const auto require = [&] { grid = filters::Input::RequireGrid(mesh.Data, "The input"); };
-      if (mesh.IsDistributed && filters::Ranks::TakePieces())
-      {
-        filters::Ranks::Together(require);
-        measureOnRanks(this, grid, output, this->Internals->Results, monitor);
-        return;
-      }
-      require();
-      this->Measure(grid, output, monitor);
+      const bool isPiece = mesh.IsDistributed && filters::Ranks::TakePieces();
+      isPiece ? filters::Ranks::Together(require) : require();
+      this->Measure(grid, isPiece, output, monitor);
     },
     clear);
   for (const std::string& warning : monitor.TakeWarnings())
@@ -188,46 +186,24 @@ int vtkScaledJacobian::RequestData(
 }
 
 void vtkScaledJacobian::Measure(
-  vtkUnstructuredGrid* input, vtkUnstructuredGrid* output, morph::Monitor& monitor)
+  vtkUnstructuredGrid* input, bool isPiece, vtkUnstructuredGrid* output, morph::Monitor& monitor)
 {
-  const morph::Mesh mesh =
-    filters::GridMesh::FromGrid(input, filters::GridMesh::UnknownCells::Keep);
-  const morph::ConnectedComponents bodies = morph::connectedComponents(mesh);
-  const std::vector<std::int8_t> orientation = morph::cellSigns(mesh, bodies);
-
-  // A mesh of unknown volume cells must not be judged by its boundary triangles.
-  const DimensionOfType dimension = dimensions(mesh);
-  const int highest = *std::max_element(dimension.begin(), dimension.end());
-  std::vector<std::uint8_t> skip(mesh.types.size());
-  std::transform(mesh.types.begin(), mesh.types.end(), skip.begin(),
-    [&](std::uint8_t type) { return dimension[type] < highest; });
-
   std::vector<filters::Quality::OfCriterion> criteria =
     filters::Quality::ReadCriteria(this->Options->Criteria);
-  output->ShallowCopy(input);
-  const morph::Quality quality =
-    filters::Quality::Measure(mesh, output, orientation, skip, monitor);
-  filters::Quality::Remove(output);
-  filters::Quality::Write(quality, output);
-  for (filters::Quality::OfCriterion& criterion : criteria)
-  {
-    filters::Quality::Measure(criterion, mesh, output, orientation, skip, {}, monitor);
-  }
-  filters::Quality::Write(criteria, output);
+  const bool certified = this->Options->Certify;
+  const auto [measured, mirroredBodies] =
+    isPiece ? filters::OnRanks::Measure(input, certified, criteria, output, monitor)
+            : measureAlone(input, certified, criteria, output, monitor);
   filters::Results& results = this->Internals->Results;
-  results.Set(quality);
-  results.SetInteger("MeasuredCells", quality.measured);
-  if (this->Options->Certify)
+  results.Set(measured.Whole);
+  results.SetInteger("MeasuredCells", measured.Whole.measured);
+  if (certified)
   {
-    const morph::CertificateReport report = filters::Quality::Certify(mesh, output, orientation,
-      highest == 3 ? skip : std::vector<std::uint8_t>(skip.size(), 1), monitor);
-    filters::Quality::Write(report, output);
-    results.Set(report);
+    results.Set(measured.Certificates);
   }
-  results.SetInteger("MirroredBodies", morph::mirroredBodies(bodies, orientation));
+  results.SetInteger("MirroredBodies", mirroredBodies);
   results.Write(output);
-
-  reportUnmeasured(this, filters::Quality::Unmeasured(mesh, quality, skip, input), results);
+  reportUnmeasured(this, measured.Unmeasured, results);
 }
 
 double vtkScaledJacobian::GetNumber(const char* name) const

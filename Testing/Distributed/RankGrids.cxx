@@ -45,6 +45,29 @@ vtkSmartPointer<vtkUnstructuredGrid> piece(
   return grid;
 }
 
+morph::Mesh fork()
+{
+  const morph::Mesh block = meshes::hexes(12, 2, 8);
+  morph::Mesh whole;
+  whole.points = block.points;
+  whole.offsets = { 0 };
+  for (Index c = 0; c < block.numberOfCells(); ++c)
+  {
+    const grids::Row low = block.points.row(block.cell(c)[0]);
+    if (low[0] < 5 || low[0] > 6 || low[2] < 2)
+    {
+      meshes::add(whole, block.types[c], { block.cell(c), block.cell(c) + block.cellSize(c) });
+    }
+  }
+  return whole;
+}
+
+grids::Map intoTheGap(double way)
+{
+  return [way](const grids::Row& x)
+  { return x[0] == 5 && x[2] > 2 ? grids::Row(x + grids::Row(way, 0, 0)) : x; };
+}
+
 std::vector<Index> globalIds(vtkDataSet* data, const char* name)
 {
   vtkDataArray* array = data->GetPointData()->GetArray(name);

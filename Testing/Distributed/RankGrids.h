@@ -3,6 +3,7 @@
 
 #include "Distributed/Ranks.h"
 #include "Mesh/Mesh.h"
+#include "TestGrids.h"
 
 #include <vtkAlgorithm.h>
 #include <vtkSmartPointer.h>
@@ -17,6 +18,10 @@ namespace rank_grids
 /// This rank's random cells of a mesh, with global ids of points and cells.
 vtkSmartPointer<vtkUnstructuredGrid> piece(
   const morph::distributed::Ranks& ranks, const morph::Mesh& whole);
+
+/// A U, and the motion of the inner side of one prong across the gap, which is 2 wide.
+morph::Mesh fork();
+grids::Map intoTheGap(double way);
 
 std::vector<morph::Index> globalIds(vtkDataSet* data, const char* name);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Distributed/DistributedMesh.h"
-#include "Distributed/Quality.h"
+#include "Distributed/RankCommunicator.h"
 #include "Mesh/Topology.h"
 #include "Meshes.h"
 #include "Pieces.h"
@@ -131,10 +131,10 @@ TEST(DistributedMesh, HasTheOuterFacesBodiesAndOrientationOfTheWhole)
     EXPECT_NEAR(mesh.size(), meshes::size(whole.points), 1e-12);
 
     const morph::Quality quality = morph::measureQuality(whole, whole.points, signs, {}, monitor);
-    const morph::Quality reduced = morph::distributed::reduce(ranks,
-      morph::measureQuality(
-        mesh.mesh(), mesh.mesh().points, mesh.orientation(), mesh.isGhost(), monitor),
-      mesh.cellIds());
+    const morph::Quality reduced =
+      morph::ofAll(morph::measureQuality(
+                     mesh.mesh(), mesh.mesh().points, mesh.orientation(), mesh.isGhost(), monitor),
+        morph::distributed::RankCommunicator(mesh));
     EXPECT_EQ(reduced.minimum, quality.minimum) << name;
     EXPECT_NEAR(reduced.mean, quality.mean, 1e-12) << name;
     EXPECT_EQ(reduced.measured, quality.measured) << name;

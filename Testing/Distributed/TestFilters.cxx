@@ -15,6 +15,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <string>
+
 namespace
 {
 using morph::distributed::Ranks;
@@ -174,26 +177,12 @@ TEST(DistributedFilters, SmoothingIsAsGoodAsOnOneRank)
 
 TEST(DistributedFilters, CrossingsAreThoseOfOneRank)
 {
-  // A U, one prong of which moves into the other.
   const Ranks ranks = pieces::world();
-  const morph::Mesh block = meshes::hexes(12, 2, 8);
-  morph::Mesh whole;
-  whole.points = block.points;
-  whole.offsets = { 0 };
-  for (morph::Index c = 0; c < block.numberOfCells(); ++c)
-  {
-    const grids::Row low = block.points.row(block.cell(c)[0]);
-    if (low[0] < 5 || low[0] > 6 || low[2] < 2)
-    {
-      meshes::add(whole, block.types[c], { block.cell(c), block.cell(c) + block.cellSize(c) });
-    }
-  }
+  const morph::Mesh whole = rank_grids::fork();
   const auto run = [](vtkFEMWarpMorph* filter, vtkUnstructuredGrid* grid, double way)
   {
-    const grids::Map intoTheGap = [way](const grids::Row& x)
-    { return x[0] == 5 && x[2] > 2 ? grids::Row(x + grids::Row(way, 0, 0)) : x; };
     filter->SetInputData(grid);
-    filter->SetBoundaryData(grids::boundary(grid, intoTheGap));
+    filter->SetBoundaryData(grids::boundary(grid, rank_grids::intoTheGap(way)));
     grids::Listener listener(filter);
     filter->Update();
     EXPECT_TRUE(listener.Errors.empty());
@@ -210,4 +199,24 @@ TEST(DistributedFilters, CrossingsAreThoseOfOneRank)
   EXPECT_EQ(filter->GetCrossingFaces(), serial->GetCrossingFaces());
   EXPECT_STREQ(filter->GetMorphStatus(), "CrossesItself");
   EXPECT_EQ(said.size(), ranks.rank() == 0 ? wanted.size() : 0);
+}
+
+TEST(DistributedFilters, BadCoordinatesOfOneRankAreOneErrorThatNamesTheRank)
+{
+  const Ranks ranks = pieces::world();
+  const auto grid = piece(ranks);
+  const int last = ranks.count() - 1;
+  if (ranks.rank() == last)
+  {
+    grid->GetPoints()->SetPoint(3, std::nan(""), 0, 0);
+  }
+  vtkNew<vtkFEMWarpMorph> filter;
+  filter->SetInputData(grid);
+  filter->SetBoundaryData(grids::boundary(piece(ranks), grids::affine));
+  grids::Listener listener(filter);
+  filter->Update();
+  EXPECT_STREQ(filter->GetMorphStatus(), "Failed");
+  ASSERT_EQ(listener.Errors.size(), ranks.rank() == 0 ? 1u : 0u);
+  const std::string where = "node ids 3. Ids are those of MPI rank " + std::to_string(last);
+  EXPECT_TRUE(ranks.rank() > 0 || listener.Errors[0].find(where) != std::string::npos);
 }

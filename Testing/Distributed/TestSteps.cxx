@@ -292,3 +292,18 @@ TEST(RankSteps, StiffnessAgreesWithTheSerialOne)
     },
     "Valid");
 }
+
+TEST(RankSteps, SubStepForeseesFoldsAndCrossings)
+{
+  const Ranks ranks = pieces::world();
+  const auto subStep = [](vtkFEMWarpMorph* filter) { filter->SetValidityToSubStep(); };
+  // A patch of the top is turned inside out.
+  const auto folded = [](const grids::Row& x)
+  {
+    const bool isTurned = x[2] == 4 && std::abs(x[0] - 4) < 2 && std::abs(x[1] - 4) < 2;
+    return isTurned ? grids::Row(4 - 0.8 * (x[0] - 4), x[1], x[2]) : x;
+  };
+  compare(ranks, folded, subStep, "Partial", -1, meshes::hexes(8, 8, 4));
+  // All cells stay valid where the prongs cross.
+  compare(ranks, rank_grids::intoTheGap(3), subStep, "Partial", -1, rank_grids::fork());
+}

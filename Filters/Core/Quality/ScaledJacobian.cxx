@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <iterator>
 #include <limits>
 #include <numeric>
@@ -646,26 +647,88 @@ std::vector<Index> invertedCells(const Mesh& mesh, const Points& points,
   return invertedCells(measureQuality(mesh, points, orientation, {}, monitor));
 }
 
-Index worstCount(Index measured, double share)
+Quality ofAll(const Quality& mine, const Communicator& processes)
 {
-  const double all = static_cast<double>(measured);
-  return std::clamp<Index>(static_cast<Index>(std::ceil(share * all)), 1, measured);
+  Quality whole;
+  const auto measured = static_cast<double>(mine.measured);
+  const bool any = mine.measured > 0;
+  double counts[] = { measured, static_cast<double>(mine.inverted),
+    static_cast<double>(mine.degenerate) };
+  processes.sum(counts, 3);
+  whole.measured = static_cast<Index>(counts[0]);
+  whole.inverted = static_cast<Index>(counts[1]);
+  whole.degenerate = static_cast<Index>(counts[2]);
+  whole.minimum = processes.minimum(any ? mine.minimum : Infinity);
+  std::vector<Index> worst;
+  for (std::size_t c = 0; any && c < mine.scaledJacobian.size(); ++c)
+  {
+    if (mine.scaledJacobian[c] == whole.minimum)
+    {
+      worst.push_back(static_cast<Index>(c));
+    }
+  }
+  worst = processes.idsOfCells(worst);
+  const double lowest = processes.minimum(
+    worst.empty() ? Infinity : static_cast<double>(*std::min_element(worst.begin(), worst.end())));
+  whole.mean = processes.sum(any ? mine.mean * (measured / counts[0]) : 0.);
+  if (whole.measured == 0)
+  {
+    whole.minimum = whole.mean = NotMeasured;
+    return whole;
+  }
+  whole.worstCell = static_cast<Index>(lowest);
+  return whole;
 }
 
-double worstMean(const Quality& quality, double share)
+namespace
+{
+/// Numbers in the order of the doubles.
+std::uint64_t keyOf(double value)
+{
+  constexpr std::uint64_t Sign = std::uint64_t(1) << 63;
+  std::uint64_t bits;
+  std::memcpy(&bits, &value, sizeof(bits));
+  return (bits & Sign) != 0 ? ~bits : bits | Sign;
+}
+}
+
+double worstMean(const Quality& mine, double share, const Communicator& processes)
 {
   std::vector<double> values;
-  values.reserve(quality.measured);
-  std::copy_if(quality.scaledJacobian.begin(), quality.scaledJacobian.end(),
-    std::back_inserter(values), [](double value) { return !std::isnan(value); });
-  if (values.empty())
+  values.reserve(mine.measured);
+  std::copy_if(mine.scaledJacobian.begin(), mine.scaledJacobian.end(), std::back_inserter(values),
+    [](double value) { return !std::isnan(value); });
+  const Index all = processes.sum(static_cast<Index>(values.size()));
+  if (all == 0)
   {
-    return std::numeric_limits<double>::quiet_NaN();
+    return NotMeasured;
   }
-  const Index count = worstCount(static_cast<Index>(values.size()), share);
-  const auto last = values.begin() + count;
-  std::nth_element(values.begin(), last - 1, values.end());
-  std::sort(values.begin(), last);
-  return std::accumulate(values.begin(), last, 0.) / static_cast<double>(count);
+  const Index count =
+    std::clamp<Index>(static_cast<Index>(std::ceil(share * static_cast<double>(all))), 1, all);
+  const auto end = values.begin() + std::min(count, static_cast<Index>(values.size()));
+  std::nth_element(values.begin(), end == values.begin() ? end : end - 1, values.end());
+  std::sort(values.begin(), end);
+  const auto below = [&](std::uint64_t key) // of this process
+  {
+    return std::partition_point(
+      values.begin(), end, [&](double value) { return keyOf(value) < key; });
+  };
+  const auto countBelow = [&](std::uint64_t key)
+  { return processes.sum(static_cast<Index>(below(key) - values.begin())); };
+  // The largest key with fewer than `count` values below is that of the last value that counts.
+  std::uint64_t key = 0;
+  for (int bit = 63; bit >= 0; --bit)
+  {
+    const std::uint64_t next = key | std::uint64_t(1) << bit;
+    key = countBelow(next) < count ? next : key;
+  }
+  const auto own = below(key);
+  const double last = processes.minimum(own == end ? Infinity : *own);
+  double sum = processes.sum(std::accumulate(values.begin(), own, 0.));
+  for (Index i = countBelow(key); i < count; ++i)
+  {
+    sum += last;
+  }
+  return sum / static_cast<double>(count);
 }
 }

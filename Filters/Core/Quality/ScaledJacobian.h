@@ -3,6 +3,7 @@
 
 #include "Mesh/CellShape.h"
 #include "Mesh/Mesh.h"
+#include "Support/Communicator.h"
 #include "Support/Monitor.h"
 
 #include <cstdint>
@@ -77,11 +78,14 @@ std::vector<Index> invertedCells(const Quality& quality);
 std::vector<Index> invertedCells(const Mesh& mesh, const Points& points,
   const std::vector<std::int8_t>& orientation, Monitor& monitor);
 
-/// Returns the mean scaled Jacobian of the worst `share` of the measured cells, one cell at least.
-/// `share`: in (0, 1]. NaN if no cell was measured. It does not depend on the cells' numbering.
-/// Cost: a pass over the cells.
-double worstMean(const Quality& quality, double share = 0.01);
+/// Returns the numbers of the whole mesh, without the values of single cells; `worstCell` is the
+/// lowest number in it. `mine`: of this process's own cells. Collective.
+Quality ofAll(const Quality& mine, const Communicator& processes);
 
-/// Returns how many cells that is, of `measured` ones, at least 1.
-Index worstCount(Index measured, double share);
+/// Returns the mean scaled Jacobian of the worst `share` of the measured cells of all processes,
+/// one cell at least. `mine`: of this process's own cells. `share`: in (0, 1]. NaN if no cell was
+/// measured. It does not depend on the cells' numbering. Collective. Cost: a pass over the cells,
+/// and 64 sums of one count.
+double worstMean(
+  const Quality& mine, double share = 0.01, const Communicator& processes = Communicator::alone());
 }

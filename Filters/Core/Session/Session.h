@@ -122,10 +122,7 @@ public:
     const std::vector<Index>& ids, Points gradient, const Options& options, Monitor& monitor);
 
 private:
-  const Communicator& all() const
-  {
-    return this->mesh_->processes() ? *this->mesh_->processes() : Communicator::alone();
-  }
+  const Communicator& all() const { return this->mesh_->all(); }
   bool countsHere(Index node) const;
   /// The last step until `number` that all processes keep: their memory may differ.
   std::pair<int, Series::Step> lastUntil(int number) const;

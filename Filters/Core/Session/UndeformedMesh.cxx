@@ -54,6 +54,7 @@ UndeformedMesh::UndeformedMesh(Mesh given, const UndeformedMesh* sameCells, Moni
 UndeformedMesh::UndeformedMesh(Part part)
   : mesh_(std::move(part.mesh))
   , processes_(std::move(part.processes))
+  , outer_(std::move(part.outer))
   , hanging_(std::move(part.hanging))
   , size_(part.size)
   , orientation_(*this->processes_->orientation())
@@ -64,7 +65,6 @@ UndeformedMesh::UndeformedMesh(Part part)
   , touching_(std::move(part.touchingNodes))
   , unmapped_(std::move(part.unmappedCells))
 {
-  this->outer_.offsets = { 0 };
 }
 
 std::vector<Index> UndeformedMesh::prescribedFor(const std::vector<Index>& ids) const
@@ -131,6 +131,15 @@ const InvertedBefore& UndeformedMesh::before(Monitor& monitor) const
       measureQuality(mesh, mesh.points, this->orientation_, skip, monitor));
   }
   return *this->before_;
+}
+
+const WholeBoundary& UndeformedMesh::boundary() const
+{
+  if (!this->boundary_)
+  {
+    this->boundary_.emplace(*this->mesh_, this->outer_, this->orientation_, this->all());
+  }
+  return *this->boundary_;
 }
 
 void warnOfMirrored(Index bodies, Index first, Monitor& monitor)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Boundary/WholeBoundary.h"
 #include "Mesh/HangingNodes.h"
 #include "Mesh/Mesh.h"
 #include "Mesh/Topology.h"
@@ -33,6 +34,7 @@ public:
   struct Part
   {
     std::shared_ptr<const Mesh> mesh;
+    BoundaryFaces outer;      ///< faces of this process's own cells, outside the whole mesh
     HangingNodes hanging;     ///< of `mesh`
     bool needsPieces = false; ///< see needsPieces(); of the whole mesh
     double size = 0;          ///< of the whole mesh
@@ -45,6 +47,7 @@ public:
   UndeformedMesh(const UndeformedMesh&) = delete;
 
   const Mesh& mesh() const { return *this->mesh_; }
+  /// Of several processes, those of this process's own cells.
   const BoundaryFaces& outerFaces() const { return this->outer_; }
   const HangingNodes& hanging() const { return this->hanging_; }
   /// See meshSize().
@@ -58,6 +61,11 @@ public:
   bool needsPieces() const { return this->needsPieces_; }
   /// Those that have the other parts of the mesh; null for one process.
   const std::shared_ptr<const Communicator>& processes() const { return this->processes_; }
+  /// Those, or this process alone.
+  const Communicator& all() const
+  {
+    return this->processes_ ? *this->processes_ : Communicator::alone();
+  }
   /// Cells that are there twice, and nodes where bodies touch by chance; see SharedCorners.h.
   ///@{
   const std::vector<Index>& repeatedCells() const { return this->repeated_; }
@@ -74,6 +82,8 @@ public:
 
   /// Copies of other processes' cells count here. Cost of the first call: a measure of the mesh.
   const InvertedBefore& before(Monitor& monitor) const;
+  /// The outer faces of all processes. Collective, as is the first call's cost: see WholeBoundary.
+  const WholeBoundary& boundary() const;
 
 private:
   std::shared_ptr<const Mesh> mesh_ = std::make_shared<Mesh>();
@@ -86,7 +96,10 @@ private:
   Index mirrored_ = 0, firstMirrored_ = 0;
   bool needsPieces_ = false;
   std::vector<Index> repeated_, touching_, unmapped_;
-  mutable std::optional<InvertedBefore> before_; ///< once it was asked for
+  ///@{ once it was asked for
+  mutable std::optional<InvertedBefore> before_;
+  mutable std::optional<WholeBoundary> boundary_;
+  ///@}
 };
 
 /// Warns of `bodies` mirrored bodies, if there are some. `first`: the first cell of orientation -1.

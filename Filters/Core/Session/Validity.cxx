@@ -281,7 +281,8 @@ Validity::Outcome Validity::subStep(
       monitor);
   }
   const BoundaryPath path = straightPath(this->mesh.points, this->partition, this->targets);
-  const BoundaryCheck check(this->mesh, this->partition, this->orientation, this->faces, monitor);
+  const BoundaryCheck check(
+    this->mesh, this->partition, this->orientation, this->faces, monitor, this->all());
   SubStepLimits limits;
   limits.attempts = this->maximumSubSteps;
   if (repairs)
@@ -310,8 +311,13 @@ Validity::Outcome Validity::ensure(Points& moved, Monitor& monitor) const
   Quality quality = this->measure(moved, monitor);
   const auto crosses = [&]
   {
+    if (this->mesh.layer.isCurved())
+    {
+      return false; // edges cross no edges in space
+    }
+    const WholeBoundary whole(this->mesh, this->faces, this->orientation, this->all());
     return !crossingCells(
-      this->mesh, this->partition, this->orientation, this->faces, moved, monitor)
+      whole, whole.isAmong(this->partition.prescribed), whole.gather(moved), monitor)
               .empty();
   };
   if (this->all().all(this->inverted(quality, moved).empty()) &&

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Untangling/BoundaryCheck.h"
 
-#include "Boundary/CrossingFaces.h"
 #include "Boundary/FoldedFaces.h"
-#include "Mesh/FacesOfCells.h"
 
 #include <algorithm>
 
@@ -34,77 +32,82 @@ std::vector<Index> ForbiddenCells::all(const InvertedBefore& before) const
   return before.without(cells);
 }
 
-std::vector<Index> crossingCells(const Mesh& mesh, const NodePartition& partition,
-  const std::vector<std::int8_t>& orientation, const BoundaryFaces& faces, const Points& points,
-  Monitor& monitor)
+std::vector<Index> crossingCells(const WholeBoundary& boundary,
+  const std::vector<char>& isPrescribed, const Points& points, Monitor& monitor)
 {
-  if (mesh.layer.isCurved())
+  const BoundaryFaces& all = boundary.faces();
+  BoundaryFaces given;
+  given.offsets = { 0 };
+  for (const Index f : all.cells)
   {
-    return {}; // edges cross no edges in space
-  }
-  const auto isPrescribed = [&](Index node)
-  { return std::binary_search(partition.prescribed.begin(), partition.prescribed.end(), node); };
-  std::vector<std::pair<Index, int>> places;
-  for (std::size_t f = 0; f < faces.cells.size(); ++f)
-  {
-    const auto corners = faces.connectivity.begin();
-    if (std::all_of(corners + faces.offsets[f], corners + faces.offsets[f + 1], isPrescribed))
+    const auto first = all.connectivity.begin() + all.offsets[f],
+               last = all.connectivity.begin() + all.offsets[f + 1];
+    if (std::all_of(first, last, [&](Index node) { return isPrescribed[node] != 0; }))
     {
-      places.emplace_back(faces.cells[f], faces.sides[f]);
+      given.cells.push_back(f);
+      given.connectivity.insert(given.connectivity.end(), first, last);
+      given.offsets.push_back(static_cast<Index>(given.connectivity.size()));
     }
   }
-  const BoundaryFaces given = facesAt(mesh, places);
   std::vector<Index> cells;
-  for (const auto& [f, g] :
-    crossingFaces(ConstPoints(mesh.points), ConstPoints(points), given, orientation, monitor))
+  for (const auto& pair : boundary.crossings(given, points, monitor))
   {
-    cells.insert(cells.end(), { given.cells[f], given.cells[g] });
+    for (const Index f : pair)
+    {
+      cells.push_back(boundary.cells()[given.cells[f]]);
+    }
   }
   makeUnique(cells);
   return cells;
 }
 
 BoundaryCheck::BoundaryCheck(const Mesh& mesh, const NodePartition& partition,
-  const std::vector<std::int8_t>& orientation, const BoundaryFaces& faces, Monitor& monitor)
+  const std::vector<std::int8_t>& orientation, const BoundaryFaces& faces, Monitor& monitor,
+  const Communicator& processes)
   : mesh_(mesh)
   , partition_(partition)
   , orientation_(orientation)
-  , faces_(faces)
   , monitor_(monitor)
-  , geometry_(classify(mesh, faces, {}, monitor))
-  , isPrescribed_(mesh.numberOfNodes(), 0)
+  , processes_(processes)
+  , whole_(mesh, faces, orientation, processes)
+  , isPrescribed_(this->whole_.isAmong(partition.prescribed))
 {
-  for (Index node : partition.prescribed)
-  {
-    this->isPrescribed_[node] = 1;
-  }
+  processes.together(
+    [&]
+    {
+      this->geometry_ =
+        classify(ConstPoints(this->whole_.rest()), this->whole_.faces(), {}, monitor);
+    });
 }
 
 ForbiddenCells BoundaryCheck::at(const Points& boundary) const
 {
-  this->monitor_.check();
   if (this->mesh_.layer.isCurved())
   {
     return {}; // which way a cell faces is told by its neighbors, not by prescribed nodes alone
   }
   Points points = this->mesh_.points;
-  for (Index i = 0; i < boundary.rows(); ++i)
-  {
-    points.row(this->partition_.prescribed[i]) = boundary.row(i);
-  }
+  points(this->partition_.prescribed, allColumns) = boundary;
+  const Points moved = this->whole_.gather(points);
   ForbiddenCells result;
-  result.determined =
-    boundaryDeterminedInversions(this->mesh_, this->partition_, this->orientation_, points);
-  result.withoutPlace =
-    nodesWithoutPlace(this->mesh_, this->partition_, this->orientation_, points, this->monitor_);
-  for (Index f :
-    foldedFaces(this->mesh_.points, points, this->faces_, this->geometry_, this->isPrescribed_))
-  {
-    result.folded.push_back(this->faces_.cells[f]);
-  }
-  makeUnique(result.folded);
-  result.crossing = crossingCells(
-    this->mesh_, this->partition_, this->orientation_, this->faces_, points, this->monitor_);
+  this->processes_.together(
+    [&]
+    {
+      this->monitor_.check();
+      result.determined =
+        boundaryDeterminedInversions(this->mesh_, this->partition_, this->orientation_, points);
+      result.withoutPlace = nodesWithoutPlace(
+        this->mesh_, this->partition_, this->orientation_, points, this->monitor_);
+      for (const Index f : foldedFaces(this->whole_.rest(), moved, this->whole_.faces(),
+             this->geometry_, this->isPrescribed_))
+      {
+        result.folded.push_back(this->whole_.cells()[f]);
+      }
+      makeUnique(result.folded);
+      result.folded = this->processes_.cellsOf(result.folded);
+    });
+  result.crossing = this->processes_.cellsOf(
+    crossingCells(this->whole_, this->isPrescribed_, moved, this->monitor_));
   return result;
 }
 }

@@ -2,16 +2,18 @@
 #pragma once
 
 #include "Boundary/Classification.h"
+#include "Boundary/WholeBoundary.h"
 #include "Mesh/Topology.h"
 #include "Quality/BoundaryDetermined.h"
 #include "Quality/InvertedBefore.h"
+#include "Support/Communicator.h"
 
 #include <cstdint>
 #include <vector>
 
 namespace morph
 {
-/// Cells that no method can make valid with the prescribed positions.
+/// Cells of this process that no method can make valid with the prescribed positions.
 struct ForbiddenCells
 {
   std::vector<Index> determined;              ///< see boundaryDeterminedInversions()
@@ -23,20 +25,23 @@ struct ForbiddenCells
   std::vector<Index> all(const InvertedBefore& before = {}) const;
 };
 
-/// Returns the cells behind faces of prescribed corners alone that run into others of these,
-/// ascending; see crossingFaces(). `mesh`: before the motion, `faces`: of it. `points`: #nodes x 3.
-std::vector<Index> crossingCells(const Mesh& mesh, const NodePartition& partition,
-  const std::vector<std::int8_t>& orientation, const BoundaryFaces& faces, const Points& points,
-  Monitor& monitor);
+/// Returns the cells behind faces of prescribed corners alone that run into others of these, by
+/// their numbers in the whole mesh, ascending; see crossingFaces(). `isPrescribed`: #nodes of the
+/// boundary. `points`: of these, #nodes x 3. Collective.
+std::vector<Index> crossingCells(const WholeBoundary& boundary,
+  const std::vector<char>& isPrescribed, const Points& points, Monitor& monitor);
 
 /// Finds such cells of one mesh for any positions of one set of prescribed nodes. Holds its
-/// arguments by reference.
+/// arguments by reference. On several processes all functions are collective, and the mesh is this
+/// process's part.
 class BoundaryCheck
 {
 public:
-  /// `mesh`: before the motion; `faces`: its boundaryFaces(). Cost: that of classify().
+  /// `mesh`: before the motion; `faces`: the outer ones of its own cells. Cost: that of
+  /// WholeBoundary and classify().
   BoundaryCheck(const Mesh& mesh, const NodePartition& partition,
-    const std::vector<std::int8_t>& orientation, const BoundaryFaces& faces, Monitor& monitor);
+    const std::vector<std::int8_t>& orientation, const BoundaryFaces& faces, Monitor& monitor,
+    const Communicator& processes = Communicator::alone());
 
   /// `boundary`: #prescribed x 3. Cost: passes over the cells and over the boundary's faces, and
   /// crossingFaces().
@@ -46,9 +51,10 @@ private:
   const Mesh& mesh_;
   const NodePartition& partition_;
   const std::vector<std::int8_t>& orientation_;
-  const BoundaryFaces& faces_;
   Monitor& monitor_;
-  Classification geometry_;
-  std::vector<char> isPrescribed_; ///< #nodes
+  const Communicator& processes_;
+  WholeBoundary whole_;
+  Classification geometry_;        ///< of whole_
+  std::vector<char> isPrescribed_; ///< its nodes
 };
 }

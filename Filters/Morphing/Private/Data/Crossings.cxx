@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Private/Data/Crossings.h"
 
-#include "Boundary/CrossingFaces.h"
+#include "Boundary/WholeBoundary.h"
 #include "Geometry/MeanOfRows.h"
 #include "Mesh/ShellLayer.h"
 #include "Private/Data/NamedSets.h"
@@ -17,6 +17,8 @@
 #include <vtkUnstructuredGrid.h>
 
 #include <algorithm>
+#include <array>
+#include <map>
 #include <set>
 #include <sstream>
 #include <utility>
@@ -26,6 +28,8 @@ namespace morph::filters::Crossings
 namespace
 {
 using morph::Index;
+
+using Pairs = std::vector<std::array<Index, 2>>; ///< of faces; see crossingFaces()
 
 /// Takes the ids that vtkClassifyBoundary gave, from the polygons that have most of a face.
 void takeIds(
@@ -38,17 +42,17 @@ void takeIds(
   {
     return;
   }
-  std::multimap<Index, Index> facesOf;
+  std::multimap<Index, Index> ofCell;
   for (const auto& [face, name] : names)
   {
-    facesOf.emplace(faces.cells[face], face);
+    ofCell.emplace(faces.cells[face], face);
   }
   std::map<Index, Index> most;
   vtkNew<vtkIdList> points;
   for (vtkIdType polygon = 0; polygon < boundary->GetNumberOfCells(); ++polygon)
   {
     const auto [begin, end] =
-      facesOf.equal_range(static_cast<Index>(owners->GetComponent(polygon, 0)));
+      ofCell.equal_range(static_cast<Index>(owners->GetComponent(polygon, 0)));
     for (auto at = begin; at != end; ++at)
     {
       boundary->GetCellPoints(polygon, points);
@@ -72,19 +76,20 @@ void takeIds(
 }
 
 /// "cell 12 at (1, 2, 3)": the cell behind a face, and the mean of the face's corners.
-std::string place(const morph::BoundaryFaces& faces, const std::vector<Index>& cells,
-  const morph::ConstPoints& points, Index face)
+std::string place(const morph::WholeBoundary& boundary, const morph::Points& points, Index face)
 {
+  const morph::BoundaryFaces& faces = boundary.faces();
   const Index* corners = faces.connectivity.data();
   const Eigen::RowVector3d mean =
     morph::meanOfRows(points, corners + faces.offsets[face], corners + faces.offsets[face + 1]);
   std::ostringstream text;
-  text << "cell " << cells[face] << " at (" << mean[0] << ", " << mean[1] << ", " << mean[2] << ")";
+  text << "cell " << boundary.cells()[face] << " at (" << mean[0] << ", " << mean[1] << ", "
+       << mean[2] << ")";
   return text.str();
 }
-}
 
-std::vector<Index> FacesOf(const Pairs& pairs)
+/// The faces of all pairs, ascending.
+std::vector<Index> facesOf(const Pairs& pairs)
 {
   std::vector<Index> faces;
   for (const std::array<Index, 2>& pair : pairs)
@@ -96,7 +101,9 @@ std::vector<Index> FacesOf(const Pairs& pairs)
   return faces;
 }
 
-std::map<Index, std::string> NamesOf(const std::vector<Index>& some, const morph::Mesh& mesh,
+/// Names the surfaces that some faces belong to: by the smallest set of the file, as `grid` has it,
+/// or else by the ids that `boundary` has. `mesh`, `faces`: of `grid`.
+std::map<Index, std::string> namesOf(const std::vector<Index>& some, const morph::Mesh& mesh,
   const morph::BoundaryFaces& faces, vtkUnstructuredGrid* grid, vtkPointSet* boundary)
 {
   std::map<Index, std::string> names;
@@ -127,14 +134,35 @@ std::map<Index, std::string> NamesOf(const std::vector<Index>& some, const morph
   return names;
 }
 
-Found Describe(const Pairs& pairs, const std::map<Index, std::string>& names,
-  const morph::BoundaryFaces& faces, const std::vector<Index>& cells,
-  const morph::ConstPoints& points)
+/// The names that processes give their own faces, by the numbers of the faces in the whole
+/// boundary.
+std::map<Index, std::string> gathered(const std::map<Index, std::string>& own,
+  const std::vector<Index>& numberOf, const morph::Communicator& processes)
 {
-  if (pairs.empty())
+  std::vector<double> flat; // numbers, lengths and characters
+  for (const auto& [face, name] : own)
   {
-    return {};
+    flat.push_back(static_cast<double>(numberOf[face]));
+    flat.push_back(static_cast<double>(name.size()));
+    flat.insert(flat.end(), name.begin(), name.end());
   }
+  flat = processes.gather(flat);
+  std::map<Index, std::string> names;
+  for (auto at = flat.begin(); at != flat.end();)
+  {
+    std::string& name = names[static_cast<Index>(*at++)];
+    for (auto size = static_cast<std::size_t>(*at++); name.size() < size; ++at)
+    {
+      name += static_cast<char>(*at);
+    }
+  }
+  return names;
+}
+
+/// `names`: of the faces of the pairs.
+std::string describe(const Pairs& pairs, const std::map<Index, std::string>& names,
+  const morph::WholeBoundary& boundary, const morph::Points& points)
+{
   constexpr std::size_t Most = 10;
   std::set<std::pair<std::string, std::string>> seen;
   std::string text;
@@ -145,46 +173,69 @@ Found Describe(const Pairs& pairs, const std::map<Index, std::string>& names,
         seen.size() <= Most)
     {
       text += "\n  " + first + " and " + second + ", first the faces of " +
-              place(faces, cells, points, f) + " and " + place(faces, cells, points, g);
+              place(boundary, points, f) + " and " + place(boundary, points, g);
     }
   }
-  return { static_cast<Index>(names.size()), FacesOf(pairs),
-    "The boundary crosses itself: " + std::to_string(names.size()) +
-      " faces run into others that they did not cross before the motion. Surfaces that cross:" +
-      text + (seen.size() > Most ? "\n  ...\n" : "\n") +
-      "Move the boundary less there, or along another path." };
+  return "The boundary crosses itself: " + std::to_string(names.size()) +
+         " faces run into others that they did not cross before the motion. Surfaces that cross:" +
+         text + (seen.size() > Most ? "\n  ...\n" : "\n") +
+         "Move the boundary less there, or along another path.";
 }
 
-namespace
+/// `own`: the faces that `whole` has from this process, of `grid`.
+Found findAmong(const morph::WholeBoundary& whole, const morph::BoundaryFaces& own,
+  const morph::Mesh& grid, vtkUnstructuredGrid* output, vtkPointSet* boundary,
+  const morph::ConstPoints& written, const morph::Communicator& processes, morph::Monitor& monitor)
 {
-Found findAmong(const morph::Mesh& rest, const morph::BoundaryFaces& faces,
-  const std::vector<std::int8_t>& orientation, vtkUnstructuredGrid* output, vtkPointSet* boundary,
-  const morph::ConstPoints& written, morph::Monitor& monitor)
-{
-  const Pairs pairs = morph::crossingFaces(rest.points, written, faces, orientation, monitor);
-  return Describe(
-    pairs, NamesOf(FacesOf(pairs), rest, faces, output, boundary), faces, faces.cells, written);
+  const morph::Points moved = whole.gather(written);
+  const Pairs pairs = whole.crossings(whole.faces(), moved, monitor);
+  if (pairs.empty())
+  {
+    return {};
+  }
+  const std::vector<Index> faces = facesOf(pairs);
+  Found found;
+  std::map<Index, std::string> names;
+  processes.together(
+    [&]
+    {
+      for (std::size_t f = 0; f < own.cells.size(); ++f)
+      {
+        if (std::binary_search(faces.begin(), faces.end(), whole.numberOfOwn()[f]))
+        {
+          found.Own.push_back(static_cast<Index>(f));
+        }
+      }
+      if (!found.Own.empty())
+      {
+        names = namesOf(found.Own, grid, own, output, boundary);
+      }
+    });
+  names = gathered(names, whole.numberOfOwn(), processes);
+  found.Count = static_cast<Index>(faces.size());
+  found.Warning = describe(pairs, names, whole, moved);
+  return found;
 }
 }
 
-Found Find(const morph::Mesh& rest, const morph::BoundaryFaces& faces,
-  const std::vector<std::int8_t>& orientation, vtkUnstructuredGrid* output, vtkPointSet* boundary,
-  morph::Monitor& monitor)
+Found Find(const morph::UndeformedMesh& rest, const morph::Mesh& grid, vtkUnstructuredGrid* output,
+  vtkPointSet* boundary, morph::Monitor& monitor)
 {
   return withPoints(output,
     [&](const morph::ConstPoints& written)
     {
       // The sides of a layer are the edges of a plane mesh; a shell crosses itself by its faces.
-      const morph::ShellLayer& layer = rest.layer;
+      const morph::ShellLayer& layer = grid.layer;
       if (layer.isCurved() || morph::leavesPlane(layer, written))
       {
-        const morph::BoundaryFaces front = morph::frontFaces(rest);
-        Found found =
-          findAmong(rest, front, morph::frontWindings(rest), output, nullptr, written, monitor);
+        const morph::BoundaryFaces front = morph::frontFaces(grid);
+        const morph::WholeBoundary whole(grid, front, morph::frontWindings(grid), rest.all());
+        Found found = findAmong(whole, front, grid, output, nullptr, written, rest.all(), monitor);
         found.Own.clear();
         return found;
       }
-      return findAmong(rest, faces, orientation, output, boundary, written, monitor);
+      return findAmong(
+        rest.boundary(), rest.outerFaces(), grid, output, boundary, written, rest.all(), monitor);
     });
 }
 }

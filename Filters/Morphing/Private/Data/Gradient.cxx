@@ -12,7 +12,8 @@ namespace morph::filters
 {
 namespace Gradient
 {
-morph::Points Require(vtkDataArray* gradient, vtkIdType nodes)
+morph::Points Require(
+  vtkDataArray* gradient, vtkIdType nodes, const std::function<bool(morph::Index node)>& counts)
 {
   if (!gradient)
   {
@@ -30,7 +31,11 @@ morph::Points Require(vtkDataArray* gradient, vtkIdType nodes)
   std::vector<morph::Index> notFinite;
   for (morph::Index n = 0; n < result.rows(); ++n)
   {
-    if (!result.row(n).allFinite())
+    if (!counts(n))
+    {
+      result.row(n).setZero();
+    }
+    else if (!result.row(n).allFinite())
     {
       notFinite.push_back(n);
     }

@@ -5,6 +5,7 @@
 
 #include <vtkType.h>
 
+#include <functional>
 #include <vector>
 
 class vtkDataArray;
@@ -13,9 +14,11 @@ class vtkDoubleArray;
 /// Conversion of an objective's derivatives between VTK's arrays and the core.
 namespace morph::filters::Gradient
 {
-/// The array as #nodes x 3. Throws morph::Error where it is null or of another size, or holds
-/// values that are not finite, naming their node ids.
-morph::Points Require(vtkDataArray* gradient, vtkIdType nodes);
+/// The array as #nodes x 3, with zeros where a node does not count. Throws morph::Error where it is
+/// null or of another size, or holds values that are not finite, naming their node ids.
+morph::Points Require(
+  vtkDataArray* gradient, vtkIdType nodes,
+  const std::function<bool(morph::Index node)>& counts = [](morph::Index) { return true; });
 
 /// Sums the derivatives of prescribed nodes for each boundary point. `prescribed`: #prescribed x 3.
 /// `sources`: #prescribed, each node's boundary point, or -1. `result`: becomes #points tuples,

@@ -25,6 +25,8 @@
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
+#include <limits>
+#include <numeric>
 #include <sstream>
 #include <utility>
 
@@ -132,30 +134,12 @@ void addColumn(vtkUnstructuredGrid* output, const char* name,
 namespace Quality
 {
 morph::Quality Measure(const morph::Mesh& mesh, vtkUnstructuredGrid* output,
-  const std::vector<std::int8_t>& orientation, morph::Monitor& monitor)
-{
-  return Measure(mesh, output, orientation, std::vector<std::uint8_t>(), monitor);
-}
-
-morph::Quality Measure(const morph::Mesh& mesh, vtkUnstructuredGrid* output,
   const std::vector<std::int8_t>& orientation, std::vector<std::uint8_t> skip,
   morph::Monitor& monitor)
 {
   skipGhosts(mesh, output, skip);
   return withPoints(output, [&](const morph::ConstPoints& written)
     { return morph::measureQuality(mesh, written, orientation, skip, monitor); });
-}
-
-morph::Quality Measure(const morph::Mesh& mesh, vtkUnstructuredGrid* output,
-  const std::vector<std::int8_t>& orientation, const std::vector<morph::Index>& cells,
-  morph::Monitor& monitor)
-{
-  std::vector<std::uint8_t> skip(mesh.types.size(), 1);
-  for (const morph::Index cell : cells)
-  {
-    skip[cell] = 0;
-  }
-  return Measure(mesh, output, orientation, std::move(skip), monitor);
 }
 
 std::vector<morph::Index> Unmeasured(const morph::Mesh& mesh, const morph::Quality& quality,
@@ -195,11 +179,21 @@ bool IsThatOfComputed(vtkUnstructuredGrid* output)
 
 morph::CertificateReport Certify(const morph::Mesh& mesh, vtkUnstructuredGrid* output,
   const std::vector<std::int8_t>& orientation, std::vector<std::uint8_t> skip,
-  morph::Monitor& monitor)
+  const morph::Communicator& processes, morph::Monitor& monitor)
 {
-  skipGhosts(mesh, output, skip);
-  return withPoints(output, [&](const morph::ConstPoints& written)
-    { return morph::certify(mesh, written, orientation, skip, monitor); });
+  morph::CertificateReport report;
+  processes.together(
+    [&]
+    {
+      skipGhosts(mesh, output, skip);
+      report = withPoints(output, [&](const morph::ConstPoints& written)
+        { return morph::certify(mesh, written, orientation, skip, monitor); });
+    });
+  for (morph::Index* count : { &report.certified, &report.inverted, &report.undecided })
+  {
+    *count = processes.sum(*count);
+  }
+  return report;
 }
 
 void Write(const morph::Quality& quality, vtkUnstructuredGrid* output)
@@ -310,6 +304,65 @@ void Write(const std::vector<OfCriterion>& criteria, vtkUnstructuredGrid* output
     output, "CriterionWorstCellId", criteria, [](const OfCriterion& row) { return row.WorstCell; });
   addColumn<vtkIdTypeArray>(
     output, "CriterionCellsBeyond", criteria, [](const OfCriterion& row) { return row.Beyond; });
+}
+
+namespace
+{
+/// Takes what all processes found.
+void reduce(OfCriterion& criterion, const morph::Communicator& processes)
+{
+  constexpr double None = std::numeric_limits<double>::infinity();
+  const double own = criterion.WorstCell >= 0 ? criterion.Sign() * criterion.Worst : -None;
+  const double worst = processes.maximum(own);
+  const double cell = processes.minimum(
+    own == worst && criterion.WorstCell >= 0 ? static_cast<double>(criterion.WorstCell) : None);
+  criterion.Beyond = processes.sum(criterion.Beyond);
+  if (cell < None)
+  {
+    criterion.WorstCell = static_cast<morph::Index>(cell);
+    criterion.Worst = criterion.Sign() * worst;
+  }
+}
+}
+
+Measured MeasureAll(const Part& part, bool certified, std::vector<OfCriterion>& criteria,
+  vtkUnstructuredGrid* grid, vtkUnstructuredGrid* output, morph::Monitor& monitor)
+{
+  const morph::Communicator& processes = part.Processes;
+  Measured result;
+  morph::Quality mine;
+  processes.together(
+    [&]
+    {
+      output->ShallowCopy(grid);
+      mine = Measure(part.Grid, output, part.Orientation, part.Skip, monitor);
+      Remove(output);
+      Write(mine, output);
+      result.Unmeasured = Unmeasured(part.Grid, mine, part.Skip, grid);
+    });
+  for (morph::Index& count : result.Unmeasured)
+  {
+    count = processes.sum(count);
+  }
+  result.Whole = morph::ofAll(mine, processes);
+  std::vector<morph::Index> cells(criteria.empty() ? 0 : part.Mesh.types.size());
+  std::iota(cells.begin(), cells.end(), morph::Index(0));
+  cells = processes.idsOfCells(cells);
+  for (OfCriterion& criterion : criteria)
+  {
+    processes.together(
+      [&] { Measure(criterion, part.Mesh, output, part.Orientation, part.Skip, cells, monitor); });
+    reduce(criterion, processes);
+  }
+  Write(criteria, output);
+  if (certified)
+  {
+    result.Certificates = Certify(part.Grid, output, part.Orientation,
+      part.Dimension == 3 ? part.Skip : std::vector<std::uint8_t>(part.Skip.size(), 1), processes,
+      monitor);
+    Write(result.Certificates, output);
+  }
+  return result;
 }
 
 void Remove(vtkDataSet* output)

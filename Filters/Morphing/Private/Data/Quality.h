@@ -6,6 +6,7 @@
 #include "Quality/Criteria.h"
 #include "Quality/InvertedBefore.h"
 #include "Quality/ScaledJacobian.h"
+#include "Support/Communicator.h"
 
 #include <cstdint>
 #include <limits>
@@ -19,20 +20,11 @@ class vtkUnstructuredGrid;
 namespace morph::filters::Quality
 {
 /// Measures `output` on its points as written (the rounding to float included). `mesh`: the cells
-/// of `output`; its points do not count. `orientation`: #cells of +1 / -1
-/// from the undeformed mesh (Topology.h), or empty for VTK's order. Ghost cells (vtkGhostType
-/// duplicate or hidden) are not measured.
-morph::Quality Measure(const morph::Mesh& mesh, vtkUnstructuredGrid* output,
-  const std::vector<std::int8_t>& orientation, morph::Monitor& monitor);
-
-/// As above, and leaves out the cells whose entry in `skip` (#cells) is not zero.
+/// of `output`; its points do not count. `orientation`: #cells of +1 / -1 at least, from the
+/// undeformed mesh (Topology.h), or empty for VTK's order. Leaves out ghost cells (vtkGhostType
+/// duplicate or hidden), and those whose entry in `skip` (#cells, or empty) is not zero.
 morph::Quality Measure(const morph::Mesh& mesh, vtkUnstructuredGrid* output,
   const std::vector<std::int8_t>& orientation, std::vector<std::uint8_t> skip,
-  morph::Monitor& monitor);
-
-/// As the first, of these cells alone. `cells`: their ids, ascending.
-morph::Quality Measure(const morph::Mesh& mesh, vtkUnstructuredGrid* output,
-  const std::vector<std::int8_t>& orientation, const std::vector<morph::Index>& cells,
   morph::Monitor& monitor);
 
 /// The number of cells of each type, 256 of them, that have no value though they are neither ghosts
@@ -58,10 +50,11 @@ Judged Judge(
 /// scalars (point arrays stay, but none is active: viewers would color by that one).
 void Write(const morph::Quality& quality, vtkUnstructuredGrid* output);
 
-/// Examines `output` on its points as written; parameters as for Measure().
+/// Examines `output` on its points as written; parameters as for Measure(). The counts are those of
+/// all `processes`. Collective.
 morph::CertificateReport Certify(const morph::Mesh& mesh, vtkUnstructuredGrid* output,
   const std::vector<std::int8_t>& orientation, std::vector<std::uint8_t> skip,
-  morph::Monitor& monitor);
+  const morph::Communicator& processes, morph::Monitor& monitor);
 
 /// Adds to `output` the cell array `JacobianCertificate` (signed char: 1 certified, 0 undecided or
 /// not examined, -1 inverted).
@@ -95,6 +88,28 @@ void Measure(OfCriterion& criterion, const morph::Mesh& mesh, vtkUnstructuredGri
 
 /// Adds to the field data one array for each column, with a row for each criterion.
 void Write(const std::vector<OfCriterion>& criteria, vtkUnstructuredGrid* output);
+
+/// A mesh to be measured, or this process's part of it.
+struct Part
+{
+  const morph::Mesh& Grid; ///< of the grid
+  const morph::Mesh& Mesh; ///< perhaps with cells of other processes behind these
+  const std::vector<std::int8_t>& Orientation; ///< #cells of Mesh
+  const std::vector<std::uint8_t>& Skip;       ///< #cells of Grid; see Measure()
+  int Dimension;                               ///< the highest of all cells
+  const morph::Communicator& Processes;
+};
+/// All that vtkScaledJacobian tells of the whole mesh.
+struct Measured
+{
+  morph::Quality Whole;                  ///< without the values of single cells
+  std::vector<morph::Index> Unmeasured;  ///< see Unmeasured()
+  morph::CertificateReport Certificates; ///< counts
+};
+/// Measures the mesh, also by `criteria`, and, if `certified`, examines it; `output` becomes `grid`
+/// with the arrays. Collective.
+Measured MeasureAll(const Part& part, bool certified, std::vector<OfCriterion>& criteria,
+  vtkUnstructuredGrid* grid, vtkUnstructuredGrid* output, morph::Monitor& monitor);
 
 /// Removes the scaled Jacobian, the certificate and its counts, so that those of an input do not
 /// pass for the output's.

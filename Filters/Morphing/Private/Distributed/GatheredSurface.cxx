@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Private/Distributed/GatheredSurface.h"
 
+#include "Boundary/WholeBoundary.h"
 #include "Mesh/FacesOfCells.h"
 #include "Private/Blocks/BlockArrays.h"
 #include "Private/Data/GridMesh.h"
@@ -18,7 +19,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <map>
 #include <tuple>
 #include <utility>
 
@@ -32,12 +32,6 @@ using morph::distributed::Ranks;
 struct GatheredSurface::CellRecord
 {
   std::int64_t id, sign, body;
-};
-
-struct GatheredSurface::FaceRecord
-{
-  std::int64_t cell, side;
-  std::int64_t corners; ///< listed elsewhere, as nodes hang on edges; else none
 };
 
 namespace
@@ -69,7 +63,7 @@ vtkSmartPointer<vtkIdList> cellsOfSurface(const RankMesh& mesh)
   std::vector<Index> cells = mesh.Whole().outerFaces().cells;
   for (Index c = 0; c < mesh.Whole().pieceCells(); ++c)
   {
-    if (mesh.Whole().isGhost()[c] == 0 && GridMesh::Dimension(mesh.Piece().types[c]) == 2)
+    if (mesh.Whole().isGhost()[c] == 0 && GridMesh::Dimension(mesh.Grid().types[c]) == 2)
     {
       cells.push_back(c);
     }
@@ -169,8 +163,6 @@ void GatheredSurface::Gather(const RankMesh& mesh, vtkUnstructuredGrid* piece)
   vtkNew<vtkUnstructuredGrid> mine;
   std::vector<std::int64_t> nodeIds, cellIds;
   std::vector<CellRecord> cells;
-  std::vector<FaceRecord> faces;
-  std::vector<std::int64_t> corners; // of faces, if nodes hang on edges
   std::vector<char> texts;
   ranks.together(
     [&]
@@ -192,37 +184,14 @@ void GatheredSurface::Gather(const RankMesh& mesh, vtkUnstructuredGrid* piece)
         cells.push_back({ whole.cellId(static_cast<Index>(cell)), whole.orientation()[cell],
           body < 0 ? body : this->NumberOfBody[body] });
       }
-      const morph::BoundaryFaces& outer = whole.outerFaces();
-      for (std::size_t f = 0; f < outer.cells.size(); ++f)
-      {
-        faces.push_back({ whole.cellId(outer.cells[f]), outer.sides[f], 0 });
-      }
-      if (whole.hasHanging())
-      {
-        std::vector<std::pair<Index, int>> places;
-        for (std::size_t f = 0; f < outer.cells.size(); ++f)
-        {
-          places.emplace_back(outer.cells[f], outer.sides[f]);
-        }
-        morph::BoundaryFaces divided = morph::facesAt(whole.mesh(), places);
-        whole.hanging().divideEdges(divided);
-        for (std::size_t f = 0; f < places.size(); ++f)
-        {
-          faces[f].corners = divided.offsets[f + 1] - divided.offsets[f];
-        }
-        for (const Index node : divided.connectivity)
-        {
-          corners.push_back(whole.nodeId(node));
-        }
-      }
     });
   this->Bytes = 0;
   const auto parts = gatherData<vtkUnstructuredGrid>(ranks, mine, false, this->Bytes);
   const auto allNodes = gatherParts(ranks, nodeIds, this->Bytes);
   const auto allCells = gatherParts(ranks, cells, this->Bytes);
-  const auto allFaces = gatherParts(ranks, faces, this->Bytes);
-  const auto allCorners = gatherParts(ranks, corners, this->Bytes);
   const auto allTexts = gatherParts(ranks, texts, this->Bytes);
+  const morph::WholeBoundary& boundary = mesh.Rest()->boundary();
+  this->Bytes += boundary.bytes();
   ranks.together(
     [&]
     {
@@ -234,7 +203,7 @@ void GatheredSurface::Gather(const RankMesh& mesh, vtkUnstructuredGrid* piece)
         }
       }
       this->Assemble(parts, allNodes, allCells);
-      this->DescribeFaces(allFaces, allCorners);
+      this->DescribeFaces(boundary, whole.hasHanging());
     });
 }
 
@@ -320,37 +289,25 @@ void GatheredSurface::Assemble(const std::vector<vtkSmartPointer<vtkUnstructured
   this->Grid = grid;
 }
 
-/// The faces by cell and side, with the corners that their own processes list, if they do.
-void GatheredSurface::DescribeFaces(const std::vector<std::vector<FaceRecord>>& faces,
-  const std::vector<std::vector<std::int64_t>>& corners)
+/// `divided`: nodes hang on edges of the faces.
+void GatheredSurface::DescribeFaces(const morph::WholeBoundary& boundary, bool divided)
 {
   const auto numberOf = [](const std::vector<std::int64_t>& ids, std::int64_t id)
   { return std::lower_bound(ids.begin(), ids.end(), id) - ids.begin(); };
-  std::map<std::pair<Index, int>, std::vector<Index>> cornersOf;
-  for (std::size_t p = 0; p < faces.size(); ++p)
-  {
-    const std::int64_t* corner = corners[p].data();
-    for (const FaceRecord& face : faces[p])
-    {
-      auto& own = cornersOf[{ numberOf(this->CellIds, face.cell), static_cast<int>(face.side) }];
-      for (const std::int64_t* end = corner + face.corners; corner != end; ++corner)
-      {
-        own.push_back(numberOf(this->NodeIds, *corner));
-      }
-    }
-  }
   std::vector<std::pair<Index, int>> places;
-  std::vector<Index> offsets = { 0 }, connectivity;
-  for (const auto& [place, own] : cornersOf)
+  for (const Index f : boundary.faces().cells)
   {
-    places.push_back(place);
-    connectivity.insert(connectivity.end(), own.begin(), own.end());
-    offsets.push_back(static_cast<Index>(connectivity.size()));
+    places.emplace_back(numberOf(this->CellIds, boundary.cells()[f]), boundary.faces().sides[f]);
   }
   this->Faces = morph::facesAt(this->Shell, places);
-  if (!connectivity.empty())
+  if (divided)
   {
-    morph::setCorners(std::move(offsets), std::move(connectivity), this->Faces);
+    std::vector<Index> corners;
+    for (const Index node : boundary.faces().connectivity)
+    {
+      corners.push_back(numberOf(this->NodeIds, boundary.nodes()[node]));
+    }
+    morph::setCorners(boundary.faces().offsets, std::move(corners), this->Faces);
   }
 }
 

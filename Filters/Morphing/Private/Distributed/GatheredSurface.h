@@ -39,13 +39,11 @@ public:
 
 private:
   struct CellRecord;
-  struct FaceRecord;
   void NumberBodies(const morph::distributed::DistributedMesh& whole);
   void Assemble(const std::vector<vtkSmartPointer<vtkUnstructuredGrid>>& parts,
     const std::vector<std::vector<std::int64_t>>& nodes,
     const std::vector<std::vector<CellRecord>>& cells);
-  void DescribeFaces(const std::vector<std::vector<FaceRecord>>& faces,
-    const std::vector<std::vector<std::int64_t>>& corners);
+  void DescribeFaces(const morph::WholeBoundary& boundary, bool divided);
   void DescribeCells(const std::vector<std::vector<CellRecord>>& cells,
     const std::vector<vtkSmartPointer<vtkIdList>>& numbers);
 };

@@ -27,12 +27,7 @@ MergedBlocks RankBlocks::Make(vtkDataObjectTree*, MergedBlocks::Options)
   refuse();
 }
 
-std::unique_ptr<OnRanks::Morphing> OnRanks::MakeMorphing(Results&, morph::Session&)
-{
-  refuse();
-}
-
-std::unique_ptr<ModeSolver> OnRanks::MakeModeSolver()
+std::unique_ptr<KeptMesh> OnRanks::MakeMesh()
 {
   refuse();
 }
@@ -42,8 +37,8 @@ void OnRanks::ExtractBoundary(vtkUnstructuredGrid*, vtkPolyData*, morph::Monitor
   refuse();
 }
 
-OnRanks::Measured OnRanks::Measure(vtkUnstructuredGrid*, bool, std::vector<Quality::OfCriterion>&,
-  vtkUnstructuredGrid*, morph::Monitor&)
+std::pair<Quality::Measured, morph::Index> OnRanks::Measure(vtkUnstructuredGrid*, bool,
+  std::vector<Quality::OfCriterion>&, vtkUnstructuredGrid*, morph::Monitor&)
 {
   refuse();
 }

@@ -180,7 +180,7 @@ Index countUnmatched(const Ranks& ranks, Index sent, const std::vector<Traveller
 
 /// The points that the nodes of this process follow. `points`: of all processes, in their order;
 /// `pairs`: those of the points and the nodes that they stand for.
-std::vector<RankMatch::Follower> followersOf(const DistributedMesh& mesh,
+std::vector<BoundaryMatch::Follower> followersOf(const DistributedMesh& mesh,
   const morph::BoundaryTargets& result, const std::vector<Traveller>& points,
   const std::vector<std::pair<Index, Index>>& pairs)
 {
@@ -195,7 +195,7 @@ std::vector<RankMatch::Follower> followersOf(const DistributedMesh& mesh,
       list.push_back(point);
     }
   }
-  std::vector<RankMatch::Follower> followers;
+  std::vector<BoundaryMatch::Follower> followers;
   for (std::size_t k = 0; k < result.ids.size(); ++k)
   {
     if (result.sources[k] < 0 || !mesh.owns(result.ids[k]))
@@ -353,7 +353,7 @@ morph::NamedPoints named(
 namespace RankMatch
 {
 morph::BoundaryTargets Match(vtkPointSet* boundary, const DistributedMesh& mesh,
-  const BoundaryMatch::Options& options, std::vector<Follower>* followers)
+  const BoundaryMatch::Options& options, std::vector<BoundaryMatch::Follower>* followers)
 {
   const Ranks& ranks = mesh.ranks();
   const double tolerance = options.matchTolerance * mesh.size();
@@ -422,7 +422,7 @@ morph::BoundaryTargets Match(vtkPointSet* boundary, const DistributedMesh& mesh,
 }
 
 void SendBack(const Ranks& ranks, const std::vector<Index>& ids, const morph::Points& prescribed,
-  const std::vector<Follower>& followers, vtkIdType points, vtkDoubleArray* result)
+  const std::vector<BoundaryMatch::Follower>& followers, vtkIdType points, vtkDoubleArray* result)
 {
   struct Row
   {
@@ -430,7 +430,7 @@ void SendBack(const Ranks& ranks, const std::vector<Index>& ids, const morph::Po
     double value[3];
   };
   std::vector<std::vector<Row>> to(ranks.count());
-  for (const Follower& follower : followers)
+  for (const BoundaryMatch::Follower& follower : followers)
   {
     const Index k = std::lower_bound(ids.begin(), ids.end(), follower.Node) - ids.begin();
     to[follower.Rank].push_back(

@@ -19,12 +19,6 @@ class Ranks;
 /// Matches the points of a boundary, wherever they are, to the nodes of a distributed mesh.
 namespace morph::filters::RankMatch
 {
-/// A point of the boundary that a node follows.
-struct Follower
-{
-  morph::Index Node;        ///< local, which this process owns
-  morph::Index Rank, Point; ///< the process that has the point, and its number there
-};
 /// BoundaryMatch::Match() on all MPI processes. `boundary`: the points on this process, perhaps
 /// none. The points go to the processes that have their nodes; ids are global. Of
 /// BoundaryMatch::Match()'s ways to find nodes it has BoundaryIdArray, MorphPointId, a moved copy
@@ -35,13 +29,13 @@ struct Follower
 /// `followers`: null, or becomes the points that the nodes of this process follow: for each process
 /// with such a point the first of them.
 morph::BoundaryTargets Match(vtkPointSet* boundary, const morph::distributed::DistributedMesh& mesh,
-  const BoundaryMatch::Options& options, std::vector<Follower>* followers = nullptr);
+  const BoundaryMatch::Options& options, std::vector<BoundaryMatch::Follower>* followers);
 
 /// Sums the derivatives of prescribed nodes for each boundary point, as Gradient::Gather() does.
 /// `ids`: of Result, `prescribed`: #ids x 3. `points`: of the boundary on this process. Collective.
 void SendBack(const morph::distributed::Ranks& ranks, const std::vector<morph::Index>& ids,
-  const morph::Points& prescribed, const std::vector<Follower>& followers, vtkIdType points,
-  vtkDoubleArray* result);
+  const morph::Points& prescribed, const std::vector<BoundaryMatch::Follower>& followers,
+  vtkIdType points, vtkDoubleArray* result);
 
 /// The points of a boundary of all processes, the same on each of them.
 struct Gathered

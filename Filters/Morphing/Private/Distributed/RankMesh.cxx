@@ -3,9 +3,13 @@
 
 #include "Distributed/RankCommunicator.h"
 #include "Mesh/Extent.h"
+#include "Mesh/FacesOfCells.h"
 #include "Mesh/Polyhedra.h"
+#include "Morpher/SiteMethod.h"
 #include "Private/Data/GridMesh.h"
 #include "Private/Data/Surface.h"
+#include "Private/Distributed/OnRanks.h"
+#include "Private/Distributed/RankMatch.h"
 #include "Private/RankBlocks/GlobalRanks.h"
 #include "Quality/Certificate.h"
 #include "Support/Error.h"
@@ -56,29 +60,46 @@ std::vector<std::uint8_t> ghostCells(vtkUnstructuredGrid* grid)
   }
   return ghosts;
 }
+}
 
-void translate(vtkDataSetAttributes* data, const char* name, const std::vector<std::int64_t>& ids)
+void renumber(vtkDataSetAttributes* data, const char* name, vtkIdType count,
+  const std::function<vtkIdType(vtkIdType)>& number)
 {
-  auto* local = vtkIdTypeArray::SafeDownCast(data->GetAbstractArray(name));
-  if (!local)
+  vtkDataArray* before = data->GetArray(name);
+  if (!before)
   {
     return;
   }
-  vtkNew<vtkIdTypeArray> global; // others may share the array
-  global->SetName(name);
-  global->SetNumberOfValues(local->GetNumberOfValues());
-  for (vtkIdType i = 0; i < local->GetNumberOfValues(); ++i)
+  vtkNew<vtkIdTypeArray> after; // others may share the array
+  after->SetName(name);
+  after->SetNumberOfValues(count);
+  for (vtkIdType i = 0; i < count; ++i)
   {
-    const vtkIdType value = local->GetValue(i);
-    global->SetValue(i, value < 0 ? value : static_cast<vtkIdType>(ids[value]));
+    const auto value = static_cast<vtkIdType>(before->GetComponent(i, 0));
+    after->SetValue(i, value < 0 ? value : number(value));
   }
-  data->AddArray(global);
-}
+  data->AddArray(after);
 }
 
 RankMesh::RankMesh()
   : Processes(GlobalRanks())
 {
+}
+
+bool RankMesh::Take(vtkUnstructuredGrid* grid, const std::string& method,
+  const CreateMorpher& create, morph::Monitor& monitor)
+{
+  const std::unique_ptr<morph::Morpher> sample = morph::onProcesses(create());
+  if (!sample)
+  {
+    throw morph::Error(method +
+                       " needs one MPI rank, and the mesh is distributed over several. Run on one, "
+                       "or use another method, Morph Inversion Free for instance.");
+  }
+  const bool isTaken = this->Take(grid, sample->layers(), GridMesh::UnknownCells::Refuse, monitor);
+  this->RequireVolumeCells();
+  this->Rest(); // by all
+  return isTaken;
 }
 
 bool RankMesh::Take(
@@ -97,14 +118,25 @@ bool RankMesh::Take(
   }
   this->Distributed.reset();
   this->Undeformed.reset();
-  ranks.together([&] { this->Copy = GridMesh::FromGrid(grid, unknown); });
+  ranks.together(
+    [&]
+    {
+      try
+      {
+        this->Copy = GridMesh::FromGrid(grid, unknown);
+      }
+      catch (const morph::Error& error)
+      {
+        throw morph::Error(error.kind(), std::string(error.what()) + " Ids are those of MPI rank " +
+                                           std::to_string(ranks.rank()) + "'s piece.");
+      }
+    });
   morph::distributed::Piece piece{ this->Copy, ghosts, nodeIds, cellIds };
   morph::distributed::requireNodeIds(ranks, piece);
   morph::distributed::requireCellIds(ranks, piece);
   auto whole =
     std::make_unique<morph::distributed::DistributedMesh>(ranks, std::move(piece), layers, monitor);
   const morph::Index cells = whole->pieceCells();
-  this->Signs.assign(whole->orientation().begin(), whole->orientation().begin() + cells);
   this->Skip.assign(whole->isGhost().begin(), whole->isGhost().begin() + cells);
   const auto dimension = [this](morph::Index c)
   { return GridMesh::Dimension(this->Copy.types[c]); };
@@ -120,7 +152,8 @@ bool RankMesh::Take(
     this->Skip[c] |= dimension(c) < this->Dimension;
   }
   this->Polygons = {};
-  ranks.together([&] { this->Polygons.Make(grid, this->Copy, whole->outerFaces(), &this->Signs); });
+  ranks.together(
+    [&] { this->Polygons.Make(grid, this->Copy, whole->outerFaces(), &whole->orientation()); });
   this->NodeIds = std::move(nodeIds);
   this->CellIds = std::move(cellIds);
   this->Ghosts = std::move(ghosts);
@@ -168,6 +201,17 @@ const std::shared_ptr<const morph::UndeformedMesh>& RankMesh::Rest() const
   }
   morph::UndeformedMesh::Part part;
   part.mesh = std::shared_ptr<const morph::Mesh>(this->Distributed, &whole.mesh());
+  part.outer = whole.outerFaces();
+  if (whole.hasHanging()) // nodes of other pieces divide its edges, too
+  {
+    std::vector<std::pair<morph::Index, int>> places;
+    for (std::size_t f = 0; f < part.outer.cells.size(); ++f)
+    {
+      places.emplace_back(part.outer.cells[f], part.outer.sides[f]);
+    }
+    part.outer = morph::facesAt(whole.mesh(), places);
+    whole.hanging().divideEdges(part.outer);
+  }
   part.hanging = whole.hanging();
   part.needsPieces = this->Polyhedral || whole.hasHanging();
   part.size = whole.size();
@@ -181,11 +225,26 @@ const std::shared_ptr<const morph::UndeformedMesh>& RankMesh::Rest() const
   return this->Undeformed;
 }
 
-const morph::InvertedBefore& RankMesh::Before(morph::Monitor& monitor) const
+const morph::Points& RankMesh::OfGrid(const morph::Points& moved, morph::Points& memory) const
 {
-  const morph::UndeformedMesh& rest = *this->Rest();
-  this->Processes.together([&] { rest.before(monitor); });
-  return rest.before(monitor);
+  memory = moved;
+  this->Whole().copyToDoubles(memory);
+  memory.conservativeResize(this->Copy.numberOfNodes(), 3);
+  return memory;
+}
+
+morph::BoundaryTargets RankMesh::Match(vtkPointSet* boundary, const BoundaryMatch::Options& options,
+  std::vector<BoundaryMatch::Follower>* followers) const
+{
+  return RankMatch::Match(boundary, this->Whole(), options, followers);
+}
+
+void RankMesh::SendBack(const morph::BoundaryTargets& match,
+  const std::vector<BoundaryMatch::Follower>& followers, const morph::Points& prescribed,
+  vtkPointSet* boundary, vtkDoubleArray* result) const
+{
+  RankMatch::SendBack(
+    this->Processes, match.ids, prescribed, followers, boundary->GetNumberOfPoints(), result);
 }
 
 void RankMesh::RequireVolumeCells() const
@@ -210,7 +269,15 @@ void RankMesh::WriteUndeformedSurface(vtkUnstructuredGrid* grid, vtkPolyData* ou
 
 void RankMesh::WriteGlobalIds(vtkDataSet* output) const
 {
-  translate(output->GetPointData(), Surface::IdName, this->Distributed->nodeIds());
-  translate(output->GetCellData(), "MorphCellId", this->Distributed->cellIds());
+  const morph::distributed::DistributedMesh& whole = *this->Distributed;
+  renumber(output->GetPointData(), Surface::IdName, output->GetNumberOfPoints(),
+    [&](vtkIdType node) { return static_cast<vtkIdType>(whole.nodeId(node)); });
+  renumber(output->GetCellData(), "MorphCellId", output->GetNumberOfCells(),
+    [&](vtkIdType cell) { return static_cast<vtkIdType>(whole.cellId(cell)); });
+}
+
+std::unique_ptr<KeptMesh> OnRanks::MakeMesh()
+{
+  return std::make_unique<RankMesh>();
 }
 }

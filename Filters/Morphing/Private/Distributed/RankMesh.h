@@ -5,62 +5,60 @@
 #include "Distributed/Ranks.h"
 #include "Mesh/Mesh.h"
 #include "Private/Data/GridMesh.h"
-#include "Private/Data/MovedSurface.h"
-#include "Quality/InvertedBefore.h"
-#include "Session/UndeformedMesh.h"
+#include "Private/Morph/KeptMesh.h"
+
+#include <vtkType.h>
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <vector>
 
-class vtkDataSet;
-class vtkPolyData;
-class vtkUnstructuredGrid;
+class vtkDataSetAttributes;
 
 namespace morph::filters
 {
 /// A grid of which each MPI process has a piece, kept from one execution to the next. All functions
 /// but the getters are collective.
-class RankMesh
+class RankMesh : public KeptMesh
 {
 public:
   RankMesh();
 
-  /// Takes the pieces, unless they are the ones that are kept; returns whether it did. Points and
-  /// cells are known by their global ids where there are some. Throws morph::Error on all
-  /// processes for a mesh that cannot be read. `layers`: of ghost cells.
+  bool Take(vtkUnstructuredGrid* grid, const std::string& method, const CreateMorpher& create,
+    morph::Monitor& monitor) override;
+  /// As above, where points and cells are known by their global ids if there are some. `layers`: of
+  /// ghost cells.
   bool Take(
     vtkUnstructuredGrid* grid, int layers, GridMesh::UnknownCells unknown, morph::Monitor& monitor);
-  /// Adds lines to Surface(), or takes them away; see MovedSurface. Each line is on one process.
-  void SetFeatureLines(bool on, morph::Monitor& monitor);
+  void SetFeatureLines(bool on, morph::Monitor& monitor) override;
   /// Throws morph::Error on all processes unless the mesh can be morphed.
   void RequireVolumeCells() const;
 
   const morph::distributed::Ranks& Ranks() const { return this->Processes; }
   const morph::distributed::DistributedMesh& Whole() const { return *this->Distributed; }
-  /// Whole() for the core's code, made when it is first asked for. It outlives this object.
-  const std::shared_ptr<const morph::UndeformedMesh>& Rest() const;
-  /// The grid of this process as it came, ghost cells included.
-  const morph::Mesh& Piece() const { return this->Copy; }
-  /// Of the piece's cells, as of the whole mesh.
-  const std::vector<std::int8_t>& Orientation() const { return this->Signs; }
-  /// #cells of the piece: nonzero for ghosts, and for cells of a lower dimension than the whole
-  /// mesh has.
-  const std::vector<std::uint8_t>& Unmeasured() const { return this->Skip; }
+  const std::shared_ptr<const morph::UndeformedMesh>& Rest() const override;
+  const morph::Mesh& Grid() const override { return this->Copy; }
+  const std::vector<std::uint8_t>& Unmeasured() const override { return this->Skip; }
   /// Of the whole mesh.
-  ///@{
   int HighestDimension() const { return this->Dimension; }
-  ///@}
-  /// Of the cells in Whole(), ghosts included. Collective. Cost of the first call: a measure.
-  const morph::InvertedBefore& Before(morph::Monitor& monitor) const;
-  /// The outer faces of this process's cells.
-  const MovedSurface& Surface() const { return this->Polygons; }
+  bool Owns(morph::Index node) const override { return this->Whole().owns(node); }
+  const morph::Points& OfGrid(const morph::Points& moved, morph::Points& memory) const override;
 
-  /// Writes Surface() without quality, if `grid` has the cells of the piece, or else nothing. Not
-  /// collective.
-  void WriteUndeformedSurface(vtkUnstructuredGrid* grid, vtkPolyData* output) const;
-  /// Replaces the local numbers in the arrays MorphPointId and MorphCellId by global ids.
-  void WriteGlobalIds(vtkDataSet* output) const;
+  /// See RankMatch.
+  ///@{
+  morph::BoundaryTargets Match(vtkPointSet* boundary, const BoundaryMatch::Options& options,
+    std::vector<BoundaryMatch::Follower>* followers) const override;
+  void SendBack(const morph::BoundaryTargets& match,
+    const std::vector<BoundaryMatch::Follower>& followers, const morph::Points& prescribed,
+    vtkPointSet* boundary, vtkDoubleArray* result) const override;
+  ///@}
+
+  /// Not collective.
+  ///@{
+  void WriteUndeformedSurface(vtkUnstructuredGrid* grid, vtkPolyData* output) const override;
+  void WriteGlobalIds(vtkDataSet* output) const override;
+  ///@}
 
 private:
   morph::distributed::Ranks Processes;
@@ -70,9 +68,11 @@ private:
   int Layers = 0, Dimension = 0;
   bool Polyhedral = false;
   std::shared_ptr<morph::distributed::DistributedMesh> Distributed;
-  std::vector<std::int8_t> Signs;
   std::vector<std::uint8_t> Skip;
-  MovedSurface Polygons;
   mutable std::shared_ptr<const morph::UndeformedMesh> Undeformed; ///< or null
 };
+
+/// Replaces the values of an array of `count` ids, if it is there, but for negative ones.
+void renumber(vtkDataSetAttributes* data, const char* name, vtkIdType count,
+  const std::function<vtkIdType(vtkIdType)>& number);
 }

@@ -38,25 +38,6 @@ using morph::distributed::Ranks;
 
 namespace
 {
-void translate(vtkDataSetAttributes* data, const char* name, vtkIdType count,
-  const std::function<vtkIdType(vtkIdType)>& number)
-{
-  vtkDataArray* before = data->GetArray(name);
-  if (!before)
-  {
-    return;
-  }
-  vtkNew<vtkIdTypeArray> after; // others may share the array
-  after->SetName(name);
-  after->SetNumberOfValues(count);
-  for (vtkIdType i = 0; i < count; ++i)
-  {
-    const auto value = static_cast<vtkIdType>(before->GetComponent(i, 0));
-    after->SetValue(i, value < 0 ? value : number(value));
-  }
-  data->AddArray(after);
-}
-
 class GatheredBoundary : public WholeSurface
 {
 public:
@@ -136,7 +117,7 @@ std::vector<Index> GatheredBoundary::Places() const
 {
   const Internals& own = this->Own;
   const DistributedMesh& whole = own.Whole();
-  const morph::Mesh& piece = own.Mesh.Piece();
+  const morph::Mesh& piece = own.Mesh.Grid();
   const Index nodes = own.Surface.Shell.numberOfNodes();
   // By ids, since ghost cells of the piece may have points of their own.
   std::vector<Index> body(whole.mesh().numberOfNodes(), -1);
@@ -321,9 +302,9 @@ void GatheredBoundary::KeepOwn(vtkPolyData* surface) const
   kept->GetCellData()->CopyData(
     surface->GetCellData(), cells, firstNumbers(cells->GetNumberOfIds()));
   kept->GetFieldData()->ShallowCopy(surface->GetFieldData());
-  translate(kept->GetPointData(), Surface::IdName, kept->GetNumberOfPoints(),
+  renumber(kept->GetPointData(), Surface::IdName, kept->GetNumberOfPoints(),
     [&own](vtkIdType node) { return static_cast<vtkIdType>(own.Surface.NodeIds[node]); });
-  translate(kept->GetCellData(), GatheredSurface::CellName, kept->GetNumberOfCells(),
+  renumber(kept->GetCellData(), GatheredSurface::CellName, kept->GetNumberOfCells(),
     [&own](vtkIdType of) { return static_cast<vtkIdType>(own.Surface.CellIds[of]); });
   surface->ShallowCopy(kept);
 }
@@ -333,7 +314,7 @@ void GatheredBoundary::MakeIdsGlobal(vtkPolyData* surface, vtkIdType count) cons
   const DistributedMesh& whole = this->Own.Whole();
   const vtkIdType first = surface->GetNumberOfPoints() - count;
   vtkIdType point = 0;
-  translate(surface->GetPointData(), Surface::IdName, surface->GetNumberOfPoints(),
+  renumber(surface->GetPointData(), Surface::IdName, surface->GetNumberOfPoints(),
     [&](vtkIdType id) { return point++ < first ? id : static_cast<vtkIdType>(whole.nodeId(id)); });
 }
 
@@ -342,7 +323,7 @@ vtkSmartPointer<vtkPolyData> GatheredBoundary::OfPiece(vtkPolyData* surface) con
   const DistributedMesh& whole = this->Own.Whole();
   auto result = vtkSmartPointer<vtkPolyData>::New();
   result->ShallowCopy(surface);
-  translate(result->GetPointData(), Surface::IdName, result->GetNumberOfPoints(),
+  renumber(result->GetPointData(), Surface::IdName, result->GetNumberOfPoints(),
     [&whole](vtkIdType id) { return static_cast<vtkIdType>(whole.nodeOf(id)); });
   std::vector<std::pair<std::int64_t, Index>> cells;
   for (Index c = 0; c < whole.pieceCells(); ++c)
@@ -353,7 +334,7 @@ vtkSmartPointer<vtkPolyData> GatheredBoundary::OfPiece(vtkPolyData* surface) con
     }
   }
   std::sort(cells.begin(), cells.end());
-  translate(result->GetCellData(), GatheredSurface::CellName, result->GetNumberOfCells(),
+  renumber(result->GetCellData(), GatheredSurface::CellName, result->GetNumberOfCells(),
     [&cells](vtkIdType id)
     {
       const auto found =

@@ -41,7 +41,7 @@ WholeVolume::WholeVolume(const WholeSurface& surface)
 
 const morph::Mesh& WholeVolume::piece() const
 {
-  return this->Surface.Pieces().Piece();
+  return this->Surface.Pieces().Grid();
 }
 
 InnerPieces::Flags WholeVolume::anyFlags(const Flags& ofPiece) const

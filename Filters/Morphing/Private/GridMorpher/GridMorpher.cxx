@@ -4,11 +4,13 @@
 #include "Private/Data/Gradient.h"
 #include "Private/Data/Output.h"
 #include "Private/Data/Version.h"
+#include "Private/Distributed/OnRanks.h"
 #include "Private/Morph/BoundaryMatch.h"
 #include "Private/Morph/MorphOutput.h"
 #include "Private/Pipeline/Input.h"
 #include "Private/Pipeline/Ranks.h"
 #include "Support/Error.h"
+#include "Support/FirstSpeaks.h"
 #include "Support/ProgressRange.h"
 #include "vtkMorphAlgorithm.h"
 
@@ -91,31 +93,62 @@ std::string GridMorpher::Morph(vtkUnstructuredGrid* grid, vtkDataObject* boundar
   morph::Monitor& monitor)
 {
   this->BoundaryInverted = 0;
-  this->IsOnRanks = isDistributed;
+  const MotionOptions options = this->OptionsOf(method);
   try
   {
-    if (!isDistributed)
+    this->Take(grid, isDistributed, options, monitor);
+    KeptMesh& kept = this->Kept();
+    vtkPointSet* displaced = nullptr;
+    kept.All().together([&] { displaced = Input::RequireBoundary(boundary); });
+    kept.SetFeatureLines(method.Options.FeatureLines, monitor);
+    this->Session.reportMesh(options, monitor);
+    morph::ProgressRange morphing(monitor, 0, 0.9), writing(monitor, 0.9, 1);
+    const int precision = method.Options.OutputPointsPrecision;
+    const bool isFloat = Output::IsFloat(grid, precision);
+    std::shared_ptr<morph::StepResult> single; // a series keeps its steps
+    std::shared_ptr<const morph::StepResult> result;
+    if (GridMorpher::IsSeries(method.Options.Stepping, motion.Steps))
     {
-      return this->MorphAlone(grid, boundary, motion, method, outputs, monitor);
+      result = this->MorphSeries(displaced, motion, options, morphing);
     }
-    const bool varies = motion.Boundary != nullptr;
-    const OnRanks::Motion series = { motion.Step, varies,
-      [&](int step) { return varies ? 1 : motion.Steps.Fraction(step); },
-      [&](int step) { return Input::RequireBoundary(varies ? motion.Boundary(step) : boundary); } };
-    const std::string error = this->Ranks().Run(
-      { grid, boundary, fractionOf(motion),
-        GridMorpher::IsSeries(method.Options.Stepping, motion.Steps) ? &series : nullptr,
-        method.Options.OutputPointsPrecision, measuresOf(method.Options),
-        method.Options.FeatureLines, outputs },
-      this->OptionsOf(method), monitor);
+    else
+    {
+      result = single = this->MorphOnce(displaced, fractionOf(motion), options, isFloat, morphing);
+    }
     this->NoteEffort();
-    return error;
+    morph::FirstSpeaks first(monitor, kept.All());
+    // Of a step that was kept, too; inverted cells on the way there are no news.
+    if (!result->valid.warning.empty())
+    {
+      first.warn(result->valid.warning);
+    }
+    MorphOutput::WriteMesh(kept, result->moved, precision, grid, outputs.Mesh, writing);
+    if (single)
+    {
+      single->moved.resize(0, 3); // 24 bytes a node, which the measures need
+    }
+    MorphOutput::WriteMeasures(kept, *result, measuresOf(method.Options),
+      isDistributed ? nullptr : displaced, this->Results, outputs, writing);
+    return kept.All().isFirst() ? result->valid.error : "";
   }
   catch (const morph::Validity::Infeasible& infeasible)
   {
     this->BoundaryInverted = infeasible.cells;
     throw;
   }
+}
+
+void GridMorpher::Take(vtkUnstructuredGrid* grid, bool isDistributed, const MotionOptions& options,
+  morph::Monitor& monitor)
+{
+  if (isDistributed && !this->Distributed)
+  {
+    this->Distributed = OnRanks::MakeMesh();
+  }
+  this->IsOnRanks = isDistributed;
+  this->Kept().Take(grid, options.method, options.createMorpher, monitor);
+  this->Session.setMesh(this->Kept().Rest());
+  this->Results.SetInteger("MirroredBodies", this->Session.mesh().mirroredBodies());
 }
 
 void GridMorpher::WriteUndeformed(vtkDataObject* input, const char* status, const Outputs& outputs)
@@ -128,68 +161,20 @@ void GridMorpher::WriteUndeformed(vtkDataObject* input, const char* status, cons
   this->NoteEffort();
   MorphOutput::WriteUndeformed(
     input, status, std::exchange(this->BoundaryInverted, 0), this->Results, outputs.Mesh);
-  if (this->IsOnRanks)
-  {
-    this->Ranks().WriteUndeformedSurface(outputs.Mesh, outputs.Surface);
-    return;
-  }
-  this->Kept.WriteUndeformedSurface(outputs.Mesh, outputs.Surface);
+  this->Kept().WriteUndeformedSurface(outputs.Mesh, outputs.Surface);
 }
 
-std::string GridMorpher::MorphAlone(vtkUnstructuredGrid* grid, vtkDataObject* boundary,
-  const Motion& motion, const Method& method, const Outputs& outputs, morph::Monitor& monitor)
+std::shared_ptr<morph::StepResult> GridMorpher::MorphOnce(vtkPointSet* displaced, double fraction,
+  const MotionOptions& options, bool isFloat, morph::Monitor& monitor)
 {
-  const int precision = method.Options.OutputPointsPrecision;
-  vtkPointSet* displaced = Input::RequireBoundary(boundary);
-  this->Kept.Take(grid, monitor);
-  this->Session.setMesh(this->Kept.Rest());
-  this->Kept.SetFeatureLines(method.Options.FeatureLines);
-  const MotionOptions options = this->OptionsOf(method);
-  this->Results.SetInteger(
-    "MirroredBodies", static_cast<vtkIdType>(this->Session.mesh().mirroredBodies()));
-  this->Session.reportMesh(options, monitor);
-  std::shared_ptr<morph::StepResult> single; // a series keeps its steps
-  std::shared_ptr<const morph::StepResult> result;
-  morph::ProgressRange morphing(monitor, 0, 0.9), writing(monitor, 0.9, 1);
-  if (GridMorpher::IsSeries(method.Options.Stepping, motion.Steps))
+  const morph::BoundaryTargets match = this->Match(displaced, fraction, options, monitor);
+  std::optional<morph::Session::AffineHandle> handle;
+  if (options.Matching.displacementArray.empty() && !this->IsOnRanks)
   {
-    result = this->MorphSeries(displaced, motion, options, morphing);
+    handle = BoundaryMatch::FindHandle(displaced, match, this->Session.mesh().mesh(),
+      options.Matching.scaleFactor * fraction, isFloat);
   }
-  else
-  {
-    const double fraction = fractionOf(motion);
-    const morph::BoundaryTargets match = this->Match(displaced, fraction, options, morphing);
-    std::optional<morph::Session::AffineHandle> handle;
-    if (options.Matching.displacementArray.empty())
-    {
-      handle = BoundaryMatch::FindHandle(displaced, match, this->Session.mesh().mesh(),
-        options.Matching.scaleFactor * fraction, Output::IsFloat(grid, precision));
-    }
-    result = single = this->Session.morph(match, options, morphing, handle ? &*handle : nullptr);
-  }
-  this->NoteEffort();
-  // Of a step that was kept, too; inverted cells on the way there are no news.
-  if (!result->valid.warning.empty())
-  {
-    monitor.warn(result->valid.warning);
-  }
-  MorphOutput::WriteMesh(this->Kept, result->moved, precision, grid, outputs.Mesh, writing);
-  if (single)
-  {
-    single->moved.resize(0, 3); // 24 bytes a node, which the measures need
-  }
-  MorphOutput::WriteMeasures(
-    this->Kept, *result, measuresOf(method.Options), displaced, this->Results, outputs, writing);
-  return result->valid.error;
-}
-
-OnRanks::Morphing& GridMorpher::Ranks()
-{
-  if (!this->Distributed)
-  {
-    this->Distributed = OnRanks::MakeMorphing(this->Results, this->Session);
-  }
-  return *this->Distributed;
+  return this->Session.morph(match, options, monitor, handle ? &*handle : nullptr);
 }
 
 void GridMorpher::NoteEffort()
@@ -208,15 +193,16 @@ void GridMorpher::NoteEffort()
 }
 
 morph::BoundaryTargets GridMorpher::Match(vtkPointSet* boundary, double fraction,
-  const MotionOptions& options, morph::Monitor& monitor) const
+  const MotionOptions& options, morph::Monitor& monitor,
+  std::vector<BoundaryMatch::Follower>* followers) const
 {
   BoundaryMatch::Options matching = options.Matching;
   matching.scaleFactor *= fraction;
-  const morph::UndeformedMesh& rest = this->Session.mesh();
-  morph::BoundaryTargets match =
-    BoundaryMatch::Match(boundary, rest.mesh(), rest.outerFaces(), rest.size(), matching);
-  morph::warnOf(match, monitor);
-  monitor.check();
+  const morph::Communicator& all = this->Session.mesh().all();
+  morph::BoundaryTargets match = this->Kept().Match(boundary, matching, followers);
+  morph::FirstSpeaks first(monitor, all);
+  morph::warnOf(match, first);
+  all.together([&] { monitor.check(); });
   return match;
 }
 
@@ -225,7 +211,7 @@ std::shared_ptr<const morph::StepResult> GridMorpher::MorphSeries(vtkPointSet* d
 {
   const bool varies = motion.Boundary != nullptr;
   // A process without cells has no series, and would not know which step to ask the boundary for.
-  if (varies && filters::Ranks::Processes() > 1)
+  if (varies && !this->IsOnRanks && filters::Ranks::Processes() > 1)
   {
     throw morph::Error("Relative steps with a boundary of their own need a mesh with cells on "
                        "several MPI processes, or a single process. Distribute the mesh, or set "
@@ -233,7 +219,12 @@ std::shared_ptr<const morph::StepResult> GridMorpher::MorphSeries(vtkPointSet* d
   }
   const auto boundaryOf = [&](int step)
   {
-    vtkPointSet* ofStep = varies ? Input::RequireBoundary(motion.Boundary(step)) : displaced;
+    vtkPointSet* ofStep = displaced;
+    if (varies)
+    {
+      this->Session.mesh().all().together(
+        [&] { ofStep = Input::RequireBoundary(motion.Boundary(step)); });
+    }
     return morph::inStep(step, [&]
       { return this->Match(ofStep, varies ? 1 : motion.Steps.Fraction(step), options, monitor); });
   };
@@ -251,18 +242,23 @@ void GridMorpher::Transpose(vtkUnstructuredGrid* rest, vtkDataObject* boundary, 
   morph::Monitor& monitor)
 {
   const MotionOptions options = this->OptionsOf(method);
-  this->IsOnRanks = isDistributed;
-  if (isDistributed)
-  {
-    this->Ranks().Transpose(rest, boundary, gradient, options, boundaryGradient, monitor);
-    this->NoteEffort();
-    return;
-  }
-  morph::Points nodes = Gradient::Require(gradient, rest->GetNumberOfPoints());
-  vtkPointSet* displaced = Input::RequireBoundary(boundary);
-  this->Kept.Take(rest, monitor);
-  this->Session.setMesh(this->Kept.Rest());
-  const morph::BoundaryTargets match = this->Match(displaced, 1, options, monitor);
+  this->Take(rest, isDistributed, options, monitor);
+  const KeptMesh& kept = this->Kept();
+  const morph::Communicator& all = kept.All();
+  vtkPointSet* displaced = nullptr;
+  morph::Points nodes = morph::Points::Zero(kept.Rest()->mesh().numberOfNodes(), 3);
+  all.together(
+    [&]
+    {
+      displaced = Input::RequireBoundary(boundary);
+      if (rest->GetNumberOfPoints() > 0) // other processes have no arrays
+      {
+        nodes.topRows(kept.Grid().numberOfNodes()) = Gradient::Require(gradient,
+          kept.Grid().numberOfNodes(), [&](morph::Index node) { return kept.Owns(node); });
+      }
+    });
+  std::vector<BoundaryMatch::Follower> followers;
+  const morph::BoundaryTargets match = this->Match(displaced, 1, options, monitor, &followers);
   morph::requirePlane(match);
   const morph::Points prescribed =
     this->Session.transpose(match.ids, std::move(nodes), options, monitor);
@@ -270,10 +266,11 @@ void GridMorpher::Transpose(vtkUnstructuredGrid* rest, vtkDataObject* boundary, 
   const std::string& status = this->Results.Text("MorphStatus");
   if (options.postSmooth || status == "SubStepped" || status == "Repaired" || status == "Partial")
   {
-    monitor.warn("`PostSmooth` or `Validity` changes the mesh after the method has made it; the "
-                 "gradient is that of the method alone.");
+    morph::FirstSpeaks(monitor, all)
+      .warn("`PostSmooth` or `Validity` changes the mesh after the method has made it; the "
+            "gradient is that of the method alone.");
   }
-  Gradient::Gather(options.Matching.scaleFactor * prescribed, match.sources,
-    displaced->GetNumberOfPoints(), boundaryGradient);
+  kept.SendBack(
+    match, followers, options.Matching.scaleFactor * prescribed, displaced, boundaryGradient);
 }
 }

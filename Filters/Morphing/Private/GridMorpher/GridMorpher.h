@@ -2,8 +2,8 @@
 #pragma once
 
 #include "Private/Data/Results.h"
-#include "Private/Distributed/OnRanks.h"
-#include "Private/Morph/KeptMesh.h"
+#include "Private/Morph/MorphOutput.h"
+#include "Private/Morph/SerialMesh.h"
 #include "Private/Options.h"
 #include "Private/Pipeline/Steps.h"
 #include "Session/Session.h"
@@ -11,6 +11,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 class vtkAlgorithm;
 class vtkDataArray;
@@ -46,9 +47,9 @@ public:
   using Outputs = MorphOutput::Outputs;
 
   /// Moves the grid and writes the outputs and results. `boundary`: displaced; of a series that of
-  /// a step. `isDistributed`: the grid is a piece of a
-  /// mesh on several MPI processes; then all of them call it. Returns an error that comes with a
-  /// result, or nothing. Throws morph::Error.
+  /// a step. `isDistributed`: the grid is a piece of a mesh on several MPI processes, and the
+  /// boundary a part of it; then all of them call it, also those without cells. Returns an error
+  /// that comes with a result, on one process, or nothing. Throws morph::Error, on all or none.
   std::string Morph(vtkUnstructuredGrid* grid, vtkDataObject* boundary, bool isDistributed,
     const Motion& motion, const Method& method, const Outputs& outputs, morph::Monitor& monitor);
   /// After an error or an abort: makes the outputs the undeformed mesh, as far as `input` can be
@@ -66,21 +67,26 @@ public:
 private:
   vtkAlgorithm* Filter;
   filters::Results& Results;
-  KeptMesh Kept;
-  morph::Session Session;                         ///< of Kept
-  std::unique_ptr<OnRanks::Morphing> Distributed; ///< null until the mesh is on several processes
-  bool IsOnRanks = false;                         ///< the last motion was that of Distributed
-  morph::Index BoundaryInverted = 0;              ///< cells for which the last motion has no result
+  std::unique_ptr<KeptMesh> Alone = std::make_unique<SerialMesh>();
+  std::unique_ptr<KeptMesh> Distributed; ///< null until the mesh is on several processes
+  bool IsOnRanks = false;                ///< Kept() is Distributed
+  morph::Session Session;                ///< of Kept()
+  morph::Index BoundaryInverted = 0;     ///< cells for which the last motion has no result
 
   MotionOptions OptionsOf(const Method& method) const;
-  std::string MorphAlone(vtkUnstructuredGrid* grid, vtkDataObject* boundary, const Motion& motion,
-    const Method& method, const Outputs& outputs, morph::Monitor& monitor);
-  OnRanks::Morphing& Ranks();
+  /// The mesh of the last motion.
+  KeptMesh& Kept() const { return *(this->IsOnRanks ? this->Distributed : this->Alone); }
+  /// Takes the mesh of this motion.
+  void Take(vtkUnstructuredGrid* grid, bool isDistributed, const MotionOptions& options,
+    morph::Monitor& monitor);
+  /// `isFloat`: the result is rounded to single precision.
+  std::shared_ptr<morph::StepResult> MorphOnce(vtkPointSet* displaced, double fraction,
+    const MotionOptions& options, bool isFloat, morph::Monitor& monitor);
   /// Takes the cost of Session's last motion over.
   void NoteEffort();
   /// Matches the boundary, for that fraction of its motion.
   morph::BoundaryTargets Match(vtkPointSet* boundary, double fraction, const MotionOptions& options,
-    morph::Monitor& monitor) const;
+    morph::Monitor& monitor, std::vector<BoundaryMatch::Follower>* followers = nullptr) const;
   std::shared_ptr<const morph::StepResult> MorphSeries(vtkPointSet* displaced, const Motion& motion,
     const MotionOptions& options, morph::Monitor& monitor);
 };

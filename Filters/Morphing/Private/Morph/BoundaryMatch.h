@@ -23,6 +23,13 @@ struct Options : morph::TargetOptions
   std::string BoundaryIdArray; ///< empty: none
 };
 
+/// A point of the boundary that a node follows.
+struct Follower
+{
+  morph::Index Node;        ///< local, which this process owns
+  morph::Index Rank, Point; ///< the process that has the point, and its number there
+};
+
 /// Matches the points of `boundary`. `outer`, `size`: of the undeformed mesh; see meshSize(). Ids
 /// come from the first of: the array BoundaryIdArray; MorphPointId; the point's own number where
 /// the boundary has as many points as the mesh (outer nodes only); PointIds; vtkOriginalPointIds,

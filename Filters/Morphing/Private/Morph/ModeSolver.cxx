@@ -8,24 +8,37 @@
 
 namespace morph::filters
 {
-void ModeSolver::Forget()
+ModeSolver::ModeSolver(std::unique_ptr<KeptMesh> mesh)
+  : Kept(std::move(mesh))
 {
-  this->Method.reset();
-  this->Hanging = {};
+}
+
+bool ModeSolver::Take(
+  vtkUnstructuredGrid* grid, const CreateMorpher& create, morph::Monitor& monitor)
+{
+  const bool isTaken = this->Kept->Take(grid, "vtkMorphShapes", create, monitor);
+  if (isTaken)
+  {
+    this->Method.reset();
+    this->Hanging = {};
+  }
+  return isTaken;
 }
 
 void ModeSolver::ReportMesh(morph::Monitor& whole) const
 {
   const morph::UndeformedMesh& rest = this->Rest();
-  morph::FirstSpeaks monitor(whole, this->All());
+  morph::FirstSpeaks monitor(whole, this->Rest().all());
   morph::warnOfShared(rest.repeatedCells(), rest.touchingNodes(), monitor);
   morph::warnOfUnmapped(rest.unmappedCells(), monitor);
 }
 
-const morph::InvertedBefore& ModeSolver::Before(morph::Monitor& monitor) const
+morph::BoundaryTargets ModeSolver::Match(
+  vtkPointSet* boundary, const BoundaryMatch::Options& options) const
 {
-  this->All().together([&] { this->Rest().before(monitor); });
-  return this->Rest().before(monitor);
+  morph::BoundaryTargets match = this->Kept->Match(boundary, options);
+  morph::requirePlane(match);
+  return match;
 }
 
 void ModeSolver::Prepare(std::unique_ptr<morph::LinearMorpher> method,
@@ -37,14 +50,14 @@ void ModeSolver::Prepare(std::unique_ptr<morph::LinearMorpher> method,
   method.reset(dynamic_cast<morph::LinearMorpher*>(rest.fitted(std::move(method)).release()));
   this->Prescribed = prescribed;
   morph::NodePartition partition;
-  this->All().together(
+  this->Rest().all().together(
     [&]
     {
       partition =
         morph::partitionNodes(this->Mesh(), rest.hanging(), rest.prescribedFor(prescribed));
     });
   method->prepare(this->Mesh(), partition, monitor, rest.processes());
-  this->Hanging = morph::AttachedNodes(this->Mesh(), partition, this->All());
+  this->Hanging = morph::AttachedNodes(this->Mesh(), partition, this->Rest().all());
   this->Method = std::move(method);
 }
 
@@ -59,5 +72,27 @@ std::vector<morph::Points> ModeSolver::Basis(const std::vector<morph::Points>& d
     given.emplace_back(all(this->Method->partition().prescribed, morph::allColumns));
   }
   return this->Method->basis(given, monitor, &reports);
+}
+
+MorphOutput::Measured ModeSolver::Write(vtkUnstructuredGrid* grid, const morph::Points& moved,
+  int precision, bool all, const MorphOutput::Outputs& outputs, morph::Monitor& monitor) const
+{
+  MorphOutput::WriteMesh(*this->Kept, moved, precision, grid, outputs.Mesh, monitor);
+  MorphOutput::Measures measures;
+  measures.All = all;
+  measures.WorstMean = false;
+  MorphOutput::Measured measured =
+    MorphOutput::Measure(*this->Kept, {}, measures, nullptr, outputs, monitor);
+  if (all)
+  {
+    this->Kept->Surface().MarkCrossing(measured.Crossing.Own, outputs.Surface);
+  }
+  return measured;
+}
+
+bool ModeSolver::Crosses(const morph::Points& moved, morph::Monitor& monitor) const
+{
+  const morph::WholeBoundary& boundary = this->Rest().boundary();
+  return !boundary.crossings(boundary.faces(), boundary.gather(moved), monitor).empty();
 }
 }

@@ -3,18 +3,18 @@
 
 #include "Private/Data/BadCells.h"
 #include "Private/Data/Output.h"
-#include "Private/Data/Quality.h"
 #include "Private/Data/Results.h"
 #include "Private/Morph/KeptMesh.h"
 #include "Private/Pipeline/Input.h"
-#include "Quality/ScaledJacobian.h"
 #include "Session/Series.h"
 #include "Session/UndeformedMesh.h"
+#include "Support/FirstSpeaks.h"
 
 #include <vtkDataObject.h>
 #include <vtkPolyData.h>
 #include <vtkUnstructuredGrid.h>
 
+#include <cstdint>
 #include <limits>
 #include <string>
 #include <vector>
@@ -23,106 +23,31 @@ namespace morph::filters::MorphOutput
 {
 namespace
 {
-/// Measures all cells, and writes what follows from it.
-void measureAll(const KeptMesh& kept, const morph::StepResult& step, Measures measures,
-  vtkPointSet* boundary, Results& results, const Outputs& outputs, morph::Monitor& monitor)
-{
-  vtkUnstructuredGrid* output = outputs.Mesh;
-  const morph::UndeformedMesh& rest = *kept.Rest();
-  const bool known =
-    !step.valid.measured.scaledJacobian.empty() && Quality::IsThatOfComputed(output);
-  const morph::Quality measured =
-    known ? morph::Quality() : Quality::Measure(rest.mesh(), output, rest.orientation(), monitor);
-  const morph::Quality& quality = known ? step.valid.measured : measured;
-  const Quality::Judged judged = Quality::Judge(rest.before(monitor), quality, output);
-  SetStatus(step, judged.Added, results, &monitor);
-  results.Set(judged);
-  Quality::Write(quality, output);
-  results.Set(quality);
-  results.SetNumber("WorstMeanScaledJacobian", morph::worstMean(quality));
-  results.SetNumber("BoundaryMinimum", step.boundaryMinimum);
-  if (measures.Certify)
-  {
-    const morph::CertificateReport report =
-      Quality::Certify(rest.mesh(), output, rest.orientation(), {}, monitor);
-    Quality::Write(report, output);
-    results.Set(report);
-  }
-  Crossings::Found found;
-  if (measures.Cross)
-  {
-    found = Crossings::Find(
-      rest.mesh(), rest.outerFaces(), rest.orientation(), output, boundary, monitor);
-    if (found.Count > 0)
-    {
-      monitor.warn(found.Warning);
-    }
-    SetCrossings(found, results);
-  }
-  BadCells::Extract(quality, output, outputs.BadCells);
-  results.SetInteger(
-    "SurfaceInvertedCells", kept.Surface().Write(output->GetPoints(), quality, outputs.Surface));
-  if (found.Count > 0)
-  {
-    kept.Surface().MarkCrossing(found.Own, outputs.Surface);
-  }
-}
-
-/// Measures the cells behind the outer faces alone.
-void measureSurface(
-  const KeptMesh& kept, Results& results, const Outputs& outputs, morph::Monitor& monitor)
-{
-  vtkUnstructuredGrid* output = outputs.Mesh;
-  const morph::UndeformedMesh& rest = *kept.Rest();
-  const morph::Quality quality =
-    Quality::Measure(rest.mesh(), output, rest.orientation(), kept.Surface().OuterCells(), monitor);
-  results.SetInteger(
-    "SurfaceInvertedCells", kept.Surface().Write(output->GetPoints(), quality, outputs.Surface));
-  results.SetText("MorphStatus", "Unmeasured");
-}
-}
-
-void WriteMesh(const KeptMesh& kept, const morph::Points& moved, int precision,
-  vtkUnstructuredGrid* grid, vtkUnstructuredGrid* output, morph::Monitor& monitor)
-{
-  Output::Write(grid, kept.Rest()->mesh().points, moved, precision, output, monitor);
-  Quality::Remove(output);
-}
-
-void WriteMeasures(const KeptMesh& kept, const morph::StepResult& step, Measures measures,
-  vtkPointSet* boundary, Results& results, const Outputs& outputs, morph::Monitor& monitor)
-{
-  if (measures.All)
-  {
-    measureAll(kept, step, measures, boundary, results, outputs, monitor);
-  }
-  else
-  {
-    outputs.BadCells->Initialize();
-    measureSurface(kept, results, outputs, monitor);
-  }
-  morph::warnOfLoose(step.loose, monitor);
-  WriteCounts(step, results, outputs.Mesh);
-}
-
-void SetStatus(
-  const morph::StepResult& step, morph::Index bad, Results& results, morph::Monitor* monitor)
+/// Sets the step's status and largest valid step. Where rounding has inverted `bad` cells of a mesh
+/// that was valid, both are those of an inverted mesh.
+void setStatus(
+  const morph::StepResult& step, morph::Index bad, Results& results, morph::Monitor& monitor)
 {
   const bool isRounded = step.valid.status != "Inverted" && bad > 0;
-  if (isRounded && monitor)
+  if (isRounded)
   {
-    monitor->warn("Rounding to single precision inverts " + std::to_string(bad) +
-                  " cells. Set `OutputPointsPrecision` to double.");
+    monitor.warn("Rounding to single precision inverts " + std::to_string(bad) +
+                 " cells. Set `OutputPointsPrecision` to double.");
   }
   results.SetText("MorphStatus", isRounded ? "Inverted" : step.valid.status);
   results.SetNumber("LargestValidStep",
     isRounded ? std::numeric_limits<double>::quiet_NaN() : step.valid.largestValidStep);
 }
 
-void SetCrossings(const Crossings::Found& found, Results& results)
+/// Sets the number of crossing faces and, of a mesh that is valid all the way, its status.
+void setCrossings(const Crossings::Found& found, Results& results, morph::Monitor& monitor)
 {
   results.SetInteger("CrossingFaces", found.Count);
   const std::string status = results.Text("MorphStatus");
+  if (found.Count > 0)
+  {
+    monitor.warn(found.Warning);
+  }
   if (found.Count > 0 && status != "Inverted" && status != "Partial")
   {
     results.SetText("MorphStatus", "CrossesItself");
@@ -130,8 +55,119 @@ void SetCrossings(const Crossings::Found& found, Results& results)
   }
 }
 
-void WriteCounts(const morph::StepResult& step, Results& results, vtkDataObject* output)
+/// Those that are not measured, where the cells behind the outer faces alone are.
+std::vector<std::uint8_t> innerCells(const KeptMesh& kept)
 {
+  const std::vector<std::uint8_t>& skip = kept.Unmeasured();
+  std::vector<std::uint8_t> inner(kept.Grid().types.size(), 1);
+  for (const morph::Index cell : kept.Surface().OuterCells())
+  {
+    inner[cell] = skip.empty() ? 0 : skip[cell];
+  }
+  return inner;
+}
+}
+
+void WriteMesh(const KeptMesh& kept, const morph::Points& moved, int precision,
+  vtkUnstructuredGrid* grid, vtkUnstructuredGrid* output, morph::Monitor& monitor)
+{
+  kept.All().together(
+    [&]
+    {
+      morph::Points memory;
+      Output::Write(
+        grid, kept.Grid().points, kept.OfGrid(moved, memory), precision, output, monitor);
+      Quality::Remove(output);
+    });
+}
+
+Measured Measure(const KeptMesh& kept, const morph::Quality& known, Measures measures,
+  vtkPointSet* boundary, const Outputs& outputs, morph::Monitor& monitor)
+{
+  vtkUnstructuredGrid* output = outputs.Mesh;
+  const morph::Communicator& all = kept.All();
+  const std::vector<std::int8_t>& orientation = kept.Rest()->orientation();
+  const std::vector<std::uint8_t> skip = measures.All ? kept.Unmeasured() : innerCells(kept);
+  // Of a part of a mesh, `known` has cells of other processes.
+  const bool isKnown =
+    skip.empty() && !known.scaledJacobian.empty() && Quality::IsThatOfComputed(output);
+  morph::Quality measured;
+  all.together(
+    [&]
+    {
+      if (!isKnown)
+      {
+        measured = Quality::Measure(kept.Grid(), output, orientation, skip, monitor);
+      }
+    });
+  const morph::Quality& quality = isKnown ? known : measured;
+  Measured result;
+  if (measures.All)
+  {
+    const morph::InvertedBefore& before = kept.Before(monitor);
+    all.together([&] { result.Judged = Quality::Judge(before, quality, output); });
+    result.Judged = { all.sum(result.Judged.Before), all.sum(result.Judged.Added) };
+    Quality::Write(quality, output);
+    result.Whole = morph::ofAll(quality, all);
+    result.WorstMean = measures.WorstMean ? morph::worstMean(quality, 0.01, all) : 0;
+  }
+  if (measures.All && measures.Certify)
+  {
+    result.Certificates = Quality::Certify(kept.Grid(), output, orientation, skip, all, monitor);
+    Quality::Write(result.Certificates, output);
+  }
+  if (measures.All && measures.Cross)
+  {
+    result.Crossing = Crossings::Find(*kept.Rest(), kept.Grid(), output, boundary, monitor);
+  }
+  all.together(
+    [&]
+    {
+      outputs.BadCells->Initialize();
+      if (measures.All)
+      {
+        BadCells::Extract(quality, output, outputs.BadCells);
+      }
+      result.SurfaceInverted = kept.Surface().Write(output->GetPoints(), quality, outputs.Surface);
+      if (result.Crossing.Count > 0)
+      {
+        kept.Surface().MarkCrossing(result.Crossing.Own, outputs.Surface);
+      }
+    });
+  result.SurfaceInverted = all.sum(result.SurfaceInverted);
+  kept.WriteGlobalIds(outputs.BadCells);
+  kept.WriteGlobalIds(outputs.Surface);
+  return result;
+}
+
+void WriteMeasures(const KeptMesh& kept, const morph::StepResult& step, Measures measures,
+  vtkPointSet* boundary, Results& results, const Outputs& outputs, morph::Monitor& whole)
+{
+  morph::FirstSpeaks monitor(whole, kept.All());
+  const Measured measured =
+    Measure(kept, step.valid.measured, measures, boundary, outputs, monitor);
+  results.SetInteger("SurfaceInvertedCells", measured.SurfaceInverted);
+  if (!measures.All)
+  {
+    results.SetText("MorphStatus", "Unmeasured");
+  }
+  else
+  {
+    setStatus(step, measured.Judged.Added, results, monitor);
+    results.Set(measured.Judged);
+    results.Set(measured.Whole);
+    results.SetNumber("WorstMeanScaledJacobian", measured.WorstMean);
+    results.SetNumber("BoundaryMinimum", step.boundaryMinimum);
+    if (measures.Certify)
+    {
+      results.Set(measured.Certificates);
+    }
+    if (measures.Cross)
+    {
+      setCrossings(measured.Crossing, results, monitor);
+    }
+  }
+  morph::warnOfLoose(step.loose, monitor);
   results.SetInteger("BoundaryInvertedCells", step.boundaryInverted);
   results.SetInteger("SubSteps", step.valid.subSteps);
   results.SetInteger("SolverIterations", step.iterations);
@@ -139,7 +175,7 @@ void WriteCounts(const morph::StepResult& step, Results& results, vtkDataObject*
   results.SetInteger("UnmatchedPoints", step.unmatched);
   results.SetInteger("AttachedPoints", step.attached);
   results.SetCounts(step.statistics);
-  results.Write(output);
+  results.Write(outputs.Mesh);
 }
 
 void WriteUndeformed(vtkDataObject* input, const char* status, morph::Index boundaryInverted,

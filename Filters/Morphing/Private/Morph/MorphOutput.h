@@ -3,6 +3,9 @@
 
 #include "Mesh/Mesh.h"
 #include "Private/Data/Crossings.h"
+#include "Private/Data/Quality.h"
+#include "Quality/Certificate.h"
+#include "Quality/ScaledJacobian.h"
 
 class vtkDataObject;
 class vtkPointSet;
@@ -33,28 +36,38 @@ struct Outputs
 
 struct Measures
 {
-  bool All = true;      ///< of all cells, not of those behind the outer faces alone
-  bool Certify = false; ///< vtkMorphAlgorithm::SetCertify(); with All alone
-  bool Cross = true;    ///< whether the boundary crosses itself; with All alone
+  bool All = true;       ///< of all cells, not of those behind the outer faces alone
+  bool Certify = false;  ///< vtkMorphAlgorithm::SetCertify(); with All alone
+  bool Cross = true;     ///< whether the boundary crosses itself; with All alone
+  bool WorstMean = true; ///< the mean of the worst cells; with All alone
 };
 
-/// Writes the mesh at `moved`. `precision`: of the points, as vtkAlgorithm::DEFAULT_PRECISION.
-/// Throws morph::Error where that precision does not hold the points.
+/// What is measured of a mesh as written. All numbers are those of the whole mesh.
+struct Measured
+{
+  // Of all cells alone.
+  morph::Quality Whole; ///< without the values of single cells
+  double WorstMean = 0; ///< where it is asked for
+  Quality::Judged Judged;
+  morph::CertificateReport Certificates; ///< counts, where they are asked for
+  Crossings::Found Crossing;             ///< where they are asked for
+
+  morph::Index SurfaceInverted = 0; ///< cells behind the outer faces
+};
+
+/// Writes the mesh at `moved`, of the nodes of kept.Rest(). `precision`: of the points, as
+/// vtkAlgorithm::DEFAULT_PRECISION. Throws morph::Error where that precision does not hold the
+/// points. Collective, as all functions that measure.
 void WriteMesh(const KeptMesh& kept, const morph::Points& moved, int precision,
   vtkUnstructuredGrid* grid, vtkUnstructuredGrid* output, morph::Monitor& monitor);
-/// Writes what is measured on outputs.Mesh, which has a step's mesh: its quality, its inverted
-/// cells and its surface. It does not read the step's points. `boundary`: the displaced one.
+/// Measures outputs.Mesh, which WriteMesh() has written, and writes its quality, its inverted cells
+/// and its surface. `known`: of the computed points, or empty. `boundary`: the displaced one, or
+/// null.
+Measured Measure(const KeptMesh& kept, const morph::Quality& known, Measures measures,
+  vtkPointSet* boundary, const Outputs& outputs, morph::Monitor& monitor);
+/// Measures a step's mesh, as above, and writes the results. It does not read the step's points.
 void WriteMeasures(const KeptMesh& kept, const morph::StepResult& step, Measures measures,
   vtkPointSet* boundary, Results& results, const Outputs& outputs, morph::Monitor& monitor);
-
-/// Sets the step's status and largest valid step. Where rounding has inverted `bad` cells of a mesh
-/// that was valid, both are those of an inverted mesh. `monitor`: is warned of it, or null.
-void SetStatus(
-  const morph::StepResult& step, morph::Index bad, Results& results, morph::Monitor* monitor);
-/// Sets the number of crossing faces and, of a mesh that is valid all the way, its status.
-void SetCrossings(const Crossings::Found& found, Results& results);
-/// Sets the counts of a step and of its method, and adds all results to the output.
-void WriteCounts(const morph::StepResult& step, Results& results, vtkDataObject* output);
 
 /// Writes the undeformed mesh, if `input` is a readable mesh, without a result.
 /// `boundaryInverted`: the number of cells that the boundary itself inverts, if that is the reason.

@@ -8,8 +8,8 @@
 #include "LinearMethods/SimplexNaturalNeighbor.h"
 #include "LinearMethods/WeightedResidual.h"
 #include "Mesh/ShellLayer.h"
+#include "Private/Morph/SerialMesh.h"
 #include "Private/Pipeline/Input.h"
-#include "Private/Shapes/KeptModeSolver.h"
 #include "Session/UndeformedMesh.h"
 #include "Support/Error.h"
 #include "Support/ProgressRange.h"
@@ -185,7 +185,7 @@ std::vector<double> vtkMorphShapes::vtkInternals::PresentWeights(
 void vtkMorphShapes::vtkInternals::WriteUndeformedSurface(
   vtkUnstructuredGrid* grid, vtkPolyData* surface) const
 {
-  const filters::KeptModeSolver none{};
+  const filters::ModeSolver none(std::make_unique<filters::SerialMesh>());
   const filters::ModeSolver* solver = this->Modes.GetSolver();
   (solver ? solver : &none)->WriteUndeformedSurface(grid, surface);
 }
@@ -238,7 +238,7 @@ void vtkMorphShapes::vtkInternals::Write(vtkUnstructuredGrid* grid,
   const bool all = this->Filter->Options->Quality == QUALITY_ALL;
   const filters::MorphOutput::Outputs written = { this->Ports.Output(outputs),
     vtkUnstructuredGrid::GetData(outputs, 1), vtkPolyData::GetData(outputs, 2) };
-  const filters::ModeSolver::Measured measured = this->Modes.GetSolver()->Write(
+  const filters::MorphOutput::Measured measured = this->Modes.GetSolver()->Write(
     grid, this->Moved, this->Filter->Options->OutputPointsPrecision, all, written, monitor);
   const morph::Quality& quality = measured.Whole;
   this->Results.SetInteger("SurfaceInvertedCells", measured.SurfaceInverted);

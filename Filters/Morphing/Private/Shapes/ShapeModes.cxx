@@ -2,7 +2,7 @@
 #include "Private/Shapes/ShapeModes.h"
 
 #include "Private/Distributed/OnRanks.h"
-#include "Private/Shapes/KeptModeSolver.h"
+#include "Private/Morph/SerialMesh.h"
 #include "Session/UndeformedMesh.h"
 #include "Support/Error.h"
 #include "Support/ProgressRange.h"
@@ -88,8 +88,8 @@ bool ShapeModes::SetGrid(vtkUnstructuredGrid* grid, RankGroup::Of processes, con
   if (!this->Solver || this->Processes.IsOf() != processes)
   {
     this->Processes = RankGroup(processes);
-    this->Solver = processes == RankGroup::Of::All ? OnRanks::MakeModeSolver()
-                                                   : std::make_unique<KeptModeSolver>();
+    this->Solver = std::make_unique<ModeSolver>(
+      processes == RankGroup::Of::All ? OnRanks::MakeMesh() : std::make_unique<SerialMesh>());
   }
   const bool isTaken = this->Solver->Take(grid, options.CreateMorpher, monitor);
   if (isTaken)

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Private/Morph/KeptMesh.h"
+#include "Private/Morph/SerialMesh.h"
 
+#include "Private/Data/Gradient.h"
 #include "Private/Data/GridMesh.h"
 #include "Support/Error.h"
 #include "Support/Monitor.h"
 
+#include <vtkPointSet.h>
 #include <vtkPolyData.h>
 #include <vtkUnstructuredGrid.h>
 
@@ -12,7 +14,8 @@
 
 namespace morph::filters
 {
-bool KeptMesh::Take(vtkUnstructuredGrid* grid, morph::Monitor& monitor)
+bool SerialMesh::Take(
+  vtkUnstructuredGrid* grid, const std::string&, const CreateMorpher&, morph::Monitor& monitor)
 {
   const morph::Mesh& kept = this->Copy->mesh();
   if (this->Taken.Is(grid) && kept.numberOfCells() > 0)
@@ -39,11 +42,30 @@ bool KeptMesh::Take(vtkUnstructuredGrid* grid, morph::Monitor& monitor)
   }
   this->Copy = std::move(rest);
   this->Taken.See(grid);
-  this->SetFeatureLines(false); // those of other points
+  this->SetFeatureLines(false, monitor); // those of other points
   return true;
 }
 
-void KeptMesh::WriteUndeformedSurface(vtkUnstructuredGrid* grid, vtkPolyData* surface) const
+void SerialMesh::SetFeatureLines(bool on, morph::Monitor&)
+{
+  this->Polygons.SetFeatureLines(on, this->Copy->mesh(), this->Copy->outerFaces());
+}
+
+morph::BoundaryTargets SerialMesh::Match(vtkPointSet* boundary,
+  const BoundaryMatch::Options& options, std::vector<BoundaryMatch::Follower>*) const
+{
+  return BoundaryMatch::Match(
+    boundary, this->Copy->mesh(), this->Copy->outerFaces(), this->Copy->size(), options);
+}
+
+void SerialMesh::SendBack(const morph::BoundaryTargets& match,
+  const std::vector<BoundaryMatch::Follower>&, const morph::Points& prescribed,
+  vtkPointSet* boundary, vtkDoubleArray* result) const
+{
+  Gradient::Gather(prescribed, match.sources, boundary->GetNumberOfPoints(), result);
+}
+
+void SerialMesh::WriteUndeformedSurface(vtkUnstructuredGrid* grid, vtkPolyData* surface) const
 {
   surface->Initialize();
   if (grid->GetNumberOfCells() == 0)
@@ -58,8 +80,8 @@ void KeptMesh::WriteUndeformedSurface(vtkUnstructuredGrid* grid, vtkPolyData* su
   try
   {
     morph::Monitor monitor;
-    KeptMesh other;
-    other.Take(grid, monitor);
+    SerialMesh other;
+    other.Take(grid, "", {}, monitor);
     other.Polygons.Write(grid->GetPoints(), surface);
   }
   catch (const morph::Error&)
