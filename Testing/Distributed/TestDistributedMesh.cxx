@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Boundary/WholeBoundary.h"
 #include "Distributed/DistributedMesh.h"
 #include "Distributed/RankCommunicator.h"
 #include "Mesh/Topology.h"
@@ -140,6 +141,33 @@ TEST(DistributedMesh, HasTheOuterFacesBodiesAndOrientationOfTheWhole)
     EXPECT_EQ(reduced.measured, quality.measured) << name;
     EXPECT_EQ(reduced.inverted, quality.inverted) << name;
     EXPECT_EQ(reduced.worstCell, quality.worstCell) << name;
+  }
+}
+
+TEST(DistributedMesh, HasTheBoundaryOfOneProcessOnEachRank)
+{
+  const Ranks ranks = pieces::world();
+  Monitor monitor;
+  for (const auto& [name, whole] : meshes::all(4, 3, 3))
+  {
+    const DistributedMesh mesh = pieces::distribute(ranks, whole, 1, meshes::seed());
+    const morph::distributed::RankCommunicator processes(mesh);
+    const morph::WholeBoundary mine(mesh.mesh(), mesh.outerFaces(), mesh.orientation(), processes);
+    const morph::WholeBoundary serial(whole, morph::boundaryFaces(whole, monitor),
+      morph::cellSigns(whole, morph::connectedComponents(whole)), morph::Communicator::alone());
+    EXPECT_EQ(mine.cells(), serial.cells()) << name;
+    EXPECT_EQ(mine.nodes(), serial.nodes()) << name;
+    EXPECT_EQ(mine.orientation(), serial.orientation()) << name;
+    EXPECT_EQ(mine.faces().sides, serial.faces().sides) << name;
+    EXPECT_EQ(mine.faces().connectivity, serial.faces().connectivity) << name;
+    const morph::Adjacency &own = mine.faces().between, &between = serial.faces().between;
+    ASSERT_EQ(own.offsets, between.offsets) << name;
+    for (Index n = 0; n < mine.rest().rows(); ++n)
+    {
+      EXPECT_TRUE(std::is_permutation(own.begin(n), own.end(n), between.begin(n))) << name;
+    }
+    EXPECT_EQ(mine.rest(), serial.rest()) << name;
+    EXPECT_EQ(mine.gather(2 * mesh.mesh().points), 2 * serial.rest()) << name;
   }
 }
 
