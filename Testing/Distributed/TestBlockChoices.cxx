@@ -39,7 +39,7 @@ Tree quarters()
 
 constexpr int FlatIndexOfB = 4;
 
-/// The points of block B with x[2] > 0, by their ids in this rank's part of the block.
+/// The points of the upper half of block B, by their ids in this rank's part of the block.
 vtkSmartPointer<vtkSelection> upperPointsOfB(vtkDataObjectTree* tree)
 {
   vtkNew<vtkIdTypeArray> ids;
@@ -52,7 +52,7 @@ vtkSmartPointer<vtkSelection> upperPointsOfB(vtkDataObjectTree* tree)
         grids::points(vtkPointSet::SafeDownCast(item->GetCurrentDataObject()));
       for (morph::Index i = 0; i < x.rows(); ++i)
       {
-        if (x(i, 2) > x.col(2).mean())
+        if (x(i, 2) > 0.4)
         {
           ids->InsertNextValue(i);
         }
