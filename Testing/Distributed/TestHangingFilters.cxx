@@ -180,9 +180,11 @@ TEST_P(RankHangingFilters, RepairAndSmoothingLeaveNoGap)
     auto serial = make(), mine = make();
     this->Run(serial, mine, what == "repair" ? dented : bent);
     this->ExpectNoGap(mine);
-    EXPECT_EQ(mine->GetInvertedCells(), 0);
-    EXPECT_GT(
-      mine->GetMinScaledJacobian(), what == "repair" ? 0 : 0.95 * serial->GetMinScaledJacobian());
+    // Smoothing sees the corners of quadratic cells alone, and may leave one inverted between them.
+    const double least = serial->GetMinScaledJacobian();
+    EXPECT_EQ(mine->GetInvertedCells(), serial->GetInvertedCells());
+    EXPECT_TRUE(what == "smoothing" || serial->GetInvertedCells() == 0);
+    EXPECT_GT(mine->GetMinScaledJacobian(), what == "repair" ? 0 : least - 0.05 * std::abs(least));
   }
 }
 
