@@ -10,6 +10,7 @@
 #include "Quality/Certificate.h"
 #include "Quality/ScaledJacobian.h"
 #include "Support/Error.h"
+#include "Untangling/BoundaryCheck.h"
 #include "Untangling/HigherOrderUntangling.h"
 #include "Untangling/InversionFree.h"
 
@@ -276,4 +277,35 @@ TEST(RankInversionFree, ACancelledRankEndsAll)
   {
     mine.expectCancelled(motions::mapped(whole.points, waves), at);
   }
+}
+
+TEST(RankInversionFree, FoldsOfTheBoundaryAreThoseOfOneProcess)
+{
+  const Ranks ranks = pieces::world();
+  const Mesh whole = meshes::hexes(8, 8, 4);
+  // A patch of the top is turned inside out.
+  const motions::Map map = [](const motions::Row& x)
+  {
+    const bool isTurned = x[2] == 4 && std::abs(x[0] - 4) < 2 && std::abs(x[1] - 4) < 2;
+    return isTurned ? motions::Row(4 - 0.8 * (x[0] - 4), x[1], x[2]) : x;
+  };
+  morph::Monitor monitor;
+  const auto check = [&](const Mesh& mesh, const std::vector<Index>& prescribed,
+                       const std::vector<std::int8_t>& signs, const morph::BoundaryFaces& faces,
+                       const morph::Communicator& processes)
+  {
+    const morph::NodePartition partition = morph::partitionNodes(mesh, prescribed);
+    return morph::BoundaryCheck(mesh, partition, signs, faces, monitor, processes)
+      .at(motions::targets(mesh, partition, map))
+      .folded;
+  };
+  const std::vector<Index> outer = motions::outerPartition(whole).prescribed;
+  const std::vector<Index> serial =
+    check(whole, outer, morph::cellSigns(whole, morph::connectedComponents(whole)),
+      morph::boundaryFaces(whole, monitor), morph::Communicator::alone());
+  ASSERT_FALSE(serial.empty());
+  const auto mesh = pieces::distribute(ranks, whole, 1, meshes::seed());
+  EXPECT_EQ(mesh.gatherCells(check(mesh.mesh(), pieces::localNodes(mesh, outer), mesh.orientation(),
+              mesh.outerFaces(), morph::distributed::RankCommunicator(mesh))),
+    serial);
 }
