@@ -212,7 +212,7 @@ bool hangs(morph::Mesh mesh, Index node)
 {
   morph::Monitor monitor;
   morph::HangingNodes hanging;
-  morph::replaceCollapsedCells(mesh);
+  morph::recognizeCells(mesh, monitor);
   morph::boundaryFaces(mesh, hanging, monitor);
   return hanging.hangs(node);
 }

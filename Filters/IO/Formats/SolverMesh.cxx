@@ -171,8 +171,8 @@ Mesh coreMesh(const SolverMesh& mesh)
   result.faceOffsets = mesh.faceOffsets;
   result.faces = mesh.faces;
   validate(result);
-  replaceCollapsedCells(result);
-  orientPolyhedra(result);
+  Monitor serial;
+  recognizeCells(result, serial);
   return result;
 }
 

@@ -22,6 +22,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <string>
 #include <type_traits>
@@ -129,7 +130,11 @@ void RequireWritable(const morph::Points& rest, const morph::Points& moved, bool
     }
     return morph::listIds(rows);
   };
-  if (const auto wrong = morph::immoderateRows(moved); !wrong.empty())
+  // Points of no cell may be anything, and stay so.
+  const auto wasFinite = [&rest](morph::Index n) { return rest.row(n).allFinite(); };
+  std::vector<morph::Index> wrong = morph::immoderateRows(moved);
+  wrong.erase(std::remove_if(wrong.begin(), wrong.end(), std::not_fn(wasFinite)), wrong.end());
+  if (!wrong.empty())
   {
     throw morph::Error(std::string("The motion takes ") + what +
                        " to places that are not finite or beyond 1e50: node ids " + list(wrong) +
@@ -138,9 +143,9 @@ void RequireWritable(const morph::Points& rest, const morph::Points& moved, bool
   std::vector<morph::Index> tooLarge;
   for (morph::Index n = 0; isFloat && n < moved.rows(); ++n)
   {
-    if (std::max(moved.row(n).array().abs().maxCoeff(),
-          (moved.row(n) - rest.row(n)).array().abs().maxCoeff()) >
-        std::numeric_limits<float>::max())
+    if (wasFinite(n) && std::max(moved.row(n).array().abs().maxCoeff(),
+                          (moved.row(n) - rest.row(n)).array().abs().maxCoeff()) >
+                          std::numeric_limits<float>::max())
     {
       tooLarge.push_back(n);
     }
