@@ -471,7 +471,7 @@ TEST_P(CurvedShell, HowTheCellsAreWoundHasNoEffect)
     { plane, quadratic(plane, [](const Row& x) { return x; }), quadratic(plane, saddle) })
   {
     Mesh mixed = wound;
-    for (Index c = 0; c < mixed.numberOfCells(); c += 3)
+    for (Index c = 0; c < mixed.numberOfCells(); c += 5)
     {
       const Index corners = morph::cellShape(mixed, c)->numberOfCorners;
       Index* cell = mixed.connectivity.data() + mixed.offsets[c];
@@ -479,7 +479,8 @@ TEST_P(CurvedShell, HowTheCellsAreWoundHasNoEffect)
       std::reverse(cell + corners, cell + mixed.cellSize(c)); // middles
     }
     const Mesh one = morph::thicken(wound), other = morph::thicken(mixed);
-    EXPECT_LT(motions::difference(one.points, other.points), 1e-15);
+    const Index images = 2 * wound.numberOfNodes(); // those in middles have another order
+    EXPECT_LT(motions::difference(one.points.topRows(images), other.points.topRows(images)), 1e-15);
     const std::vector<std::int8_t> signs(one.types.size(), 1);
     const auto measure = [&](const Mesh& mesh)
     { return morph::measureQuality(mesh, mesh.points, signs, {}, silent); };

@@ -365,6 +365,8 @@ TEST_P(MorphFilters, CollapsedCellsAreMeasuredAsTheCellsThatTheyAre)
 TEST_P(MorphFilters, PointsOfNoCellMayBeAnything)
 {
   auto grid = grids::hexes(3);
+  grid->GetPointData()->Initialize();
+  grid->GetCellData()->Initialize();
   const double nan = std::nan("");
   const vtkIdType point = grid->GetPoints()->InsertNextPoint(nan, std::log(0.), 1);
   grid->InsertNextCell(VTK_EMPTY_CELL, 1, &point); // as hidden cells are stored

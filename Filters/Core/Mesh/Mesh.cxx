@@ -88,9 +88,12 @@ void validate(const Mesh& mesh)
     return;
   }
   std::vector<std::uint8_t> isUsed(nodes, 0);
-  for (const Index node : mesh.connectivity)
+  for (Index c = 0; c < cells; ++c)
   {
-    isUsed[node] = 1;
+    for (Index k = 0; mesh.types[c] != EmptyCell && k < mesh.cellSize(c); ++k)
+    {
+      isUsed[mesh.cell(c)[k]] = 1;
+    }
   }
   notFinite.erase(std::remove_if(notFinite.begin(), notFinite.end(),
                     [&](Index node) { return isUsed[node] == 0; }),

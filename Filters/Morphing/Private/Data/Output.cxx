@@ -33,11 +33,12 @@ namespace
 {
 constexpr morph::Index Grain = 4096;
 
-/// The points as written and minus `rest`, or nothing where these or those are not writable.
+/// The points as written and minus `rest`, and whether all of these and those are writable.
 template <typename Array>
 struct Written
 {
   vtkSmartPointer<Array> Coordinates, Displacement;
+  bool IsWritable;
 
   static Written Make(
     const morph::Points& rest, const morph::Points& moved, morph::Monitor& monitor)
@@ -50,7 +51,7 @@ struct Written
       array->SetNumberOfTuples(moved.rows());
       return array;
     };
-    Written written = { make("Points"), make("MorphDisplacement") };
+    Written written = { make("Points"), make("MorphDisplacement"), true };
     auto *to = written.Coordinates->GetPointer(0), *by = written.Displacement->GetPointer(0);
     using Value = std::remove_pointer_t<decltype(to)>;
     const double most =
@@ -69,7 +70,6 @@ struct Written
         if (!isModerate)
         {
           isWritable = false;
-          return;
         }
         for (morph::Index i = 3 * first; i < 3 * last; ++i)
         {
@@ -77,7 +77,8 @@ struct Written
           by[i] = static_cast<Value>(static_cast<double>(to[i]) - from[i]);
         }
       });
-    return isWritable ? written : Written();
+    written.IsWritable = isWritable;
+    return written;
   }
 };
 
@@ -86,7 +87,7 @@ void writePoints(vtkUnstructuredGrid* input, const morph::Points& rest, const mo
   vtkUnstructuredGrid* output, morph::Monitor& monitor)
 {
   const auto written = Written<Array>::Make(rest, moved, monitor);
-  if (!written.Coordinates)
+  if (!written.IsWritable)
   {
     Output::RequireWritable(rest, moved, std::is_same_v<Array, vtkFloatArray>, "nodes");
   }
