@@ -12,7 +12,6 @@
 #include "Mesh/CellShape.h"
 #include "Mesh/CollapsedCells.h"
 #include "Mesh/NodePartition.h"
-#include "Mesh/Polyhedra.h"
 #include "Quality/BoundaryDetermined.h"
 #include "Quality/ScaledJacobian.h"
 #include "Session/Session.h"

@@ -48,7 +48,7 @@ struct Mesh
 };
 
 /// Throws Error unless the mesh is consistent: array lengths, node ids, finite coordinates of the
-/// cells' nodes, nodes per cell, closed polyhedra. The message names cells of a type that is not in CellShape.h, or of
-/// another order. Cost: one pass over the mesh.
+/// cells' nodes, nodes per cell, closed polyhedra. The message names cells of a type that is not in
+/// CellShape.h, or of another order. Cost: a pass over the mesh.
 void validate(const Mesh& mesh);
 }

@@ -9,7 +9,7 @@
 
 namespace morph
 {
-/// The different corners of a volume cell or nodes of a poly-vertex, ascending; none of another cell.
+/// The corners of a volume cell or nodes of a poly-vertex, each once, ascending; else none.
 std::vector<Index> cornersOf(const Mesh& mesh, Index cell);
 
 /// Returns the volume cells, ascending, that have the same corners as another one, and the

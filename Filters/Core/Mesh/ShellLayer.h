@@ -19,8 +19,8 @@ namespace morph
 /// The layer of a plane mesh is as thick as edges are long on the mean, which no result depends on
 /// but by rounding; its normal is that about which most of the area is wound counterclockwise. A
 /// mesh that is not plane to 1e-6 of its size is a curved shell, a tenth as thick. Its layer stands
-/// on the normals of its nodes: sums of the areas around them. Geometry reads its cells upright; see
-/// StandingCells.h.
+/// on the normals of its nodes: sums of the areas around them. Geometry reads its cells upright;
+/// see StandingCells.h.
 ///
 /// Throws Error for a mesh without area, and for cells other than vertices, lines, triangles and
 /// quadrilaterals, linear or quadratic. It throws for shells with one side alone or without a

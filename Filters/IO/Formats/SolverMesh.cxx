@@ -2,7 +2,6 @@
 #include "Formats/SolverMesh.h"
 
 #include "Mesh/CollapsedCells.h"
-#include "Mesh/Polyhedra.h"
 #include "Support/Error.h"
 
 #include <algorithm>
