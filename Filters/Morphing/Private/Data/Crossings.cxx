@@ -18,6 +18,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <map>
 #include <set>
 #include <sstream>
@@ -229,7 +230,8 @@ Found Find(const morph::UndeformedMesh& rest, const morph::Mesh& grid, vtkUnstru
       if (layer.isCurved() || morph::leavesPlane(layer, written))
       {
         const morph::BoundaryFaces front = morph::frontFaces(grid);
-        const morph::WholeBoundary whole(grid, front, morph::frontWindings(grid), rest.all());
+        const std::vector<std::int8_t> alike(grid.numberOfCells(), 1);
+        const morph::WholeBoundary whole(grid, front, alike, rest.all());
         Found found = findAmong(whole, front, grid, output, nullptr, written, rest.all(), monitor);
         found.Own.clear();
         return found;
