@@ -14,6 +14,7 @@
 #include "Private/Pipeline/Monitor.h"
 #include "Private/Pipeline/Ports.h"
 #include "Private/Pipeline/Ranks.h"
+#include "Support/Lists.h"
 #include "Support/ProgressRange.h"
 
 #include <vtkDataObject.h>
@@ -26,7 +27,6 @@
 
 #include <cstdint>
 #include <memory>
-#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -51,13 +51,6 @@ public:
 
 namespace
 {
-std::vector<morph::Index> firstNumbers(morph::Index count)
-{
-  std::vector<morph::Index> all(count);
-  std::iota(all.begin(), all.end(), morph::Index(0));
-  return all;
-}
-
 /// The geometry where each body has a node of its own behind the boundary's, and then no body.
 morph::Classification withBodies(morph::Classification geometry, morph::Index bodies)
 {
@@ -167,7 +160,7 @@ void vtkClassifyBoundary::Classify(
   vtkUnstructuredGrid* classified = this->Internals->Blocks.Output(outputVector);
   classified->ShallowCopy(grid);
   filters::Geometry::AddPointArrays(
-    geometry, firstNumbers(mesh.numberOfNodes()), classified->GetPointData());
+    geometry, morph::consecutive(mesh.numberOfNodes()), classified->GetPointData());
   vtkInternals::Write(this, grid, mesh, faces, geometry, outputVector);
 }
 

@@ -10,6 +10,7 @@
 #include "Private/Pipeline/Property.h"
 #include "Private/Shapes/Internals.h"
 #include "Support/Error.h"
+#include "Support/Lists.h"
 
 #include <vtkAlgorithmOutput.h>
 #include <vtkDoubleArray.h>
@@ -26,7 +27,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace filters = morph::filters;
 
@@ -212,8 +212,7 @@ int vtkMorphShapes::RequestInformation(
     kept.Rows = static_cast<vtkIdType>(
       all.Maximum(table ? static_cast<double>(table->GetNumberOfRows()) : 0));
   }
-  std::vector<double> times(kept.Rows);
-  std::iota(times.begin(), times.end(), 0.);
+  std::vector<double> times = morph::consecutive<double>(kept.Rows);
   for (int port = 0; port < this->GetNumberOfOutputPorts(); ++port)
   {
     // The undeformed mesh and the shapes are taken at their inputs' own time.

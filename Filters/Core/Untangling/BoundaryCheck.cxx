@@ -4,6 +4,7 @@
 #include "Boundary/CrossingFaces.h"
 #include "Boundary/FoldedFaces.h"
 #include "Mesh/FacesOfCells.h"
+#include "Support/Lists.h"
 
 #include <algorithm>
 
@@ -13,8 +14,7 @@ namespace
 {
 void makeUnique(std::vector<Index>& ids)
 {
-  std::sort(ids.begin(), ids.end());
-  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+  sortUnique(ids);
 }
 }
 

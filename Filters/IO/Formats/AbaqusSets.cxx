@@ -4,6 +4,7 @@
 #include "Formats/AbaqusElements.h"
 #include "Formats/AbaqusKeyword.h"
 #include "Support/Error.h"
+#include "Support/Lists.h"
 #include "Text/NumberText.h"
 
 #include <algorithm>
@@ -15,8 +16,7 @@ namespace
 {
 void sortUnique(std::vector<Index>& list)
 {
-  std::sort(list.begin(), list.end());
-  list.erase(std::unique(list.begin(), list.end()), list.end());
+  sortUnique(list);
 }
 
 void addFound(

@@ -12,6 +12,7 @@
 #include "Private/Data/DataCheck.h"
 #include "Private/Data/Version.h"
 #include "Support/Error.h"
+#include "Support/Lists.h"
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
@@ -33,7 +34,6 @@
 #include <iterator>
 #include <limits>
 #include <map>
-#include <numeric>
 
 namespace morph::filters
 {
@@ -211,8 +211,7 @@ void orderCells(const std::vector<Part>& parts, Cells& cells)
   }
   const auto idOf = [&](Index cell)
   { return ids[cells.Owners[cell].first][cells.Owners[cell].second]; };
-  std::vector<Index> order(cells.Owners.size());
-  std::iota(order.begin(), order.end(), Index(0));
+  std::vector<Index> order = consecutive(cells.Owners.size());
   std::sort(order.begin(), order.end(), [&](Index a, Index b) { return idOf(a) < idOf(b); });
   if (std::adjacent_find(order.begin(), order.end(),
         [&](Index a, Index b) { return idOf(a) == idOf(b); }) != order.end())
@@ -410,8 +409,7 @@ void orderNodes(const SharedNodes& nodes, MergedBlocks& merged)
   {
     return;
   }
-  std::vector<Index> rank(order.size());
-  std::iota(rank.begin(), rank.end(), Index(0));
+  std::vector<Index> rank = consecutive(order.size());
   reorder(order, rank);
   for (Block& block : merged.All)
   {

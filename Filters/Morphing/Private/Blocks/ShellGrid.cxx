@@ -7,6 +7,7 @@
 #include "Private/Data/GridMesh.h"
 #include "Private/Data/SubGrid.h"
 #include "Private/Data/Surface.h"
+#include "Support/Lists.h"
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
@@ -20,7 +21,6 @@
 #include <vtkPolyData.h>
 #include <vtkUnstructuredGrid.h>
 
-#include <numeric>
 #include <vector>
 
 namespace morph::filters
@@ -190,8 +190,7 @@ void ShellGrid::Flatten(vtkUnstructuredGrid* output, bool withFaces) const
   {
     return;
   }
-  std::vector<vtkIdType> front(this->Flat->GetNumberOfPoints());
-  std::iota(front.begin(), front.end(), vtkIdType(0));
+  std::vector<vtkIdType> front = consecutive<vtkIdType>(this->Flat->GetNumberOfPoints());
   vtkNew<vtkUnstructuredGrid> flat;
   areFaces ? insertEdges(output, this->Flat->GetNumberOfPoints(), flat)
            : flat->ShallowCopy(this->Flat); // its cells

@@ -4,6 +4,7 @@
 #include "Mesh/CellShape.h"
 #include "Private/Data/Surface.h"
 #include "Support/Error.h"
+#include "Support/Lists.h"
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
@@ -20,7 +21,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 
 namespace morph::filters
 {
@@ -228,9 +228,8 @@ morph::Classification Classify(vtkPolyData* surface, const morph::Points& points
   morph::ClassificationOptions core = coreOptions(options);
   if (!options.SurfaceIdArray.empty())
   {
-    std::vector<Index> polygons(faces.offsets.size() - 1);
-    std::iota(
-      polygons.begin(), polygons.end(), surface->GetNumberOfVerts() + surface->GetNumberOfLines());
+    std::vector<Index> polygons = consecutive<Index>(
+      faces.offsets.size() - 1, surface->GetNumberOfVerts() + surface->GetNumberOfLines());
     const std::vector<Index> ids =
       wholeNumbers(requireCellNumbers(surface, options.SurfaceIdArray), polygons, "cell");
     core.given.surface.assign(ids.begin() + polygons[0], ids.begin() + polygons.back() + 1);

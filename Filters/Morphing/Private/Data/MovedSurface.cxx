@@ -5,6 +5,7 @@
 #include "Boundary/SurfaceEdges.h"
 #include "Boundary/SurfacePatches.h"
 #include "Private/Data/Surface.h"
+#include "Support/Lists.h"
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
@@ -54,8 +55,7 @@ void MovedSurface::Make(vtkUnstructuredGrid* grid, const morph::Mesh& mesh,
   this->Nodes = vtkIdTypeArray::SafeDownCast(surface->GetPointData()->GetArray(Surface::IdName));
   this->Owners = vtkIdTypeArray::SafeDownCast(surface->GetCellData()->GetArray("MorphCellId"));
   this->Outer = faces.cells;
-  std::sort(this->Outer.begin(), this->Outer.end());
-  this->Outer.erase(std::unique(this->Outer.begin(), this->Outer.end()), this->Outer.end());
+  sortUnique(this->Outer);
 }
 
 void MovedSurface::SetFeatureLines(bool on, const morph::Mesh& mesh,

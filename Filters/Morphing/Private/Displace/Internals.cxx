@@ -12,6 +12,7 @@
 #include "Private/Pipeline/Ranks.h"
 #include "Private/Project/TargetDistance.h"
 #include "Support/Error.h"
+#include "Support/Lists.h"
 #include "Support/ProgressRange.h"
 
 #include <vtkAbstractTransform.h>
@@ -27,7 +28,6 @@
 #include <array>
 #include <functional>
 #include <limits>
-#include <numeric>
 #include <utility>
 
 namespace filters = morph::filters;
@@ -232,8 +232,8 @@ vtkPolyData* vtkDisplacementAlgorithm::vtkInternals::WholeShell(
     const morph::Mesh mesh = filters::GridMesh::FromGrid(grid);
     const std::vector<std::int8_t> windings = morph::frontWindings(mesh);
     morph::BoundaryFaces faces = morph::frontFaces(mesh);
-    faces.nodes.resize(mesh.layer.nodes); // all of the input, so that messages have its ids
-    std::iota(faces.nodes.begin(), faces.nodes.end(), morph::Index(0));
+    faces.nodes =
+      morph::consecutive(mesh.layer.nodes); // of the input, so that messages have its ids
     this->Shell = vtkSmartPointer<vtkPolyData>::New();
     filters::Surface::Write(grid, mesh, faces, this->Shell, &windings);
     this->ShellOf = grid;
@@ -365,8 +365,7 @@ bool vtkDisplacementAlgorithm::vtkInternals::FindMoving(const Options& options, 
   const morph::SymmetryPlanes planes =
     morph::symmetryPlanes(this->Model, symmetricOf(options, input));
   rest.sliding.insert(rest.sliding.end(), planes.surfaces.begin(), planes.surfaces.end());
-  std::sort(rest.sliding.begin(), rest.sliding.end());
-  rest.sliding.erase(std::unique(rest.sliding.begin(), rest.sliding.end()), rest.sliding.end());
+  morph::sortUnique(rest.sliding);
   for (const std::string& name : planes.others)
   {
     monitor.warn("The patch '" + name +
