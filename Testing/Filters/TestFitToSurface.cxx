@@ -374,10 +374,8 @@ TEST(FitToSurface, TheSurfacesThatTheTargetBelongsToMove)
   // A target with open edges: they serve the rim.
   auto grid = brick();
   auto filter = make(grid, lid(3.4, 0.2));
-  grids::Listener listener(filter);
   filter->SetSurroundings(1);
-  filter->Update();
-  ASSERT_TRUE(listener.Errors.empty()) << listener.Errors[0];
+  grids::update(filter);
   const morph::Points x = grids::points(grid), y = grids::points(filter->GetOutput());
   for (morph::Index i = 0; i < x.rows(); ++i)
   {
@@ -563,10 +561,7 @@ TEST(FitToSurface, NodesThatMissTheTargetAlongADirectionFollowTheOthers)
   const morph::Points x = grids::points(grid);
   auto filter = make(grid, lid(3.4, -0.5));
   filter->SetProjectAlongToZ();
-  grids::Listener listener(filter);
-  filter->Update();
-  ASSERT_TRUE(listener.Errors.empty()) << listener.Errors[0];
-  listener.ExpectWarning("within `TargetReach` along the direction");
+  grids::expectWarning(filter, "within `TargetReach` along the direction");
   EXPECT_NEAR(filter->GetMinScaledJacobian(), 1, 0.2);
   // To its very rim, in single precision, nodes are on it.
   auto exact = make(grid, lid(3.4, 0));

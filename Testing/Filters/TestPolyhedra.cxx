@@ -182,9 +182,7 @@ TEST(PolyhedraInFilters, EveryFilterTakesThem)
     {
       SCOPED_TRACE(any.name + " on " + name);
       auto filter = any.connected(grid, boundary);
-      grids::Listener listener(filter);
-      filter->Update();
-      EXPECT_TRUE(listener.Errors.empty()) << listener.Errors.front();
+      grids::update(filter);
     }
   }
 }
@@ -254,9 +252,7 @@ TEST(PolyhedraInFilters, SmoothingInversionFreeAndRepairGiveValidMeshes)
     {
       filter->SetInputData(grid);
       filter->SetBoundaryData(boundary);
-      grids::Listener listener(filter);
-      filter->Update();
-      EXPECT_TRUE(listener.Errors.empty()) << listener.Errors.front();
+      grids::update(filter);
       // FEMWARP gives no guarantee, and smoothing its mesh makes it no worse.
       if (filter != filters.back())
       {
@@ -351,9 +347,7 @@ TEST(PolyhedraInFilters, BlocksGiveTheMeshThatTheyMakeTogether)
   }
   composite->SetInputDataObject(0, blocks::multiBlock(parts));
   composite->SetBoundaryData(boundary);
-  grids::Listener listener(composite);
-  composite->Update();
-  EXPECT_TRUE(listener.Errors.empty()) << listener.Errors.front();
+  grids::update(composite);
   auto* tree = composite->GetOutputDataObject(0);
   const auto moved = blocks::pointsByNumber(vtkDataObjectTree::SafeDownCast(tree));
   const morph::Points expected = grids::points(single->GetOutput());

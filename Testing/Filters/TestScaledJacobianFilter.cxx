@@ -585,11 +585,8 @@ TEST(ScaledJacobianFilter, EmptyGridHasNoQuality)
 {
   vtkNew<vtkUnstructuredGrid> grid;
   vtkNew<vtkScaledJacobian> filter;
-  grids::Listener listener(filter);
   filter->SetInputData(grid);
-  filter->Update();
-  EXPECT_TRUE(listener.Errors.empty());
-  listener.ExpectWarning("no cells");
+  grids::expectWarning(filter, "no cells");
   EXPECT_EQ(filter->GetMeasuredCells(), 0);
   EXPECT_EQ(filter->GetWorstCellId(), -1);
   EXPECT_TRUE(std::isnan(filter->GetMinScaledJacobian()));
