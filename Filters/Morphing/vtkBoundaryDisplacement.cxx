@@ -89,7 +89,7 @@ int vtkBoundaryDisplacement::RequestData(
   {
     const filters::Input::Mesh mesh = filters::Input::TakeMesh(
       vtkDataObject::GetData(inputVector[0]), own.Blocks, this->Options->CoincidentPoints,
-      filters::Input::Use::ToMorphOnRanks, this->GetClassName(), monitor);
+      filters::Input::Use::ToMorph, this->GetClassName(), monitor);
     own.Displace(*this->Options, mesh, vtkInternals::InputsOf(inputVector), output, monitor);
   };
   const auto clear = [&]

@@ -112,9 +112,8 @@ int vtkClassifyBoundary::RequestData(
   this->Clear(outputVector);
   const auto classify = [&]
   {
-    const filters::Input::Mesh mesh =
-      filters::Input::TakeMesh(input, this->Internals->Blocks, this->Options->CoincidentPoints,
-        filters::Input::Use::ToMorphOnRanks, this->GetClassName(), monitor);
+    const filters::Input::Mesh mesh = filters::Input::TakeMesh(input, this->Internals->Blocks,
+      this->Options->CoincidentPoints, filters::Input::Use::ToMorph, this->GetClassName(), monitor);
     vtkUnstructuredGrid* grid = nullptr;
     if (mesh.IsDistributed)
     {

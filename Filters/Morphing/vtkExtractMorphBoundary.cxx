@@ -54,9 +54,8 @@ int vtkExtractMorphBoundary::RequestData(
   filters::Monitor monitor(this, this->Options->NumberOfThreads);
   const auto extract = [&]
   {
-    const filters::Input::Mesh mesh =
-      filters::Input::TakeMesh(input, this->Internals->Blocks, this->Options->CoincidentPoints,
-        filters::Input::Use::ToMorphOnRanks, this->GetClassName(), monitor);
+    const filters::Input::Mesh mesh = filters::Input::TakeMesh(input, this->Internals->Blocks,
+      this->Options->CoincidentPoints, filters::Input::Use::ToMorph, this->GetClassName(), monitor);
     if (mesh.IsDistributed)
     {
       vtkUnstructuredGrid* piece = nullptr;

@@ -263,11 +263,13 @@ int vtkMorphBoundary::RequestData(
   vtkInternals& kept = *this->Internals;
   const filters::Ports::Task task = { "morph this mesh's boundary", this->Options->NumberOfThreads,
     this->Options->CoincidentPoints, [&] { kept.Results.Reset(); },
-    [&](vtkUnstructuredGrid* grid, vtkDataObject* boundary, filters::Monitor& monitor)
-    { kept.Morph(grid, boundary, target, output, monitor); },
-    [&](vtkDataObject*, const char*) { kept.Results.Write(output); },
-    [&](vtkUnstructuredGrid* piece, vtkDataObject* boundary, filters::Monitor& monitor)
-    { kept.MorphOnRanks(piece, boundary, target, output, monitor); } };
+    [&](vtkUnstructuredGrid* grid, vtkDataObject* boundary, bool isDistributed,
+      filters::Monitor& monitor)
+    {
+      isDistributed ? kept.MorphOnRanks(grid, boundary, target, output, monitor)
+                    : kept.Morph(grid, boundary, target, output, monitor);
+    },
+    [&](vtkDataObject*, const char*) { kept.Results.Write(output); } };
   return kept.Ports.RequestData(task, inputVector, outputVector);
 }
 

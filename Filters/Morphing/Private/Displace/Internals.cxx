@@ -581,9 +581,7 @@ void vtkDisplacementAlgorithm::vtkInternals::CountRoles(bool hasInner)
   {
     ++inside[roles[i]];
   }
-  const filters::RankGroup processes(
-    this->Whole ? filters::RankGroup::Of::All : filters::RankGroup::Of::One);
-  processes.Sum(inside.data(), inside.size());
+  filters::RankGroup(this->Whole != nullptr).Sum(inside.data(), inside.size());
   for (std::size_t role = 0; role < inside.size(); ++role)
   {
     this->Count[role] += static_cast<vtkIdType>(inside[role]);

@@ -220,14 +220,7 @@ Mesh TakeMesh(vtkDataObject* input, Blocks& blocks, int coincidentPoints, Use us
   const bool hasCells =
     data && (data->GetNumberOfCells() > 0 || (blocks.Merged() && data->GetNumberOfPoints() > 0));
   const int ranks = Ranks::Count(hasCells);
-  if (ranks > 1 && use == Use::ToMorph)
-  {
-    throw morph::Error(
-      "The mesh is distributed over " + std::to_string(ranks) + " MPI ranks, and " + filter +
-      " needs it on one: the cuts between the ranks' pieces would be taken for a fixed boundary. "
-      "Run on one rank, or bring the mesh to one.");
-  }
-  if (ranks > 1 && use == Use::ToMorphOnRanks && !Ranks::TakePieces())
+  if (ranks > 1 && use == Use::ToMorph && !Ranks::TakePieces())
   {
     throw morph::Error(
       "The mesh is distributed over " + std::to_string(ranks) +

@@ -54,9 +54,8 @@ void RequireNotSwapped(vtkDataObject* input, vtkDataObject* boundary);
 
 enum class Use
 {
-  ToMorph,        ///< one MPI process may have cells, of known types alone
-  ToMorphOnRanks, ///< each process may have a part, of known types alone, where Ranks::TakePieces()
-  ToMeasure,      ///< each process may have a part, of any cells
+  ToMorph,   ///< each MPI process may have a part, of known types alone, if Ranks::TakePieces()
+  ToMeasure, ///< each process may have a part, of any cells
 };
 struct Mesh
 {

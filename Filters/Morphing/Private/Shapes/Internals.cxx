@@ -196,11 +196,11 @@ vtkIdType vtkMorphShapes::vtkInternals::RowOf(vtkIdType rows) const
   return static_cast<vtkIdType>(std::clamp(std::floor(this->Time), 0., last));
 }
 
-void vtkMorphShapes::vtkInternals::Morph(vtkUnstructuredGrid* grid,
-  filters::RankGroup::Of processes, vtkInformationVector* boundaries, vtkDataObject* table,
-  vtkInformationVector* outputs, morph::Monitor& monitor)
+void vtkMorphShapes::vtkInternals::Morph(vtkUnstructuredGrid* grid, bool isDistributed,
+  vtkInformationVector* boundaries, vtkDataObject* table, vtkInformationVector* outputs,
+  morph::Monitor& monitor)
 {
-  if (this->Modes.SetGrid(grid, processes, this->Options(), monitor))
+  if (this->Modes.SetGrid(grid, isDistributed, this->Options(), monitor))
   {
     this->SolvedFrom = {};
   }

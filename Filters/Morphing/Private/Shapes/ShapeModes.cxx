@@ -82,14 +82,13 @@ Points displacementOf(
 }
 }
 
-bool ShapeModes::SetGrid(vtkUnstructuredGrid* grid, RankGroup::Of processes, const Options& options,
-  morph::Monitor& monitor)
+bool ShapeModes::SetGrid(
+  vtkUnstructuredGrid* grid, bool isDistributed, const Options& options, morph::Monitor& monitor)
 {
-  if (!this->Solver || this->Processes.IsOf() != processes)
+  if (!this->Solver || this->Processes.IsOfAll() != isDistributed)
   {
-    this->Processes = RankGroup(processes);
-    this->Solver = processes == RankGroup::Of::All ? OnRanks::MakeModeSolver()
-                                                   : std::make_unique<KeptModeSolver>();
+    this->Processes = RankGroup(isDistributed);
+    this->Solver = isDistributed ? OnRanks::MakeModeSolver() : std::make_unique<KeptModeSolver>();
   }
   const bool isTaken = this->Solver->Take(grid, options.CreateMorpher, monitor);
   if (isTaken)
