@@ -115,13 +115,13 @@ int vtkClassifyBoundary::RequestData(
     const filters::Input::Mesh mesh = filters::Input::TakeMesh(input, this->Internals->Blocks,
       this->Options->CoincidentPoints, filters::Input::Use::ToMorph, this->GetClassName(), monitor);
     vtkUnstructuredGrid* grid = nullptr;
+    filters::RankGroup(mesh.IsDistributed)
+      .Together([&] { grid = filters::Input::RequireGrid(mesh.Data, "The input"); });
     if (mesh.IsDistributed)
     {
-      filters::Ranks::Together([&] { grid = filters::Input::RequireGrid(mesh.Data, "The input"); });
       this->Internals->ClassifyOnRanks(this, grid, outputVector, monitor);
       return;
     }
-    grid = filters::Input::RequireGrid(mesh.Data, "The input");
     this->Internals->Whole.reset();
     if (!mesh.IsElsewhere)
     {

@@ -56,16 +56,14 @@ int vtkExtractMorphBoundary::RequestData(
   {
     const filters::Input::Mesh mesh = filters::Input::TakeMesh(input, this->Internals->Blocks,
       this->Options->CoincidentPoints, filters::Input::Use::ToMorph, this->GetClassName(), monitor);
+    vtkUnstructuredGrid* grid = nullptr;
+    filters::RankGroup(mesh.IsDistributed)
+      .Together([&] { grid = filters::Input::RequireGrid(mesh.Data, "The input"); });
     if (mesh.IsDistributed)
     {
-      vtkUnstructuredGrid* piece = nullptr;
-      filters::Ranks::Together(
-        [&] { piece = filters::Input::RequireGrid(mesh.Data, "The input"); });
-      filters::OnRanks::ExtractBoundary(piece, output, monitor);
-      return;
+      filters::OnRanks::ExtractBoundary(grid, output, monitor);
     }
-    vtkUnstructuredGrid* grid = filters::Input::RequireGrid(mesh.Data, "The input");
-    if (!mesh.IsElsewhere)
+    else if (!mesh.IsElsewhere)
     {
       this->Extract(grid, output, monitor);
     }

@@ -159,16 +159,12 @@ int vtkScaledJacobian::RequestData(
         filters::Input::TakeMesh(input, blocks, this->Options->CoincidentPoints,
           filters::Input::Use::ToMeasure, this->GetClassName(), monitor);
       isEmpty = mesh.IsEmpty;
+      const bool takesPieces = mesh.IsDistributed && filters::Ranks::TakePieces();
       vtkUnstructuredGrid* grid = nullptr;
-      const auto require = [&] { grid = filters::Input::RequireGrid(mesh.Data, "The input"); };
-      if (mesh.IsDistributed && filters::Ranks::TakePieces())
-      {
-        filters::Ranks::Together(require);
-        measureOnRanks(this, grid, output, this->Internals->Results, monitor);
-        return;
-      }
-      require();
-      this->Measure(grid, output, monitor);
+      filters::RankGroup(takesPieces)
+        .Together([&] { grid = filters::Input::RequireGrid(mesh.Data, "The input"); });
+      takesPieces ? measureOnRanks(this, grid, output, this->Internals->Results, monitor)
+                  : this->Measure(grid, output, monitor);
     },
     clear);
   for (const std::string& warning : monitor.TakeWarnings())
