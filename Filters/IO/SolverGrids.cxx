@@ -203,11 +203,6 @@ SolverMesh elementsOf(const SolverMesh& mesh)
   return partOf(mesh, nodes, cells);
 }
 
-void sortUnique(std::vector<Index>& list)
-{
-  sortUnique(list);
-}
-
 /// The cells of the set, and a vertex for each of its nodes that these do not have.
 SolverMesh membersOf(const SolverMesh& mesh, const NamedSet& set)
 {

@@ -14,11 +14,6 @@ namespace morph::io
 {
 namespace
 {
-void sortUnique(std::vector<Index>& list)
-{
-  sortUnique(list);
-}
-
 void addFound(
   Index number, const std::unordered_map<Index, Index>& positionOf, std::vector<Index>& list)
 {

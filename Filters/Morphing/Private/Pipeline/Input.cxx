@@ -42,18 +42,13 @@ namespace
   throw morph::Error(subject + " is a " + type + "; " + needed + " is needed.");
 }
 
-bool hasPoints(vtkDataObject* data)
-{
-  return data && data->GetNumberOfElements(vtkDataObject::POINT) > 0;
-}
-
 /// The input, or its blocks as one grid, which all processes make together if several have some.
 vtkDataObject* gather(vtkDataObject* input, Blocks& blocks, int coincident,
   GridMesh::UnknownCells unknown, morph::Monitor& monitor)
 {
   const bool isTree = Leaves::TreeOf(input);
   const bool areOnRanks =
-    Ranks::TakePieces() && Ranks::Count(isTree) > 0 && Ranks::Count(hasPoints(input)) > 1;
+    Ranks::TakePieces() && Ranks::Count(isTree) > 0 && Ranks::Count(Input::HasPoints(input)) > 1;
   if (!areOnRanks)
   {
     return blocks.Gather(input, coincident, unknown, monitor);
@@ -61,7 +56,7 @@ vtkDataObject* gather(vtkDataObject* input, Blocks& blocks, int coincident,
   Ranks::Together(
     [&]
     {
-      if (!isTree && hasPoints(input))
+      if (!isTree && Input::HasPoints(input))
       {
         throw morph::Error("The input is composite data on some MPI ranks, and a " +
                            std::string(input->GetClassName()) +
@@ -184,6 +179,11 @@ vtkPointSet* RequireGridOrPolyData(vtkDataObject* input, const char* port, Uncha
 {
   return vtkUnstructuredGrid::SafeDownCast(input) ? RequireGrid(input, port, checked)
                                                   : RequireGridOrPolyData(input, port);
+}
+
+bool HasPoints(vtkDataObject* data)
+{
+  return data && data->GetNumberOfElements(vtkDataObject::POINT) > 0;
 }
 
 bool IsReadable(vtkDataObject* data)

@@ -48,6 +48,9 @@ vtkPointSet* RequireBoundary(vtkDataObject* input);
 /// points and cells.
 bool IsReadable(vtkDataObject* data);
 
+/// Whether `data`, which may be null, have points.
+bool HasPoints(vtkDataObject* data);
+
 /// Throws morph::Error where `boundary` has volume cells and `input`, a grid or surface, has none.
 /// Either may be null.
 void RequireNotSwapped(vtkDataObject* input, vtkDataObject* boundary);

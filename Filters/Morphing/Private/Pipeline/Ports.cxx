@@ -30,14 +30,6 @@
 
 namespace morph::filters
 {
-namespace
-{
-bool hasPoints(vtkDataObject* data)
-{
-  return data && data->GetNumberOfElements(vtkDataObject::POINT) > 0;
-}
-}
-
 int Ports::FillInformation(int port, vtkInformation* info)
 {
   // Any other type would make the executive run the filter block by block; see Input.h.
@@ -194,7 +186,7 @@ int Ports::RequestData(
     Input::Mesh mesh = Input::TakeMesh(
       input, this->Mesh, task.CoincidentPoints, Input::Use::ToMorph, name, monitor, boundary);
     input = mesh.Data;
-    if (!mesh.IsDistributed && Ranks::Count(mesh.IsElsewhere && hasPoints(boundary)) > 0)
+    if (!mesh.IsDistributed && Ranks::Count(mesh.IsElsewhere && Input::HasPoints(boundary)) > 0)
     {
       if (!Ranks::TakePieces())
       {
