@@ -2,6 +2,7 @@
 #include "vtkMorphAdjoint.h"
 
 #include "Mesh/Extent.h"
+#include "Private/Data/Arrays.h"
 #include "Private/Data/GridMesh.h"
 #include "Private/Options.h"
 #include "Private/Pipeline/Input.h"
@@ -262,11 +263,9 @@ void vtkMorphAdjoint::ExecuteShapes(vtkMorphShapes* shapes, vtkUnstructuredGrid*
     }
   };
   filters::RankGroup(onRanks).Together(check);
-  vtkNew<vtkDoubleArray> derivatives;
+  auto derivatives = filters::Arrays::Make<vtkDoubleArray>("ShapeGradient");
   shapes->Differentiate(gradient, derivatives, monitor);
-  derivatives->SetName("ShapeGradient");
-  vtkNew<vtkStringArray> names;
-  names->SetName("ShapeNames");
+  auto names = filters::Arrays::Make<vtkStringArray>("ShapeNames");
   for (vtkIdType i = 0; i < derivatives->GetNumberOfValues(); ++i)
   {
     names->InsertNextValue(shapes->GetShapeName(static_cast<int>(i)));
@@ -307,8 +306,7 @@ void vtkMorphAdjoint::Execute(vtkMorphAlgorithm* morph, vtkUnstructuredGrid* res
     }
   };
   filters::RankGroup(onRanks).Together(check);
-  vtkNew<vtkDoubleArray> result;
-  result->SetName("MorphGradient");
+  auto result = filters::Arrays::Make<vtkDoubleArray>("MorphGradient");
   morph->Transpose(rest, points, gradient, result, onRanks, monitor);
   output->ShallowCopy(points);
   output->GetPointData()->AddArray(result);

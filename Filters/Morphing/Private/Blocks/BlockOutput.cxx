@@ -2,6 +2,7 @@
 #include "Private/Blocks/BlockOutput.h"
 
 #include "Private/Blocks/BlockArrays.h"
+#include "Private/Data/Arrays.h"
 #include "Private/Data/Directions.h"
 #include "Private/Data/Quality.h"
 
@@ -143,15 +144,8 @@ void activate(
 void addIds(const std::vector<Index>& ids, const std::vector<Index>& of, const char* name,
   vtkDataSetAttributes* leaf)
 {
-  vtkNew<vtkIdTypeArray> array;
-  array->SetName(name);
-  array->SetNumberOfValues(static_cast<vtkIdType>(ids.size()));
-  for (std::size_t i = 0; i < ids.size(); ++i)
-  {
-    const Index id = ids[i] < 0 || of.empty() ? ids[i] : of[ids[i]];
-    array->SetValue(static_cast<vtkIdType>(i), static_cast<vtkIdType>(id));
-  }
-  leaf->AddArray(array);
+  leaf->AddArray(Arrays::MakeOf<vtkIdTypeArray>(
+    name, ids, [&of](Index id) { return id < 0 || of.empty() ? id : of[id]; }));
 }
 
 /// The value of the mesh's worst cell behind each cell of a set; NaN where there is none.
@@ -172,11 +166,8 @@ std::vector<double> worstBehind(vtkDataArray* quality, const MergedBlocks::Block
 /// too.
 void writeQualityBehind(const std::vector<double>& values, vtkDataSetAttributes* leaf)
 {
-  vtkNew<vtkDoubleArray> array;
-  array->SetName(QualityName);
-  array->SetNumberOfValues(static_cast<vtkIdType>(values.size()));
-  std::copy(values.begin(), values.end(), array->GetPointer(0));
-  leaf->AddArray(array);
+  leaf->AddArray(
+    Arrays::MakeOf<vtkDoubleArray>(QualityName, values, [](double value) { return value; }));
   leaf->SetActiveScalars(QualityName);
 }
 }

@@ -2,6 +2,7 @@
 #include "Private/Data/Geometry.h"
 
 #include "Mesh/CellShape.h"
+#include "Private/Data/Arrays.h"
 #include "Private/Data/Surface.h"
 #include "Support/Error.h"
 #include "Support/Lists.h"
@@ -194,15 +195,6 @@ morph::ClassificationOptions coreOptions(const Geometry::Options& options)
   core.sheets = options.Sheets;
   return core;
 }
-
-template <typename Array>
-vtkSmartPointer<Array> makeArray(const char* name, std::size_t size)
-{
-  auto array = vtkSmartPointer<Array>::New();
-  array->SetName(name);
-  array->SetNumberOfValues(static_cast<vtkIdType>(size));
-  return array;
-}
 }
 
 namespace Geometry
@@ -244,9 +236,11 @@ morph::Classification Classify(vtkPolyData* surface, const morph::Points& points
 void AddPointArrays(const morph::Classification& geometry, const std::vector<morph::Index>& nodes,
   vtkDataSetAttributes* output)
 {
-  auto dimension = makeArray<vtkSignedCharArray>(DimensionName, nodes.size());
-  auto id = makeArray<vtkIdTypeArray>(IdName, nodes.size());
-  auto parameter = makeArray<vtkDoubleArray>(ParameterName, nodes.size());
+  auto dimension =
+    Arrays::Make<vtkSignedCharArray>(DimensionName, static_cast<vtkIdType>(nodes.size()));
+  auto id = Arrays::Make<vtkIdTypeArray>(IdName, static_cast<vtkIdType>(nodes.size()));
+  auto parameter =
+    Arrays::Make<vtkDoubleArray>(ParameterName, static_cast<vtkIdType>(nodes.size()));
   for (std::size_t i = 0; i < nodes.size(); ++i)
   {
     const vtkIdType k = static_cast<vtkIdType>(i);
@@ -263,13 +257,8 @@ void AddPointArrays(const morph::Classification& geometry, const std::vector<mor
 void AddSurfaceIds(const morph::Classification& geometry, const std::vector<morph::Index>& faceOf,
   vtkPolyData* output)
 {
-  auto id = makeArray<vtkIdTypeArray>(IdName, faceOf.size());
-  for (std::size_t i = 0; i < faceOf.size(); ++i)
-  {
-    id->SetValue(
-      static_cast<vtkIdType>(i), geometry.surfaces[geometry.surfaceOfFace[faceOf[i]]].id);
-  }
-  output->GetCellData()->AddArray(id);
+  output->GetCellData()->AddArray(Arrays::MakeOf<vtkIdTypeArray>(IdName, faceOf,
+    [&](Index face) { return geometry.surfaces[geometry.surfaceOfFace[face]].id; }));
 }
 
 void WriteCurves(
@@ -286,7 +275,7 @@ void WriteCurves(
   std::vector<vtkIdType> number(geometry.dimension.size(), -1);
   vtkNew<vtkPoints> points;
   points->SetDataType(grid->GetPoints()->GetDataType());
-  auto ids = makeArray<vtkIdTypeArray>(Surface::IdName, nodes.size());
+  auto ids = Arrays::Make<vtkIdTypeArray>(Surface::IdName, static_cast<vtkIdType>(nodes.size()));
   for (std::size_t i = 0; i < nodes.size(); ++i)
   {
     number[nodes[i]] = points->InsertNextPoint(grid->GetPoint(nodes[i]));
@@ -296,9 +285,9 @@ void WriteCurves(
   output->GetPointData()->AddArray(ids);
   AddPointArrays(geometry, nodes, output->GetPointData());
 
-  const std::size_t cells = geometry.vertices.size() + geometry.curves.size();
-  auto dimension = makeArray<vtkSignedCharArray>(DimensionName, cells);
-  auto id = makeArray<vtkIdTypeArray>(IdName, cells);
+  const auto cells = static_cast<vtkIdType>(geometry.vertices.size() + geometry.curves.size());
+  auto dimension = Arrays::Make<vtkSignedCharArray>(DimensionName, cells);
+  auto id = Arrays::Make<vtkIdTypeArray>(IdName, cells);
   vtkIdType cell = 0;
   vtkNew<vtkCellArray> vertices, lines;
   for (const morph::GeometryVertex& vertex : geometry.vertices)

@@ -4,6 +4,7 @@
 #include "Boundary/Classification.h"
 #include "Boundary/SurfaceEdges.h"
 #include "Boundary/SurfacePatches.h"
+#include "Private/Data/Arrays.h"
 #include "Private/Data/Surface.h"
 #include "Support/Lists.h"
 
@@ -96,9 +97,8 @@ void MovedSurface::SetFeatureLines(bool on, const morph::Mesh& mesh,
   }
   const vtkIdType before = this->Lines ? this->Lines->GetNumberOfCells() : 0;
   const vtkIdType count = lines ? lines->GetNumberOfCells() : 0;
-  vtkNew<vtkIdTypeArray> owners;
-  owners->SetName(this->Owners->GetName());
-  owners->SetNumberOfValues(this->Owners->GetNumberOfValues() - before + count);
+  auto owners = Arrays::Make<vtkIdTypeArray>(
+    this->Owners->GetName(), this->Owners->GetNumberOfValues() - before + count);
   std::fill_n(owners->GetPointer(0), count, -1);
   std::copy(this->Owners->GetPointer(before),
     this->Owners->GetPointer(0) + this->Owners->GetNumberOfValues(), owners->GetPointer(count));
@@ -132,9 +132,8 @@ vtkIdType MovedSurface::Write(
   vtkPoints* moved, const morph::Quality& quality, vtkPolyData* output) const
 {
   this->Write(moved, output);
-  vtkNew<vtkDoubleArray> scaledJacobian;
-  scaledJacobian->SetName("ScaledJacobian");
-  scaledJacobian->SetNumberOfValues(this->Owners->GetNumberOfValues());
+  auto scaledJacobian =
+    Arrays::Make<vtkDoubleArray>("ScaledJacobian", this->Owners->GetNumberOfValues());
   for (vtkIdType i = 0; i < this->Owners->GetNumberOfValues(); ++i)
   {
     const vtkIdType owner = this->Owners->GetValue(i);

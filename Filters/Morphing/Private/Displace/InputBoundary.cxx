@@ -2,6 +2,7 @@
 #include "Private/Displace/InputBoundary.h"
 
 #include "Mesh/Extent.h"
+#include "Private/Data/Arrays.h"
 #include "Private/Data/GridMesh.h"
 #include "Private/Data/Surface.h"
 #include "Private/Distributed/WholeSurface.h"
@@ -311,13 +312,8 @@ void InputBoundary::TakeGrid(vtkUnstructuredGrid* grid, const Options& options,
   if (this->inner.size() > 0)
   {
     const auto first = static_cast<Index>(this->faces.cells.size() - this->inner.size());
-    vtkNew<vtkUnsignedCharArray> isInner;
-    isInner->SetName("Inner");
-    for (const Index face : this->Polygons)
-    {
-      isInner->InsertNextValue(face >= first);
-    }
-    this->Written->GetCellData()->AddArray(isInner);
+    this->Written->GetCellData()->AddArray(Arrays::MakeOf<vtkUnsignedCharArray>(
+      "Inner", this->Polygons, [first](Index face) { return face >= first; }));
   }
   Geometry::AddPointArrays(this->geometry, this->Nodes, this->Written->GetPointData());
   Geometry::AddSurfaceIds(this->geometry, this->Polygons, this->Written);

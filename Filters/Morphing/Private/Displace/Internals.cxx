@@ -5,6 +5,7 @@
 #include "BoundaryMover/Patches.h"
 #include "Mesh/ShellLayer.h"
 #include "Private/Data/AffineArrays.h"
+#include "Private/Data/Arrays.h"
 #include "Private/Data/GridMesh.h"
 #include "Private/Data/Output.h"
 #include "Private/Data/Surface.h"
@@ -45,16 +46,11 @@ vtkMTimeType timeOf(vtkObject* object)
 void writeRounds(
   const std::vector<morph::SlidingWarp::Round>& rounds, double size, vtkFieldData* data)
 {
-  vtkNew<vtkDoubleArray> change, force;
-  change->SetName("SlideChange");
-  force->SetName("SlideForce");
-  for (const morph::SlidingWarp::Round& round : rounds)
-  {
-    change->InsertNextValue(round.change / size);
-    force->InsertNextValue(round.force);
-  }
-  data->AddArray(change);
-  data->AddArray(force);
+  using Round = morph::SlidingWarp::Round;
+  data->AddArray(filters::Arrays::MakeOf<vtkDoubleArray>(
+    "SlideChange", rounds, [size](const Round& round) { return round.change / size; }));
+  data->AddArray(filters::Arrays::MakeOf<vtkDoubleArray>(
+    "SlideForce", rounds, [](const Round& round) { return round.force; }));
 }
 
 /// The pairs of the property or, where it is empty, of the file.
@@ -94,9 +90,7 @@ std::set<std::string> symmetricOf(const morph::DisplacementOptions& options, vtk
 void writeGaps(
   const morph::Contact::Gaps& before, const morph::Contact::Gaps& after, vtkFieldData* data)
 {
-  vtkNew<vtkDoubleArray> gaps;
-  gaps->SetName("ContactGaps");
-  gaps->SetNumberOfComponents(2);
+  auto gaps = filters::Arrays::Make<vtkDoubleArray>("ContactGaps", 0, 2);
   gaps->InsertNextTuple2(before.least, before.most);
   gaps->InsertNextTuple2(after.least, after.most);
   data->AddArray(gaps);
