@@ -98,12 +98,9 @@ int vtkBoundaryDisplacement::RequestData(
     own.ResetResults();
   };
   filters::Execution::Run(this, "displace this mesh's boundary", displace, clear);
-  for (const std::string& warning : monitor.TakeWarnings())
+  if (own.IsTeller())
   {
-    if (own.IsTeller())
-    {
-      vtkWarningMacro(<< warning);
-    }
+    monitor.TellWarnings();
   }
   return 1;
 }

@@ -130,13 +130,9 @@ int vtkClassifyBoundary::RequestData(
   };
   filters::Execution::Run(
     this, "classify this mesh's boundary", classify, [&] { this->Clear(outputVector); });
-  const bool isTeller = !this->Internals->Whole || filters::Ranks::IsFirst();
-  for (const std::string& warning : monitor.TakeWarnings())
+  if (!this->Internals->Whole || filters::Ranks::IsFirst())
   {
-    if (isTeller)
-    {
-      vtkWarningMacro(<< warning);
-    }
+    monitor.TellWarnings();
   }
   this->Internals->Blocks.Scatter(outputVector);
   return 1;

@@ -70,10 +70,7 @@ int vtkExtractMorphBoundary::RequestData(
   };
   filters::Execution::Run(
     this, "extract this mesh's boundary", extract, [&] { output->Initialize(); });
-  for (const std::string& warning : monitor.TakeWarnings())
-  {
-    vtkWarningMacro(<< warning);
-  }
+  monitor.TellWarnings();
   return 1;
 }
 

@@ -193,10 +193,7 @@ bool vtkMorphAlgorithm::ApplyTranspose(vtkUnstructuredGrid* rest, vtkPointSet* b
         boundaryGradient, false, monitor);
     },
     [&] { boundaryGradient->Initialize(); });
-  for (const std::string& warning : monitor.TakeWarnings())
-  {
-    vtkWarningMacro(<< warning);
-  }
+  monitor.TellWarnings();
   return outcome != filters::Execution::Outcome::Failed;
 }
 

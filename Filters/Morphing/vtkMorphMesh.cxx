@@ -4,6 +4,7 @@
 #include "LinearMethods/FemWarp.h"
 #include "LinearMethods/LogBarrierWarp.h"
 #include "Private/Data/AffineArrays.h"
+#include "Private/Data/Arrays.h"
 #include "Private/Displace/Internals.h"
 #include "Private/Displace/Views.h"
 #include "Private/GridMorpher/GridMorpher.h"
@@ -186,9 +187,8 @@ void vtkMorphMesh::CopySurfaces(vtkDataArraySelection* names, vtkPolyData* outpu
   {
     return;
   }
-  vtkNew<vtkPoints> points;
-  points->SetDataType(shown->GetPoints()->GetDataType());
-  points->SetNumberOfPoints(output->GetNumberOfPoints());
+  auto points =
+    filters::Arrays::MakePoints(shown->GetPoints()->GetDataType(), output->GetNumberOfPoints());
   for (vtkIdType i = 0; i < output->GetNumberOfPoints(); ++i)
   {
     points->SetPoint(i, shown->GetPoint(static_cast<vtkIdType>(ids->GetComponent(i, 0))));

@@ -167,10 +167,7 @@ int vtkScaledJacobian::RequestData(
                   : this->Measure(grid, output, monitor);
     },
     clear);
-  for (const std::string& warning : monitor.TakeWarnings())
-  {
-    vtkWarningMacro(<< warning);
-  }
+  monitor.TellWarnings();
   if (outcome != filters::Execution::Outcome::Done)
   {
     this->Internals->Results.Write(output);

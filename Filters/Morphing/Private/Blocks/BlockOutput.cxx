@@ -55,9 +55,7 @@ vtkSmartPointer<vtkPointSet> withPoints(vtkDataSet* data)
   }
   auto grid = vtkSmartPointer<vtkStructuredGrid>::New();
   grid->SetExtent(extent);
-  vtkNew<vtkPoints> points;
-  points->SetDataTypeToDouble();
-  points->SetNumberOfPoints(data->GetNumberOfPoints());
+  auto points = filters::Arrays::MakePoints(VTK_DOUBLE, data->GetNumberOfPoints());
   for (vtkIdType i = 0; i < data->GetNumberOfPoints(); ++i)
   {
     points->SetPoint(i, data->GetPoint(i));
@@ -72,9 +70,7 @@ vtkSmartPointer<vtkPointSet> withPoints(vtkDataSet* data)
 void movePoints(vtkPoints* from, const std::vector<Index>& nodes, vtkPointSet* set)
 {
   const auto count = static_cast<vtkIdType>(nodes.size());
-  vtkNew<vtkPoints> points;
-  points->SetDataType(from->GetDataType());
-  points->SetNumberOfPoints(count);
+  auto points = filters::Arrays::MakePoints(from->GetDataType(), count);
   for (vtkIdType i = 0; i < count; ++i)
   {
     points->SetPoint(i, nodes[i] < 0 ? set->GetPoint(i) : from->GetPoint(nodes[i]));

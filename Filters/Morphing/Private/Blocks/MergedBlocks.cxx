@@ -9,6 +9,7 @@
 #include "Private/Blocks/Leaves.h"
 #include "Private/Blocks/SharedNodes.h"
 #include "Private/Blocks/SplitNodes.h"
+#include "Private/Data/Arrays.h"
 #include "Private/Data/DataCheck.h"
 #include "Private/Data/Version.h"
 #include "Support/Error.h"
@@ -307,9 +308,7 @@ void writeNodes(const std::vector<Part>& parts, Index number, MergedBlocks& merg
       auto* set = vtkPointSet::SafeDownCast(part.Data);
       return set && set->GetPoints() && set->GetPoints()->GetDataType() == VTK_FLOAT;
     });
-  vtkNew<vtkPoints> points;
-  points->SetDataType(isFloat ? VTK_FLOAT : VTK_DOUBLE);
-  points->SetNumberOfPoints(number);
+  auto points = Arrays::MakePoints(isFloat ? VTK_FLOAT : VTK_DOUBLE, number);
   std::vector<std::uint8_t> isWritten(number, 0);
   Owned owned(parts.size());
   std::vector<BlockArrays::Part> sources;

@@ -4,6 +4,7 @@
 #include "Mesh/CellShape.h"
 #include "Mesh/ShellLayer.h"
 #include "Private/Blocks/BlockCells.h"
+#include "Private/Data/Arrays.h"
 #include "Private/Data/GridMesh.h"
 #include "Private/Data/SubGrid.h"
 #include "Private/Data/Surface.h"
@@ -43,9 +44,7 @@ vtkSmartPointer<vtkUnstructuredGrid> solidOf(const morph::Mesh& mesh, vtkUnstruc
 {
   const vtkIdType front = from->GetNumberOfPoints(), nodes = mesh.numberOfNodes();
   auto grid = vtkSmartPointer<vtkUnstructuredGrid>::New();
-  vtkNew<vtkPoints> points;
-  points->SetDataType(from->GetPoints()->GetDataType());
-  points->SetNumberOfPoints(nodes);
+  auto points = Arrays::MakePoints(from->GetPoints()->GetDataType(), nodes);
   for (vtkIdType i = 0; i < nodes; ++i)
   {
     points->SetPoint(i, mesh.points.row(i).data());
@@ -118,9 +117,7 @@ void copyPoints(
   vtkUnstructuredGrid* from, const std::vector<vtkIdType>& ids, vtkUnstructuredGrid* to)
 {
   const auto count = static_cast<vtkIdType>(ids.size());
-  vtkNew<vtkPoints> points;
-  points->SetDataType(from->GetPoints()->GetDataType());
-  points->SetNumberOfPoints(count);
+  auto points = Arrays::MakePoints(from->GetPoints()->GetDataType(), count);
   vtkPointData* arrays = to->GetPointData();
   arrays->Initialize();
   arrays->CopyAllocate(from->GetPointData(), count);

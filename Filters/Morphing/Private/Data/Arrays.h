@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <vtkPoints.h>
 #include <vtkSmartPointer.h>
 #include <vtkType.h>
 
@@ -15,6 +16,15 @@ vtkSmartPointer<Array> Make(const char* name, vtkIdType tuples = 0, int componen
   array->SetNumberOfComponents(components);
   array->SetNumberOfTuples(tuples);
   return array;
+}
+
+/// Points of that data type. Their coordinates are not set.
+inline vtkSmartPointer<vtkPoints> MakePoints(int type, vtkIdType count = 0)
+{
+  auto points = vtkSmartPointer<vtkPoints>::New();
+  points->SetDataType(type);
+  points->SetNumberOfPoints(count);
+  return points;
 }
 
 /// An array of that name, which has `of` each of a container's elements.

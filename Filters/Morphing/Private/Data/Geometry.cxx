@@ -273,8 +273,7 @@ void WriteCurves(
     }
   }
   std::vector<vtkIdType> number(geometry.dimension.size(), -1);
-  vtkNew<vtkPoints> points;
-  points->SetDataType(grid->GetPoints()->GetDataType());
+  auto points = Arrays::MakePoints(grid->GetPoints()->GetDataType());
   auto ids = Arrays::Make<vtkIdTypeArray>(Surface::IdName, static_cast<vtkIdType>(nodes.size()));
   for (std::size_t i = 0; i < nodes.size(); ++i)
   {

@@ -110,9 +110,7 @@ void MovedSurface::Write(vtkPoints* moved, vtkPolyData* output) const
 {
   output->Initialize();
   const vtkIdType count = this->Nodes->GetNumberOfValues();
-  vtkNew<vtkPoints> points;
-  points->SetDataType(moved->GetDataType());
-  points->SetNumberOfPoints(count);
+  auto points = Arrays::MakePoints(moved->GetDataType(), count);
   if (!gather<vtkDoubleArray>(moved->GetData(), this->Nodes, points->GetData()) &&
       !gather<vtkFloatArray>(moved->GetData(), this->Nodes, points->GetData()))
   {

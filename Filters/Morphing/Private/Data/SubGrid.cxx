@@ -102,8 +102,7 @@ void Extract(vtkUnstructuredGrid* grid, vtkIdList* cells, vtkUnstructuredGrid* o
     InsertCell(
       grid, cells->GetId(i), [&nodes](vtkIdType node) { return nodes.NumberOf(node); }, output);
   }
-  vtkNew<vtkPoints> points;
-  points->SetDataType(grid->GetPoints()->GetDataType());
+  auto points = Arrays::MakePoints(grid->GetPoints()->GetDataType());
   grid->GetPoints()->GetPoints(nodes.Ids, points);
   output->SetPoints(points);
   copyTuples(grid->GetPointData(), nodes.Ids, output->GetPointData(), "MorphPointId");

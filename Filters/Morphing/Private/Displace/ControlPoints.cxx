@@ -95,8 +95,7 @@ Handle handleOf(const std::array<double, 7>& v)
 vtkSmartPointer<vtkPolyData> asPoints(const std::vector<Handle>& handles)
 {
   auto result = vtkSmartPointer<vtkPolyData>::New();
-  vtkNew<vtkPoints> places;
-  places->SetDataTypeToDouble();
+  auto places = Arrays::MakePoints(VTK_DOUBLE);
   auto vectors = Arrays::Make<vtkDoubleArray>("Displacement", 0, 3);
   result->AllocateExact(static_cast<vtkIdType>(handles.size()), 1);
   result->SetPoints(places);

@@ -162,9 +162,7 @@ void AppendInner(vtkUnstructuredGrid* grid, const std::vector<morph::Index>& nod
   }
   const vtkIdType before = output->GetNumberOfPoints();
   const vtkIdType all = before + static_cast<vtkIdType>(nodes.size());
-  vtkNew<vtkPoints> points;
-  points->SetDataType(output->GetPoints()->GetDataType());
-  points->SetNumberOfPoints(all);
+  auto points = Arrays::MakePoints(output->GetPoints()->GetDataType(), all);
   points->GetData()->InsertTuples(0, before, 0, output->GetPoints()->GetData());
   for (vtkIdType i = before; i < all; ++i)
   {

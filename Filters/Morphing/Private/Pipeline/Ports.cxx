@@ -225,10 +225,7 @@ int Ports::RequestData(
   };
   const Execution::Outcome outcome = Execution::Run(this->Filter, task.Name, work, clear);
   // After an error too: the warnings may explain it.
-  for (const std::string& warning : monitor.TakeWarnings())
-  {
-    vtkWarningWithObjectMacro(this->Filter, << warning);
-  }
+  monitor.TellWarnings();
   if (outcome != Execution::Outcome::Done && task.Undone)
   {
     task.Undone(input, outcome == Execution::Outcome::Cancelled ? "Cancelled" : "Failed");
