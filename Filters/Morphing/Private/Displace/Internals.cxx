@@ -354,7 +354,7 @@ bool vtkDisplacementAlgorithm::vtkInternals::FindMoving(const Options& options, 
   {
     return false;
   }
-  Surroundings::Options& rest = moves.Rest;
+  Surroundings::Options& rest = moves.Mover.rest;
   rest.sliding = morph::surfacesNamed(this->Model, options.SlidingSurfaces, "SlidingSurfaces");
   const morph::SymmetryPlanes planes =
     morph::symmetryPlanes(this->Model, symmetricOf(options, input));
@@ -382,7 +382,7 @@ bool vtkDisplacementAlgorithm::vtkInternals::FindMoving(const Options& options, 
 void vtkDisplacementAlgorithm::vtkInternals::Prepare(const Options& options, vtkPointSet* input,
   const Inputs& inputs, morph::Points field, Moves& moves, morph::Monitor& monitor)
 {
-  Surroundings::Options& rest = moves.Rest;
+  Surroundings::Options& rest = moves.Mover.rest;
   filters::Motion::Options& motion = moves.Motion;
   motion = { options, this->Transform, &moves.Given };
   moves.Choice = this->Choice;
@@ -424,10 +424,20 @@ void vtkDisplacementAlgorithm::vtkInternals::Prepare(const Options& options, vtk
   rest.follow.method = static_cast<morph::SurfaceMorphOptions::Method>(options.SurfaceMethod);
   rest.follow.unattached = static_cast<morph::UnattachedMotion>(options.UnattachedMotion);
   rest.free = morph::surfacesNamed(this->Model, options.FreeSurfaces, "FreeSurfaces");
-  moves.Contact.distance = options.ContactDistance;
-  moves.Contact.surfaces =
-    morph::surfacesNamed(this->Model, options.ContactSurfaces, "ContactSurfaces");
-  moves.Periodic = periodicOf(options.PeriodicSurfaces, input);
+  morph::Contact::Options contact;
+  contact.distance = options.ContactDistance;
+  contact.surfaces = morph::surfacesNamed(this->Model, options.ContactSurfaces, "ContactSurfaces");
+  morph::PeriodicSides::Names periodic = periodicOf(options.PeriodicSurfaces, input);
+  if (options.Moving != MOVING_NOTHING)
+  {
+    moves.Mover.contact = std::move(contact);
+    moves.Mover.periodic = std::move(periodic);
+    moves.Mover.slide.rounds = options.SlideRounds;
+    if (this->IsDragged)
+    {
+      moves.Mover.slide.tolerance = DragTolerance;
+    }
+  }
   for (const morph::Index sheet : this->Model.sheets())
   {
     if (std::count(rest.sliding.begin(), rest.sliding.end(), sheet) == 0)
@@ -466,34 +476,25 @@ void vtkDisplacementAlgorithm::vtkInternals::Displace(const Options& options, vt
       this->Prepare(options, input, inputs, std::move(field), moves, monitor);
       zones = this->ZoneOptions(options, inputs.Zone);
     });
-  morph::BoundaryMover::Options mover;
-  mover.rest = moves.Rest;
   if (options.Moving != MOVING_NOTHING)
   {
-    this->FindInner(options, grid, zones, mover);
-    mover.slide.rounds = options.SlideRounds;
-    if (this->IsDragged)
-    {
-      mover.slide.tolerance = DragTolerance;
-    }
-    mover.contact = moves.Contact;
-    mover.periodic = moves.Periodic;
+    this->FindInner(options, grid, zones, moves.Mover);
   }
   const std::unique_ptr<morph::InnerPieces> pieces = whole ? whole->Volume() : nullptr;
   morph::ProgressRange moving(monitor, target ? 0.7 : 0.5, 1);
-  this->Mover.move(this->Model, moves.Choice, moves.Targets, mover, pieces.get(), moving);
-  alike([&] { this->Write(options, input, target, moves, mover, output, monitor); });
-  if (mover.hasInner())
+  this->Mover.move(this->Model, moves.Choice, moves.Targets, moves.Mover, pieces.get(), moving);
+  alike([&] { this->Write(options, input, target, moves, output, monitor); });
+  if (moves.Mover.hasInner())
   {
     alike([&] { this->AppendInner(grid, output); });
   }
-  this->CountRoles(mover.hasInner());
+  this->CountRoles(moves.Mover.hasInner());
 }
 
 void vtkDisplacementAlgorithm::vtkInternals::Write(const Options& options, vtkPointSet* input,
-  bool isFitted, const Moves& moves, const morph::BoundaryMover::Options& mover,
-  vtkPolyData* output, morph::Monitor& monitor)
+  bool isFitted, const Moves& moves, vtkPolyData* output, morph::Monitor& monitor)
 {
+  const morph::BoundaryMover::Options& mover = moves.Mover;
   const Surroundings::Result& result = this->Mover.result();
   const std::vector<morph::Index> faces =
     morph::collapsedFaces(this->Model, moves.Choice, result.moved);
@@ -539,7 +540,7 @@ void vtkDisplacementAlgorithm::vtkInternals::Write(const Options& options, vtkPo
   }
   else
   {
-    this->Fields.Write(this->Model, this->Choice, moves.Motion, moves.Rest, result,
+    this->Fields.Write(this->Model, this->Choice, moves.Motion, moves.Mover.rest, result,
       this->Mover.surroundings(), output, monitor);
   }
   if (isFitted)
