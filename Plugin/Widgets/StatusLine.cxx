@@ -192,6 +192,11 @@ void StatusLine::showStatus()
   {
     said = tr("Failed: the mesh is undeformed");
   }
+  else if (status == "Cancelled")
+  {
+    color = Orange;
+    said = tr("Stopped: the mesh is undeformed");
+  }
   this->Status->setText(said);
   this->Status->setStyleSheet(
     QString("background: %1; color: white; font-weight: bold").arg(color));

@@ -27,6 +27,7 @@
 #include <vtkTable.h>
 #include <vtkTrivialProducer.h>
 #include <vtkUnstructuredGrid.h>
+#include <vtksys/RegularExpression.hxx>
 
 #include <algorithm>
 #include <array>
@@ -34,7 +35,6 @@
 #include <iomanip>
 #include <iostream>
 #include <map>
-#include <regex>
 #include <set>
 #include <sstream>
 #include <vector>
@@ -175,15 +175,17 @@ const io::FoamList::PatchVectors* entryOf(
     {
       return &entry;
     }
-    try
+    if (!entry.isPattern)
     {
-      result = entry.isPattern && std::regex_match(patch, std::regex(entry.name)) ? &entry : result;
+      continue;
     }
-    catch (const std::regex_error&)
+    vtksys::RegularExpression whole;
+    if (!whole.compile("^(" + entry.name + ")$"))
     {
       throw Failure(
         "The boundaryField has the pattern '" + entry.name + "', which is no regular expression.");
     }
+    result = whole.find(patch) ? &entry : result;
   }
   return result;
 }

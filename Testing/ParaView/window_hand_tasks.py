@@ -10,6 +10,7 @@ Run: MESHMORPHING_PLUGIN=<path of MeshMorphing.so> MESHMORPHING_PANEL_ROWS=<path
 """
 import os
 import tempfile
+import time
 import unittest
 from pathlib import Path
 
@@ -129,6 +130,28 @@ class HandTasks(unittest.TestCase):
         one = MorphMesh(Input=simple.OpenDataFile(str(CANISTER)), Displacement="Handles",
                         Handles=numbers)
         self.assertEqual(self.ended(), status(one))  # two at one place would be an error
+
+    def test_stop(self):
+        """By the button beside the progress bar; what is pressed elsewhere meanwhile does nothing.
+        Natural neighbors of 40^3 cells take long, as the nodes of a lattice tie."""
+        hands, box = self.hands, self.folder / "box.vtu"
+        cells = simple.Wavelet(WholeExtent=[0, 40, 0, 40, 0, 40])
+        simple.SaveData(str(box), simple.AppendDatasets(Input=cells))
+        self.open(box)
+        hands.button("Morph Mesh")
+        hands.tick(ROWS, "Surface 0")
+        hands.choose(PANEL + "Method/ComboBox", "Simplex-natural neighbor")
+        stop = hands.find("widget\tAbortButton", enabled=False)
+        delete = hands.find("button\tDelete")
+        self.assertFalse(stop["enabled"])
+        hands.button("Apply")
+        time.sleep(2)
+        hands.press_at(delete)
+        picture("stop")
+        while hands.busy():
+            hands.press_at(stop)
+        self.ended("Stopped: the mesh is undeformed".__eq__)
+        self.assertFalse(hands.find("widget\tAbortButton", enabled=False)["enabled"])
 
     def test_boss(self):
         hands = self.hands

@@ -59,6 +59,14 @@ class Hands:
             time.sleep(0.02)
         return json.loads(answer.read_text(encoding="utf-8"))
 
+    def busy(self):
+        """Whether it gives no answer for a second."""
+        try:
+            self.ask("widget\tViewport", seconds=1)
+        except AssertionError:
+            return self.paraview.poll() is None
+        return False
+
     def find(self, question, seconds=300, enabled=True):
         """Once it is there and, if asked for, enabled: the window is then idle."""
         end = time.time() + seconds
