@@ -60,8 +60,8 @@ public:
     /// Resets the filter's results to those of no result.
     std::function<void()> Reset;
     /// Fills the output from the undeformed mesh and the boundary, which may be null, and which
-    /// AsOne() has made one data set. `isDistributed`: several MPI processes have pieces. It is then
-    /// called on all of them, communicates, and throws on all of them alike.
+    /// AsOne() has made one data set. `isDistributed`: several MPI processes have pieces. It is
+    /// then called on all of them, communicates, and throws on all of them alike.
     std::function<void(
       vtkUnstructuredGrid* grid, vtkDataObject* boundary, bool isDistributed, Monitor&)>
       Work;
