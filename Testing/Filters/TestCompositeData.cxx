@@ -143,12 +143,9 @@ TEST(CompositeData, AllMethodsMoveBlocksAsTheWholeMesh)
       SCOPED_TRACE(method.name + (tree == MultiBlock ? ", multi-block" : ", collection"));
       auto data = make(tree, blocks::quarters(whole, true));
       auto filter = method.make();
-      grids::Listener listener(filter);
       filter->SetInputDataObject(data);
       filter->SetBoundaryData(boundary);
-      filter->Update();
-      EXPECT_TRUE(listener.Errors.empty()) << listener.Errors[0];
-      EXPECT_TRUE(listener.Warnings.empty()) << listener.Warnings[0];
+      grids::updateQuietly(filter);
       vtkDataObject* output = filter->GetOutputDataObject(0);
       EXPECT_STREQ(output->GetClassName(), data->GetClassName());
       EXPECT_EQ(filter->GetOutput(), nullptr);
