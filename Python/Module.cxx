@@ -12,7 +12,6 @@
 #include "Mesh/CellShape.h"
 #include "Mesh/CollapsedCells.h"
 #include "Mesh/NodePartition.h"
-#include "Mesh/Polyhedra.h"
 #include "Quality/BoundaryDetermined.h"
 #include "Quality/ScaledJacobian.h"
 #include "Session/Session.h"
@@ -198,8 +197,7 @@ std::shared_ptr<Mesh> makeMesh(const ConstPoints& points, const py::array_t<std:
         throw morph::Error("The mesh has faces alone. Plane meshes and shells are morphed by the "
                            "filters of `meshmorphing.vtk`, and not as arrays.");
       }
-      morph::replaceCollapsedCells(mesh);
-      morph::orientPolyhedra(mesh);
+      morph::recognizeCells(mesh, monitor);
       auto made = std::make_shared<Mesh>(std::move(mesh), nullptr, monitor);
       made->before(monitor); // found once, while no other thread has the mesh
       morph::Session session;

@@ -449,6 +449,32 @@ TEST_P(CurvedShell, CellsHaveTheQualityOfTheirFaces)
   }
 }
 
+TEST_P(CurvedShell, HowTheCellsAreWoundHasNoEffect)
+{
+  morph::Monitor silent;
+  const Mesh plane = square(GetParam());
+  for (const Mesh& wound :
+    { plane, quadratic(plane, [](const Row& x) { return x; }), quadratic(plane, saddle) })
+  {
+    Mesh mixed = wound;
+    for (Index c = 0; c < mixed.numberOfCells(); c += 5)
+    {
+      const Index corners = morph::cellShape(mixed, c)->numberOfCorners;
+      Index* cell = mixed.connectivity.data() + mixed.offsets[c];
+      std::reverse(cell + 1, cell + corners);
+      std::reverse(cell + corners, cell + mixed.cellSize(c)); // middles
+    }
+    const Mesh one = morph::thicken(wound), other = morph::thicken(mixed);
+    const Index images = 2 * wound.numberOfNodes(); // those in middles have another order
+    EXPECT_LT(motions::difference(one.points.topRows(images), other.points.topRows(images)), 1e-15);
+    const std::vector<std::int8_t> signs(one.types.size(), 1);
+    const auto measure = [&](const Mesh& mesh)
+    { return morph::measureQuality(mesh, mesh.points, signs, {}, silent); };
+    EXPECT_NEAR(measure(one).minimum, measure(other).minimum, 1e-12);
+    EXPECT_EQ(measure(other).inverted, 0);
+  }
+}
+
 TEST_P(CurvedShell, LinearMethodsAreExactForAffineMotions)
 {
   for (Shell shell : { openShell(GetParam()), quadraticShell(GetParam()),

@@ -362,6 +362,38 @@ TEST_P(MorphFilters, CollapsedCellsAreMeasuredAsTheCellsThatTheyAre)
   EXPECT_EQ(filter->GetPrepareCount(), prepared);
 }
 
+TEST_P(MorphFilters, PointsOfNoCellMayBeAnything)
+{
+  auto grid = grids::hexes(3);
+  grid->GetPointData()->Initialize();
+  grid->GetCellData()->Initialize();
+  const double nan = std::nan("");
+  const vtkIdType point = grid->GetPoints()->InsertNextPoint(nan, std::log(0.), 1);
+  grid->InsertNextCell(VTK_EMPTY_CELL, 1, &point); // as hidden cells are stored
+  auto filter = Make(grid, grids::boundary(grid, grids::affine));
+  grids::update(filter);
+  EXPECT_EQ(filter->GetMorphStatus(), std::string("Valid"));
+  const morph::Points rest = grids::points(grid), x = grids::points(filter->GetOutput());
+  EXPECT_TRUE(std::isnan(x(point, 0)) && std::isinf(x(point, 1)) && x(point, 2) == 1);
+  for (morph::Index n = 0; n < point; ++n)
+  {
+    EXPECT_LT((x.row(n) - grids::affine(rest.row(n))).norm(), 1e-9) << n;
+  }
+}
+
+TEST_P(MorphFilters, OfCellsThatAreThereTwiceOneCounts)
+{
+  morph::Mesh mesh = meshes::hexes(3, 3, 3);
+  auto once = grids::make(mesh);
+  auto boundary = grids::boundary(once, grids::twist);
+  meshes::add(mesh, morph::Hexahedron, { mesh.cell(0), mesh.cell(0) + 8 });
+  auto expected = Make(once, boundary), filter = Make(grids::make(mesh), boundary);
+  expected->Update();
+  grids::expectWarning(filter, "Cells are there twice: cell ids 0, 27");
+  EXPECT_EQ(grids::points(filter->GetOutput()), grids::points(expected->GetOutput()));
+  EXPECT_EQ(filter->GetMinScaledJacobian(), expected->GetMinScaledJacobian());
+}
+
 TEST_P(MorphFilters, OptionsOfTheMethodPrepareAnewWhereTheyHaveTo)
 {
   auto grid = grids::hexes(6);

@@ -169,6 +169,25 @@ TEST(Shells, AClosedOneGoesToItsTarget)
   EXPECT_EQ(filter->GetInvertedCells(), 0);
 }
 
+TEST(Shells, EverythingOfAClosedOneAreItsNodes)
+{
+  vtkNew<vtkSphereSource> source;
+  source->Update();
+  vtkNew<vtkMorphMesh> filter;
+  filter->SetInputData(source->GetOutput());
+  filter->SetMovingToEverything();
+  filter->SetDisplacementToTranslateRotateScale();
+  filter->SetAutoCenter(false);
+  filter->SetScale(1, 2, 3);
+  filter->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
+  grids::update(filter);
+  const Points rest = grids::points(source->GetOutput()), x = grids::points(filter->GetOutput());
+  for (Index n = 0; n < rest.rows(); ++n)
+  {
+    EXPECT_EQ(Row(x.row(n)), Row(rest(n, 0), 2 * rest(n, 1), 3 * rest(n, 2)));
+  }
+}
+
 TEST(Shells, WhatIsWrongWithATargetIsNamedByThePointsOfTheShell)
 {
   // The last edge, whose ids come after those of points of no cell, is out of reach.

@@ -453,7 +453,8 @@ RandomGrid randomGrid(Choices& choices)
   auto grid = makeGrid(choices, mesh, hostile);
   result.isAsMesh = polyhedra == 0;
   result.mesh.points = pointsOf(grid);
-  morph::replaceCollapsedCells(result.mesh);
+  morph::Monitor serial;
+  morph::recognizeCells(result.mesh, serial);
   result.nodes = cellNodes(result.mesh, result.known);
   result.size = meshSize(result.mesh, result.nodes);
   if (result.known.faces == Known::Plane &&

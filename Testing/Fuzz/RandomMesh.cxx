@@ -4,6 +4,7 @@
 #include "../Core/BoundaryShapes.h"
 #include "../Core/Meshes.h"
 #include "Mesh/CellShape.h"
+#include "Mesh/Polyhedra.h"
 #include "Quadratic.h"
 
 #include <vtkCell.h>
@@ -588,6 +589,19 @@ std::vector<Index> outerNodes(const Mesh& mesh)
     const morph::CellShape* shape = morph::cellShape(mesh.types[c]);
     if (!shape || shape->dimension != 3)
     {
+      continue;
+    }
+    if (shape->shape == morph::Shape::Polyhedron)
+    {
+      morph::forEachFace(mesh, c,
+        [&](const Index* first, Index size)
+        {
+          const std::vector<vtkIdType> corners(first, first + size);
+          const std::set<vtkIdType> ids(first, first + size);
+          auto& [uses, all] = faces[{ ids.begin(), ids.end() }];
+          ++uses;
+          all = corners;
+        });
       continue;
     }
     // VTK's faces of third order assert; those of corners are alike.

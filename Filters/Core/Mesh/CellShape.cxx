@@ -62,7 +62,7 @@ const CellShape* cellShape(std::uint8_t type)
   static const auto table = []
   {
     std::array<CellShape, BezierWedge + 1> t{};
-    t[EmptyCell] = flat("empty cell", Shape::Other, 0, 0, 0);
+    t[EmptyCell] = flat("empty cell", Shape::Other, 0, -1, 0); // hidden ones keep their nodes
     t[Vertex] = flat("vertex", Shape::Other, 0, 1, 1);
     t[PolyVertex] = flat("poly-vertex", Shape::Other, 0, -1, 0);
     t[Line] = flat("line", Shape::Other, 1, 2, 2);

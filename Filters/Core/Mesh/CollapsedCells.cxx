@@ -2,10 +2,13 @@
 #include "Mesh/CollapsedCells.h"
 
 #include "Mesh/CellShape.h"
+#include "Mesh/Polyhedra.h"
+#include "Mesh/SharedCorners.h"
 
 #include <algorithm>
 #include <cstddef>
 #include <map>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -19,6 +22,7 @@ struct Replacement
 {
   std::uint8_t type = EmptyCell; ///< EmptyCell: none is known
   NodeList nodes;
+  NodeList faces = {}; ///< of a polyhedron, as in Mesh::faces
 };
 
 NodeList ascending(NodeList nodes)
@@ -114,6 +118,31 @@ Replacement cellWith(const std::vector<NodeList>& faces, const NodeList& corners
                                                                      : Replacement{};
 }
 
+/// The polyhedron with these faces; none where they are no closed surface like that of a sphere.
+Replacement polyhedronWith(const std::vector<NodeList>& faces, const NodeList& corners)
+{
+  Replacement result = { Polyhedron, corners };
+  std::set<std::pair<Index, Index>> edges; // each as its face runs
+  std::size_t sides = 0;
+  for (const NodeList& face : faces)
+  {
+    result.faces.push_back(static_cast<Index>(face.size()));
+    result.faces.insert(result.faces.end(), face.begin(), face.end());
+    sides += face.size();
+    for (std::size_t k = 0; k < face.size(); ++k)
+    {
+      edges.emplace(face[k], face[(k + 1) % face.size()]);
+    }
+  }
+  const bool isClosed =
+    edges.size() == sides && std::all_of(edges.begin(), edges.end(),
+                               [&](const auto& edge) {
+                                 return edges.count({ edge.second, edge.first });
+                               });
+  const bool isSphere = corners.size() + faces.size() == sides / 2 + 2; // Euler's formula
+  return isClosed && isSphere && faces.size() >= 4 ? result : Replacement{};
+}
+
 /// The numbers of the two corners that a node of a shape is between; of none for a face or body.
 std::pair<int, int> edgeOf(const CellShape& shape, int node)
 {
@@ -194,17 +223,64 @@ Replacement replacementOf(const CellShape& shape, const Index* cell)
     replacement = { distinct.size() < 4 ? Types[distinct.size()] : std::uint8_t(Polygon),
       distinct };
   }
-  if (replacement.type != EmptyCell && shape.numberOfNodes > shape.numberOfCorners)
+  const bool isLinear = shape.numberOfNodes == shape.numberOfCorners;
+  if (replacement.type == EmptyCell && isLinear)
+  {
+    replacement = polyhedronWith(faces, distinct);
+  }
+  if (replacement.type != EmptyCell && !isLinear)
   {
     addMidNodes(shape, cell, corners, replacement);
   }
   return replacement;
 }
+
+void replace(const std::map<Index, Replacement>& replaced, Mesh& mesh)
+{
+  if (replaced.empty())
+  {
+    return;
+  }
+  const bool hasFaces =
+    hasPolyhedra(mesh) || std::any_of(replaced.begin(), replaced.end(),
+                            [](const auto& cell) { return cell.second.type == Polyhedron; });
+  const auto add = [](std::vector<Index>& to, const Index* first, const Index* last)
+  { to.insert(to.end(), first, last); };
+  Mesh result;
+  result.offsets = { 0 };
+  result.connectivity.reserve(mesh.connectivity.size());
+  result.faceOffsets.assign(hasFaces ? 1 : 0, 0);
+  for (Index c = 0; c < mesh.numberOfCells(); ++c)
+  {
+    const auto found = replaced.find(c);
+    if (found != replaced.end())
+    {
+      const auto& [type, nodes, faces] = found->second;
+      mesh.types[c] = type;
+      add(result.connectivity, nodes.data(), nodes.data() + nodes.size());
+      add(result.faces, faces.data(), faces.data() + faces.size());
+    }
+    else
+    {
+      add(result.connectivity, mesh.cell(c), mesh.cell(c) + mesh.cellSize(c));
+      forEachFace(mesh, c,
+        [&](const Index* nodes, Index size) { add(result.faces, nodes - 1, nodes + size); });
+    }
+    result.offsets.push_back(static_cast<Index>(result.connectivity.size()));
+    if (hasFaces)
+    {
+      result.faceOffsets.push_back(static_cast<Index>(result.faces.size()));
+    }
+  }
+  mesh.offsets = std::move(result.offsets);
+  mesh.connectivity = std::move(result.connectivity);
+  mesh.faceOffsets = std::move(result.faceOffsets);
+  mesh.faces = std::move(result.faces);
 }
 
-bool replaceCollapsedCells(Mesh& mesh)
+std::map<Index, Replacement> collapsedCells(const Mesh& mesh)
 {
-  std::map<Index, Replacement> replaced;
+  std::map<Index, Replacement> result;
   for (Index c = 0; c < mesh.numberOfCells(); ++c)
   {
     const CellShape* shape = cellShape(mesh, c);
@@ -216,32 +292,33 @@ bool replaceCollapsedCells(Mesh& mesh)
     Replacement replacement = replacementOf(*shape, mesh.cell(c));
     if (replacement.type != EmptyCell)
     {
-      replaced.emplace(c, std::move(replacement));
+      result.emplace(c, std::move(replacement));
     }
   }
-  if (replaced.empty())
+  return result;
+}
+
+/// All but the first of volume cells with the same corners, as poly-vertices of these.
+std::map<Index, Replacement> laterCopies(const Mesh& mesh, Monitor& monitor)
+{
+  std::map<Index, Replacement> result;
+  std::set<NodeList> known;
+  for (const Index cell : repeatedCells(mesh, monitor))
   {
-    return false;
-  }
-  std::vector<Index> offsets = { 0 }, connectivity;
-  connectivity.reserve(mesh.connectivity.size());
-  for (Index c = 0; c < mesh.numberOfCells(); ++c)
-  {
-    const auto found = replaced.find(c);
-    if (found == replaced.end())
+    const NodeList corners = cornersOf(mesh, cell);
+    if (mesh.types[cell] != PolyVertex && !known.insert(corners).second)
     {
-      connectivity.insert(connectivity.end(), mesh.cell(c), mesh.cell(c) + mesh.cellSize(c));
+      result[cell] = { PolyVertex, corners };
     }
-    else
-    {
-      const NodeList& nodes = found->second.nodes;
-      connectivity.insert(connectivity.end(), nodes.begin(), nodes.end());
-      mesh.types[c] = found->second.type;
-    }
-    offsets.push_back(static_cast<Index>(connectivity.size()));
   }
-  mesh.offsets = std::move(offsets);
-  mesh.connectivity = std::move(connectivity);
-  return true;
+  return result;
+}
+}
+
+void recognizeCells(Mesh& mesh, Monitor& monitor)
+{
+  replace(collapsedCells(mesh), mesh);
+  replace(laterCopies(mesh, monitor), mesh);
+  orientPolyhedra(mesh);
 }
 }

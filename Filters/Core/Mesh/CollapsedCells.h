@@ -2,14 +2,23 @@
 #pragma once
 
 #include "Mesh/Mesh.h"
+#include "Support/Monitor.h"
 
 namespace morph
 {
-/// Replaces volume cells that name a corner more than once by the cells that they are: hexahedra
-/// that are wedges, pyramids or tetrahedra, wedges that are pyramids or tetrahedra, pyramids that
-/// are tetrahedra. So do their quadratic forms, whose nodes on an edge without length are its
-/// corner. Cells whose faces cover one another have no volume, and become polygons, lines or
-/// vertices. Cells of no such shape stay as they are. Numbers of cells and nodes stay. Returns
-/// whether it has replaced any. Cost: a pass.
-bool replaceCollapsedCells(Mesh& mesh);
+/// Replaces cells of a valid mesh by what methods, quality and boundary take them for. Numbers of
+/// cells and nodes stay.
+///
+/// - Volume cells that name a corner more than once become the cells that they are: hexahedra that
+///   are wedges, pyramids or tetrahedra, wedges that are pyramids or tetrahedra, pyramids that are
+///   tetrahedra. So do their quadratic forms, whose nodes on an edge without length are its corner.
+///   Other linear ones become polyhedra if their faces are closed, as a hexahedron of seven nodes.
+///   Cells whose faces cover one another have no volume, and become polygons, lines or vertices.
+///   The rest stay as they are.
+/// - Of volume cells with the same corners the first one counts; the others become poly-vertices of
+///   these corners.
+/// - Faces of polyhedra are turned outward, see orientPolyhedra().
+///
+/// Cost: a pass, and that of repeatedCells().
+void recognizeCells(Mesh& mesh, Monitor& monitor);
 }

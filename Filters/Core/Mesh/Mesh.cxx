@@ -83,18 +83,25 @@ void validate(const Mesh& mesh)
       notFinite.push_back(n);
     }
   }
+  if (notFinite.empty())
+  {
+    return;
+  }
+  std::vector<std::uint8_t> isUsed(nodes, 0);
+  for (Index c = 0; c < cells; ++c)
+  {
+    for (Index k = 0; mesh.types[c] != EmptyCell && k < mesh.cellSize(c); ++k)
+    {
+      isUsed[mesh.cell(c)[k]] = 1;
+    }
+  }
+  notFinite.erase(std::remove_if(notFinite.begin(), notFinite.end(),
+                    [&](Index node) { return isUsed[node] == 0; }),
+    notFinite.end());
   if (!notFinite.empty())
   {
-    const auto isUsed = [&](Index node)
-    {
-      const std::vector<Index>& list = mesh.connectivity;
-      return std::find(list.begin(), list.end(), node) != list.end();
-    };
     throw Error("Coordinates that are not finite (NaN or infinite) at node ids " +
-                listIds(notFinite) +
-                (std::any_of(notFinite.begin(), notFinite.end(), isUsed)
-                    ? "."
-                    : ". No cell has these nodes: remove them."));
+                listIds(notFinite) + ". Correct them, or remove their cells.");
   }
 }
 }

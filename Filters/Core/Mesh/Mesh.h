@@ -47,8 +47,8 @@ struct Mesh
   Index cellSize(Index id) const { return this->offsets[id + 1] - this->offsets[id]; }
 };
 
-/// Throws Error unless the mesh is consistent: array lengths, node ids, finite coordinates, nodes
-/// per cell, closed polyhedra. The message names cells of a type that is not in CellShape.h, or of
-/// another order. Cost: one pass over the mesh.
+/// Throws Error unless the mesh is consistent: array lengths, node ids, finite coordinates of the
+/// cells' nodes, nodes per cell, closed polyhedra. The message names cells of a type that is not in
+/// CellShape.h, or of another order. Cost: a pass over the mesh.
 void validate(const Mesh& mesh);
 }

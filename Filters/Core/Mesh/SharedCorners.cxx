@@ -19,18 +19,15 @@ namespace morph
 {
 namespace
 {
-/// The different corners of a volume cell, ascending; none of another cell.
-std::vector<Index> cornersOf(const Mesh& mesh, Index cell)
+/// Of a volume cell, or of a poly-vertex, whose nodes they are; 0 of another cell.
+Index numberOfCorners(const Mesh& mesh, Index cell)
 {
-  const CellShape* shape = cellShape(mesh, cell);
-  if (!shape || shape->dimension < 3)
+  if (mesh.types[cell] == PolyVertex)
   {
-    return {};
+    return mesh.cellSize(cell);
   }
-  const Index* nodes = mesh.cell(cell);
-  std::vector<Index> corners(nodes, nodes + cornerCount(mesh, cell, *shape));
-  sortUnique(corners);
-  return corners;
+  const CellShape* shape = cellShape(mesh, cell);
+  return shape && shape->dimension == 3 ? cornerCount(mesh, cell, *shape) : 0;
 }
 
 /// Whether the faces around a node are one fan in which every edge has two of them. `ends`: at each
@@ -124,6 +121,14 @@ bool areJoined(const std::vector<std::vector<Index>>& corners)
 }
 }
 
+std::vector<Index> cornersOf(const Mesh& mesh, Index cell)
+{
+  const Index* nodes = mesh.cell(cell);
+  std::vector<Index> corners(nodes, nodes + numberOfCorners(mesh, cell));
+  sortUnique(corners);
+  return corners;
+}
+
 std::vector<Index> repeatedCells(const Mesh& mesh, Monitor& monitor)
 {
   const Adjacency byLowest = sortIntoBuckets(mesh.numberOfCells(), mesh.numberOfNodes(), monitor,
@@ -131,11 +136,10 @@ std::vector<Index> repeatedCells(const Mesh& mesh, Monitor& monitor)
     {
       for (Index c = first; c < last; ++c)
       {
-        const CellShape* shape = cellShape(mesh, c);
-        if (shape && shape->dimension == 3)
+        const Index corners = numberOfCorners(mesh, c);
+        if (corners > 0)
         {
-          const Index* nodes = mesh.cell(c);
-          add(*std::min_element(nodes, nodes + cornerCount(mesh, c, *shape)), c);
+          add(*std::min_element(mesh.cell(c), mesh.cell(c) + corners), c);
         }
       }
     });
@@ -149,7 +153,7 @@ std::vector<Index> repeatedCells(const Mesh& mesh, Monitor& monitor)
       const auto sum = [&mesh](Index c)
       {
         const Index* nodes = mesh.cell(c);
-        return std::accumulate(nodes, nodes + cornerCount(mesh, c, *cellShape(mesh, c)), Index(0));
+        return std::accumulate(nodes, nodes + numberOfCorners(mesh, c), Index(0));
       };
       for (Index n = first; n < last; ++n)
       {
@@ -163,9 +167,11 @@ std::vector<Index> repeatedCells(const Mesh& mesh, Monitor& monitor)
         {
           for (std::size_t j = i; j-- > 0 && cells[j].first == cells[i].first;)
           {
-            if (cornersOf(mesh, cells[i].second) == cornersOf(mesh, cells[j].second))
+            const Index one = cells[i].second, other = cells[j].second;
+            if ((mesh.types[one] != PolyVertex || mesh.types[other] != PolyVertex) &&
+                cornersOf(mesh, one) == cornersOf(mesh, other))
             {
-              found.insert(found.end(), { cells[i].second, cells[j].second });
+              found.insert(found.end(), { one, other });
             }
           }
         }
@@ -191,6 +197,10 @@ std::vector<Index> touchingNodes(const Mesh& mesh, const BoundaryFaces& faces)
   }
   for (Index c = 0; c < mesh.numberOfCells(); ++c)
   {
+    if (mesh.types[c] == PolyVertex)
+    {
+      continue;
+    }
     const std::vector<Index> corners = cornersOf(mesh, c);
     for (const Index node : corners)
     {

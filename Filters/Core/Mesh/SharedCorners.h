@@ -9,8 +9,12 @@
 
 namespace morph
 {
-/// Returns the volume cells, ascending, that have the same corners as another one. Cost: a sort of
-/// the cells by their lowest corner.
+/// The corners of a volume cell or nodes of a poly-vertex, each once, ascending; else none.
+std::vector<Index> cornersOf(const Mesh& mesh, Index cell);
+
+/// Returns the volume cells, ascending, that have the same corners as another one, and the
+/// poly-vertices that recognizeCells() has made of them. Cost: a sort of the cells by their lowest
+/// corner.
 std::vector<Index> repeatedCells(const Mesh& mesh, Monitor& monitor);
 
 /// Returns the nodes, ascending, where cells meet that are not joined by faces there, as where two

@@ -24,24 +24,6 @@ constexpr double Cancelled = 1e-6; // of the areas around a node, their sum
 constexpr int Rings = 3;           // of cells, whose normals tell which way a node's is
 constexpr double Alike = 0.5;      // cosine of normals that agree
 
-bool isFace(const Mesh& mesh, Index cell)
-{
-  const CellShape* shape = cellShape(mesh.types[cell]);
-  return shape && (shape->shape == Shape::Tri || shape->shape == Shape::Quadrilateral);
-}
-
-/// The corners of a triangle or quadrilateral around it.
-std::vector<Index> cornersOf(const Mesh& mesh, Index cell)
-{
-  const CellShape& shape = *cellShape(mesh.types[cell]);
-  std::vector<Index> corners;
-  for (int k = 0; k < shape.numberOfCorners; ++k)
-  {
-    corners.push_back(mesh.cell(cell)[shape.cornerNode[k]]);
-  }
-  return corners;
-}
-
 Eigen::RowVector3d areaOf(const Points& points, const std::vector<Index>& corners)
 {
   const auto at = [&](std::size_t k) -> Eigen::RowVector3d
@@ -50,8 +32,19 @@ Eigen::RowVector3d areaOf(const Points& points, const std::vector<Index>& corner
                              : (at(2)).cross(at(3) - at(1)) / 2; // of the diagonals
 }
 
-/// The plane, if the mesh lies in one, and how thick the layer is to be.
-ShellLayer layerOf(const Mesh& mesh)
+/// The corners of a prism's front, and the nodes on its edges if it is quadratic.
+std::vector<Index> frontNodes(const Mesh& layer, Index cell)
+{
+  std::vector<Index> nodes = frontOf(layer, cell);
+  const Index half = static_cast<Index>(nodes.size());
+  const Index* middles = layer.cell(cell) + 2 * half; // behind the corners of the prism
+  nodes.insert(nodes.end(), middles, middles + (layer.cellSize(cell) > 2 * half ? half : 0));
+  return nodes;
+}
+
+/// The plane, if the prisms' fronts lie in one, and how thick the layer is to be. `points`: of the
+/// front.
+ShellLayer layerOf(const Mesh& mesh, const Points& points)
 {
   Eigen::RowVector3d largest = Eigen::RowVector3d::Zero(), sum = largest;
   double length = 0;
@@ -60,12 +53,12 @@ ShellLayer layerOf(const Mesh& mesh)
   Eigen::AlignedBox3d box;
   for (Index c = 0; c < mesh.numberOfCells(); ++c)
   {
-    if (!isFace(mesh, c))
+    const std::vector<Index> corners = frontOf(mesh, c);
+    if (corners.empty())
     {
       continue;
     }
-    const std::vector<Index> corners = cornersOf(mesh, c);
-    areas.push_back(areaOf(mesh.points, corners));
+    areas.push_back(areaOf(points, corners));
     if (areas.back().squaredNorm() > largest.squaredNorm())
     {
       largest = areas.back();
@@ -73,9 +66,9 @@ ShellLayer layerOf(const Mesh& mesh)
     for (std::size_t k = 0; k < corners.size(); ++k)
     {
       const Index next = corners[(k + 1) % corners.size()];
-      length += (mesh.points.row(next) - mesh.points.row(corners[k])).stableNorm();
+      length += (points.row(next) - points.row(corners[k])).stableNorm();
       ++edges;
-      box.extend(mesh.points.row(corners[k]).transpose());
+      box.extend(points.row(corners[k]).transpose());
     }
   }
   // Of cells that are wound either way, most of the area decides.
@@ -87,7 +80,7 @@ ShellLayer layerOf(const Mesh& mesh)
     counterclockwise += side * area.stableNorm();
   }
   ShellLayer plane;
-  plane.nodes = mesh.numberOfNodes();
+  plane.nodes = points.rows();
   plane.thickness = edges > 0 ? length / static_cast<double>(edges) : 0;
   if (!(sum.stableNorm() > 0))
   {
@@ -101,9 +94,9 @@ ShellLayer layerOf(const Mesh& mesh)
   double least = 0, most = 0;
   for (Index c = 0; c < mesh.numberOfCells(); ++c)
   {
-    for (Index k = 0; isFace(mesh, c) && k < mesh.cellSize(c); ++k)
+    for (const Index node : frontNodes(mesh, c))
     {
-      const double height = (mesh.points.row(mesh.cell(c)[k]) - from).dot(plane.normal);
+      const double height = (points.row(node) - from).dot(plane.normal);
       least = std::min(least, height);
       most = std::max(most, height);
     }
@@ -117,7 +110,8 @@ ShellLayer layerOf(const Mesh& mesh)
 }
 
 /// Whether each front is wound as its neighbors, across edges of two fronts, are on the whole: 1 or
-/// -1. Most of the area of what hangs together is wound right. `points`: of the front.
+/// -1. Most of the area of what hangs together is wound right, in a plane about its normal.
+/// `points`: of the front.
 std::vector<std::int8_t> windingsOf(const Mesh& shell, const Points& points)
 {
   struct Side
@@ -169,11 +163,16 @@ std::vector<std::int8_t> windingsOf(const Mesh& shell, const Points& points)
     {
       const Index c = part[i];
       const std::vector<Index> corners = frontOf(shell, c);
-      area += corners.empty() ? 0 : windings[c] * areaOf(points, corners).stableNorm();
+      if (!corners.empty())
+      {
+        const Eigen::RowVector3d own = areaOf(points, corners);
+        area +=
+          windings[c] * (shell.layer.isCurved() ? own.stableNorm() : own.dot(shell.layer.normal));
+      }
       for (const auto& [other, same] : neighbors[c])
       {
         const auto asked = static_cast<std::int8_t>(same * windings[c]);
-        if (windings[other] == -asked)
+        if (windings[other] == -asked && shell.layer.isCurved())
         {
           throw Error("The shell has one side alone, as a Möbius strip: no winding of its cells "
                       "agrees with all neighbors, at cell ids " +
@@ -193,16 +192,6 @@ std::vector<std::int8_t> windingsOf(const Mesh& shell, const Points& points)
     }
   }
   return windings;
-}
-
-/// The corners of a prism's front, and the nodes on its edges if it is quadratic.
-std::vector<Index> frontNodes(const Mesh& layer, Index cell)
-{
-  std::vector<Index> nodes = frontOf(layer, cell);
-  const Index half = static_cast<Index>(nodes.size());
-  const Index* middles = layer.cell(cell) + 2 * half; // behind the corners of the prism
-  nodes.insert(nodes.end(), middles, middles + (layer.cellSize(cell) > 2 * half ? half : 0));
-  return nodes;
 }
 
 /// Adds, at each node of the front, what its cells have: `of(cell, its nodes)`, a row.
@@ -225,12 +214,11 @@ Points sumsAround(const Mesh& layer, const Of& of)
 
 /// The sum of the areas around each node of the front, which inside the surface does not depend on
 /// the node's own place.
-Points areasAround(
-  const Mesh& layer, const Points& points, const std::vector<std::int8_t>& windings)
+Points areasAround(const Mesh& layer, const Points& points)
 {
   return sumsAround(layer,
     [&](Index c, const std::vector<Index>&) -> Eigen::RowVector3d
-    { return windings[c] * areaOf(points, frontOf(layer, c)); });
+    { return areaOf(points, frontOf(layer, c)); });
 }
 
 /// The mean over the neighborhood of each node, cell by cell.
@@ -254,6 +242,20 @@ Points normalized(Points areas)
     areas.row(node) /= length > 0 ? length : 1;
   }
   return areas;
+}
+
+/// Winds a prism the other way round.
+void turnOver(Mesh& layer, Index cell)
+{
+  const auto half = static_cast<Index>(frontOf(layer, cell).size());
+  const auto first = layer.connectivity.begin() + layer.offsets[cell];
+  // Corners of front and back, and of a quadratic prism the nodes between them, front and back,
+  // and between front and back.
+  for (Index group = 0; (group + 1) * half <= layer.cellSize(cell); ++group)
+  {
+    const bool areCorners = group < 2 || group == 4;
+    std::reverse(first + group * half + (areCorners ? 1 : 0), first + (group + 1) * half);
+  }
 }
 
 /// Appends the cells of a layer to a mesh.
@@ -380,20 +382,27 @@ Mesh thicken(const Mesh& shell)
   validate(shell); // as cells are read by their types
   Mesh mesh;
   mesh.offsets = { 0 };
-  mesh.layer = layerOf(shell);
   Layer layer(shell, mesh);
   for (Index c = 0; c < shell.numberOfCells(); ++c)
   {
     layer.add(c);
   }
+  mesh.layer = layerOf(mesh, shell.points);
   const Index count = shell.numberOfNodes(), middles = static_cast<Index>(layer.middles().size());
+  const std::vector<std::int8_t> windings = windingsOf(mesh, shell.points);
+  for (Index c = 0; c < mesh.numberOfCells(); ++c)
+  {
+    if (windings[c] < 0)
+    {
+      turnOver(mesh, c);
+    }
+  }
   Points across = mesh.layer.normal.replicate(count, 1);
   if (mesh.layer.isCurved())
   {
-    const std::vector<std::int8_t> windings = windingsOf(mesh, shell.points);
     const Points sizes = sumsAround(mesh, [&](Index c, const std::vector<Index>&)
       { return Eigen::RowVector3d(areaOf(shell.points, frontOf(mesh, c)).stableNorm(), 0, 0); });
-    across = areasAround(mesh, shell.points, windings);
+    across = areasAround(mesh, shell.points);
     std::vector<Index> cancelled;
     for (Index node = 0; node < count; ++node)
     {
@@ -471,22 +480,6 @@ BoundaryFaces frontFaces(const Mesh& mesh)
   return facesAt(mesh, places);
 }
 
-std::vector<std::int8_t> frontWindings(const Mesh& mesh)
-{
-  const Index count = mesh.layer.nodes;
-  const Points across = mesh.points.middleRows(count, count) - mesh.points.topRows(count);
-  std::vector<std::int8_t> windings(mesh.numberOfCells(), 1);
-  for (Index c = 0; c < mesh.numberOfCells(); ++c)
-  {
-    const std::vector<Index> corners = frontOf(mesh, c);
-    const bool isAgainst =
-      !corners.empty() &&
-      areaOf(mesh.points, corners).dot(across(corners, allColumns).colwise().sum()) < 0;
-    windings[c] = isAgainst ? -1 : 1;
-  }
-  return windings;
-}
-
 void placeImages(const Mesh& rest, Points& moved)
 {
   const Index count = rest.layer.nodes;
@@ -494,12 +487,11 @@ void placeImages(const Mesh& rest, Points& moved)
   {
     return;
   }
-  const std::vector<std::int8_t> windings = frontWindings(rest);
   // Where cells around a node are folded over, their sum is no normal, and the wider neighborhood
   // tells it. At a sharp bend of the undeformed shell the two differ without a fold.
   const auto bothAt = [&](const Points& points)
   {
-    Points areas = areasAround(rest, points, windings);
+    Points areas = areasAround(rest, points);
     Points wide = normalized(widened(rest, areas));
     return std::make_pair(normalized(std::move(areas)), std::move(wide));
   };

@@ -13,13 +13,14 @@ namespace morph
 /// Returns a mesh of faces as a solid one layer thick, so that all that morphs and measures solids
 /// works for it: triangles become wedges and quadrilaterals hexahedra. Lines become the faces of
 /// its sides. Cells keep their ids, and nodes those of the front; see ShellLayer. Nodes in the
-/// middle of edges between front and back, which quadratic cells have, come last.
+/// middle of edges between front and back, which quadratic cells have, come last. Cells that are
+/// wound against their neighbors are turned over, so that only a fold inverts them.
 ///
 /// The layer of a plane mesh is as thick as edges are long on the mean, which no result depends on
 /// but by rounding; its normal is that about which most of the area is wound counterclockwise. A
 /// mesh that is not plane to 1e-6 of its size is a curved shell, a tenth as thick. Its layer stands
-/// on the normals of its nodes: sums of the areas around them, cells that are wound against their
-/// neighbors turned over. Geometry reads its cells upright; see StandingCells.h.
+/// on the normals of its nodes: sums of the areas around them. Geometry reads its cells upright;
+/// see StandingCells.h.
 ///
 /// Throws Error for a mesh without area, and for cells other than vertices, lines, triangles and
 /// quadrilaterals, linear or quadratic. It throws for shells with one side alone or without a
@@ -34,10 +35,8 @@ Mesh bent(Mesh mesh);
 /// Throws Error for a curved layer, whose nodes span no region that could be tessellated.
 void requireRegion(const Mesh& mesh);
 
-/// The cells of a layer as faces, outward to the front where its cells are wound alike.
+/// The cells of a layer as faces, outward to the front.
 BoundaryFaces frontFaces(const Mesh& mesh);
-/// #cells: -1 where a cell of a layer is wound against its normals, else 1.
-std::vector<std::int8_t> frontWindings(const Mesh& mesh);
 
 /// Puts the images of the nodes of a curved layer, and the nodes between, behind the front on the
 /// normals that the surface has where it has moved. `moved`: #nodes x 3, whose front is read. So a

@@ -299,7 +299,12 @@ StepResult Session::morphStep(const Mesh& from, const BoundaryTargets& boundary,
     hanging.place(from.points, result.moved);
     this->copies_->update(result.moved);
   }
-  if (const auto wrong = immoderateRows(result.moved, &evaluating); !wrong.empty())
+  std::vector<Index> wrong = immoderateRows(result.moved, &evaluating);
+  // Points of no cell may be anything, and stay so.
+  wrong.erase(std::remove_if(wrong.begin(), wrong.end(),
+                [&from](Index n) { return !from.points.row(n).allFinite(); }),
+    wrong.end());
+  if (!wrong.empty())
   {
     throw Error("The method gave positions that are not finite or beyond 1e50, at node ids " +
                 listIds(processes.idsOf(wrong)) +

@@ -30,7 +30,14 @@ UndeformedMesh::UndeformedMesh(Mesh given, const UndeformedMesh* sameCells, Moni
   const bool hasOuter = sameCells && sameCells->hanging_.empty();
   this->outer_ = hasOuter ? sameCells->outer_ : boundaryFaces(mesh, this->hanging_, monitor);
   this->needsPieces_ = morph::needsPieces(mesh, this->hanging_);
-  this->repeated_ = sameCells ? sameCells->repeated_ : morph::repeatedCells(mesh, monitor);
+  if (sameCells)
+  {
+    this->repeated_ = sameCells->repeated_;
+  }
+  else if (std::find(mesh.types.begin(), mesh.types.end(), PolyVertex) != mesh.types.end())
+  {
+    this->repeated_ = morph::repeatedCells(mesh, monitor);
+  }
   this->unmapped_ = sameCells ? sameCells->unmapped_ : morph::unmappedCells(mesh);
   if (sameCells)
   {
@@ -151,9 +158,10 @@ void warnOfShared(const std::vector<Index>& repeatedCells, const std::vector<Ind
 {
   if (!repeatedCells.empty())
   {
-    monitor.warn("Cells are there twice, which makes the mesh stiffer at one place, and its outer "
-                 "faces wrong: cell ids " +
-                 listIds(repeatedCells) + ". Remove one of each.");
+    monitor.warn(
+      "Cells are there twice: cell ids " + listIds(repeatedCells) +
+      ". The first of each counts, on several MPI ranks the first of each rank. Remove the "
+      "others.");
   }
   if (!touchingNodes.empty())
   {

@@ -2,7 +2,6 @@
 #include "Formats/SolverMesh.h"
 
 #include "Mesh/CollapsedCells.h"
-#include "Mesh/Polyhedra.h"
 #include "Support/Error.h"
 #include "Support/Lists.h"
 
@@ -171,8 +170,8 @@ Mesh coreMesh(const SolverMesh& mesh)
   result.faceOffsets = mesh.faceOffsets;
   result.faces = mesh.faces;
   validate(result);
-  replaceCollapsedCells(result);
-  orientPolyhedra(result);
+  Monitor serial;
+  recognizeCells(result, serial);
   return result;
 }
 

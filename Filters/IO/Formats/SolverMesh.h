@@ -62,7 +62,7 @@ struct SolverMesh
 };
 
 /// The mesh of the core, with the same numbers of nodes and cells; see validate() and
-/// replaceCollapsedCells().
+/// recognizeCells().
 Mesh coreMesh(const SolverMesh& mesh);
 
 /// The nodes and cells at these positions, in the order given, and what is left of each set, also

@@ -179,8 +179,8 @@ Found Find(const morph::Mesh& rest, const morph::BoundaryFaces& faces,
       if (layer.isCurved() || morph::leavesPlane(layer, written))
       {
         const morph::BoundaryFaces front = morph::frontFaces(rest);
-        Found found =
-          findAmong(rest, front, morph::frontWindings(rest), output, nullptr, written, monitor);
+        const std::vector<std::int8_t> alike(rest.numberOfCells(), 1);
+        Found found = findAmong(rest, front, alike, output, nullptr, written, monitor);
         found.Own.clear();
         return found;
       }

@@ -133,44 +133,10 @@ std::vector<morph::Index> readFaces(vtkUnstructuredGrid* grid, morph::Mesh& mesh
   return missing;
 }
 
-/// Whether the grid's polyhedra have the faces of `mesh`, whose other arrays are the grid's.
-bool sameFaces(vtkUnstructuredGrid* grid, const morph::Mesh& mesh)
+/// Whether the nodes of the grid's cells are those of `mesh`.
+bool haveNodes(vtkUnstructuredGrid* grid, const morph::Mesh& mesh)
 {
-  if (!morph::hasPolyhedra(mesh))
-  {
-    return true;
-  }
-  morph::Mesh read;
-  read.types = mesh.types;
-  if (!readFaces(grid, read).empty() || grid->GetNumberOfPoints() != mesh.numberOfNodes())
-  {
-    return false;
-  }
-  if (read.faceOffsets == mesh.faceOffsets && read.faces == mesh.faces)
-  {
-    return true;
-  }
-  // They may be the same but for the way they run.
-  morph::Mesh other = mesh;
-  other.faces = std::move(read.faces);
-  other.faceOffsets = std::move(read.faceOffsets);
-  other.points = GridMesh::FromPoints(grid->GetPoints());
-  try
-  {
-    morph::requireClosedPolyhedra(other);
-  }
-  catch (const morph::Error&)
-  {
-    return false; // it is told where the grid is copied
-  }
-  morph::orientPolyhedra(other);
-  return other.faceOffsets == mesh.faceOffsets && other.faces == mesh.faces;
-}
-
-/// Whether the grid's cells are those of `mesh`, but for the faces of polyhedra.
-bool haveCells(vtkUnstructuredGrid* grid, const morph::Mesh& mesh)
-{
-  bool same = typesOf(grid) == mesh.types;
+  bool same = true;
   for (const auto& [array, kept] : { std::pair(grid->GetCells()->GetOffsetsArray(), &mesh.offsets),
          std::pair(grid->GetCells()->GetConnectivityArray(), &mesh.connectivity) })
   {
@@ -182,20 +148,6 @@ bool haveCells(vtkUnstructuredGrid* grid, const morph::Mesh& mesh)
     }
   }
   return same;
-}
-
-/// The same where FromGrid() has replaced collapsed cells.
-bool haveReplacedCells(vtkUnstructuredGrid* grid, const morph::Mesh& mesh)
-{
-  morph::Monitor serial;
-  morph::Mesh read;
-  readCells(grid, read, serial);
-  const bool isReadable =
-    read.offsets.size() == read.types.size() + 1 && read.offsets.front() == 0 &&
-    std::is_sorted(read.offsets.begin(), read.offsets.end()) &&
-    read.offsets.back() == static_cast<morph::Index>(read.connectivity.size());
-  return isReadable && morph::replaceCollapsedCells(read) && read.types == mesh.types &&
-         read.offsets == mesh.offsets && read.connectivity == mesh.connectivity;
 }
 
 constexpr const char* LayerName = "MorphShellLayer";
@@ -213,6 +165,12 @@ void validateKnown(morph::Mesh& mesh)
   }
   morph::validate(mesh);
   mesh.types = types;
+}
+
+bool sameCells(const morph::Mesh& a, const morph::Mesh& b)
+{
+  return a.types == b.types && a.offsets == b.offsets && a.connectivity == b.connectivity &&
+         a.faceOffsets == b.faceOffsets && a.faces == b.faces;
 }
 }
 
@@ -243,8 +201,7 @@ morph::Mesh FromGrid(vtkUnstructuredGrid* grid, UnknownCells unknown, morph::Mon
   {
     morph::validate(mesh);
   }
-  morph::replaceCollapsedCells(mesh);
-  morph::orientPolyhedra(mesh);
+  morph::recognizeCells(mesh, monitor);
   mesh.layer = LayerOf(grid);
   return mesh;
 }
@@ -332,7 +289,33 @@ bool SameCells(vtkUnstructuredGrid* grid, const morph::Mesh& mesh)
   {
     return true;
   }
-  return (haveCells(grid, mesh) || haveReplacedCells(grid, mesh)) && sameFaces(grid, mesh);
+  if (!morph::hasPolyhedra(mesh) && typesOf(grid) == mesh.types)
+  {
+    return haveNodes(grid, mesh);
+  }
+  // FromGrid() has replaced cells, or may have turned faces.
+  morph::Monitor serial;
+  morph::Mesh read;
+  read.points = FromPoints(grid->GetPoints());
+  readCells(grid, read, serial);
+  if (!readFaces(grid, read).empty() || read.numberOfNodes() != mesh.numberOfNodes())
+  {
+    return false;
+  }
+  if (sameCells(read, mesh))
+  {
+    return true;
+  }
+  try
+  {
+    validateKnown(read);
+  }
+  catch (const morph::Error&)
+  {
+    return false; // it is told where the grid is copied
+  }
+  morph::recognizeCells(read, serial);
+  return sameCells(read, mesh);
 }
 
 bool SamePoints(vtkUnstructuredGrid* grid, const morph::Mesh& mesh)

@@ -23,6 +23,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <string>
 #include <type_traits>
@@ -33,17 +34,18 @@ namespace
 {
 constexpr morph::Index Grain = 4096;
 
-/// The points as written and minus `rest`, or nothing where these or those are not writable.
+/// The points as written and minus `rest`, and whether all of these and those are writable.
 template <typename Array>
 struct Written
 {
   vtkSmartPointer<Array> Coordinates, Displacement;
+  bool IsWritable;
 
   static Written Make(
     const morph::Points& rest, const morph::Points& moved, morph::Monitor& monitor)
   {
     Written written = { Arrays::Make<Array>("Points", moved.rows(), 3),
-      Arrays::Make<Array>("MorphDisplacement", moved.rows(), 3) };
+      Arrays::Make<Array>("MorphDisplacement", moved.rows(), 3), true };
     auto *to = written.Coordinates->GetPointer(0), *by = written.Displacement->GetPointer(0);
     using Value = std::remove_pointer_t<decltype(to)>;
     const double most =
@@ -62,7 +64,6 @@ struct Written
         if (!isModerate)
         {
           isWritable = false;
-          return;
         }
         for (morph::Index i = 3 * first; i < 3 * last; ++i)
         {
@@ -70,7 +71,8 @@ struct Written
           by[i] = static_cast<Value>(static_cast<double>(to[i]) - from[i]);
         }
       });
-    return isWritable ? written : Written();
+    written.IsWritable = isWritable;
+    return written;
   }
 };
 
@@ -79,7 +81,7 @@ void writePoints(vtkUnstructuredGrid* input, const morph::Points& rest, const mo
   vtkUnstructuredGrid* output, morph::Monitor& monitor)
 {
   const auto written = Written<Array>::Make(rest, moved, monitor);
-  if (!written.Coordinates)
+  if (!written.IsWritable)
   {
     Output::RequireWritable(rest, moved, std::is_same_v<Array, vtkFloatArray>, "nodes");
   }
@@ -122,7 +124,11 @@ void RequireWritable(const morph::Points& rest, const morph::Points& moved, bool
     }
     return morph::listIds(rows);
   };
-  if (const auto wrong = morph::immoderateRows(moved); !wrong.empty())
+  // Points of no cell may be anything, and stay so.
+  const auto wasFinite = [&rest](morph::Index n) { return rest.row(n).allFinite(); };
+  std::vector<morph::Index> wrong = morph::immoderateRows(moved);
+  wrong.erase(std::remove_if(wrong.begin(), wrong.end(), std::not_fn(wasFinite)), wrong.end());
+  if (!wrong.empty())
   {
     throw morph::Error(std::string("The motion takes ") + what +
                        " to places that are not finite or beyond 1e50: node ids " + list(wrong) +
@@ -131,9 +137,9 @@ void RequireWritable(const morph::Points& rest, const morph::Points& moved, bool
   std::vector<morph::Index> tooLarge;
   for (morph::Index n = 0; isFloat && n < moved.rows(); ++n)
   {
-    if (std::max(moved.row(n).array().abs().maxCoeff(),
-          (moved.row(n) - rest.row(n)).array().abs().maxCoeff()) >
-        std::numeric_limits<float>::max())
+    if (wasFinite(n) && std::max(moved.row(n).array().abs().maxCoeff(),
+                          (moved.row(n) - rest.row(n)).array().abs().maxCoeff()) >
+                          std::numeric_limits<float>::max())
     {
       tooLarge.push_back(n);
     }

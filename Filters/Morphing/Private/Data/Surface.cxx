@@ -172,8 +172,10 @@ void WarnOfNone(const morph::BoundaryFaces& faces, morph::Monitor& monitor)
 {
   if (faces.nodes.empty())
   {
-    monitor.warn("The boundary is empty: every face of the input's cells belongs to two cells or "
-                 "more, as where each cell is there twice. Remove the cells that repeat others.");
+    monitor.warn(
+      "The boundary is empty: every face of the input's cells belongs to two cells or "
+      "more, as the edges of a closed shell do. Give points or lines at its nodes as the "
+      "boundary, or move everything.");
   }
 }
 }

@@ -217,23 +217,25 @@ vtkPolyData* vtkDisplacementAlgorithm::vtkInternals::WholeShell(
 {
   const bool isWhole = options.Moving == MOVING_EVERYTHING ||
                        (options.Moving == MOVING_SURFACES && options.Surfaces.empty());
-  if (!grid || !hasTarget || !isWhole || filters::GridMesh::LayerOf(grid).nodes == 0)
+  if (!grid || !isWhole || (!hasTarget && options.Moving != MOVING_EVERYTHING) ||
+      filters::GridMesh::LayerOf(grid).nodes == 0)
   {
     return nullptr;
   }
   if (this->ShellOf != grid || this->ShellTime != grid->GetMTime())
   {
     const morph::Mesh mesh = filters::GridMesh::FromGrid(grid);
-    const std::vector<std::int8_t> windings = morph::frontWindings(mesh);
+    morph::Monitor serial;
+    this->IsShellClosed = morph::boundaryFaces(mesh, serial).nodes.empty();
     morph::BoundaryFaces faces = morph::frontFaces(mesh);
     faces.nodes =
       morph::consecutive(mesh.layer.nodes); // of the input, so that messages have its ids
     this->Shell = vtkSmartPointer<vtkPolyData>::New();
-    filters::Surface::Write(grid, mesh, faces, this->Shell, &windings);
+    filters::Surface::Write(grid, mesh, faces, this->Shell);
     this->ShellOf = grid;
     this->ShellTime = grid->GetMTime();
   }
-  return this->Shell;
+  return hasTarget || this->IsShellClosed ? this->Shell : nullptr;
 }
 
 void vtkDisplacementAlgorithm::vtkInternals::Classify(

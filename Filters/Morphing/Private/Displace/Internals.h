@@ -123,11 +123,12 @@ struct vtkDisplacementAlgorithm::vtkInternals
 
 private:
   morph::filters::Unchanged Checked; ///< the input, where it is a grid
-  /// The faces of a shell that goes to a target as a whole, and the input that they are of.
+  /// The faces of a shell that moves as a whole, and the input that they are of.
   ///@{
   vtkSmartPointer<vtkPolyData> Shell;
   const vtkDataObject* ShellOf = nullptr; ///< compared, never used
   vtkMTimeType ShellTime = 0;
+  bool IsShellClosed = false;
   ///@}
   morph::filters::BlockSelection Selected, ZoneSelected;
   std::vector<std::string> Warnings; ///< of the geometry, not reported yet
