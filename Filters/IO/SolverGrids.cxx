@@ -2,6 +2,7 @@
 #include "SolverGrids.h"
 
 #include "Formats/SolverMesh.h"
+#include "Support/Lists.h"
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
@@ -21,7 +22,6 @@
 #include <vtkUnstructuredGrid.h>
 
 #include <algorithm>
-#include <numeric>
 
 namespace morph::io
 {
@@ -192,8 +192,7 @@ void fill(const SolverMesh& mesh, const SolverMesh& whole, const std::string& pa
 /// All nodes, and the cells that are elements of the file.
 SolverMesh elementsOf(const SolverMesh& mesh)
 {
-  std::vector<Index> nodes(static_cast<std::size_t>(mesh.nodes())), cells;
-  std::iota(nodes.begin(), nodes.end(), Index(0));
+  std::vector<Index> nodes = consecutive(static_cast<std::size_t>(mesh.nodes())), cells;
   for (Index c = 0; c < mesh.cells(); ++c)
   {
     if (mesh.cellNumbers[c] >= 0)
@@ -202,12 +201,6 @@ SolverMesh elementsOf(const SolverMesh& mesh)
     }
   }
   return partOf(mesh, nodes, cells);
-}
-
-void sortUnique(std::vector<Index>& list)
-{
-  std::sort(list.begin(), list.end());
-  list.erase(std::unique(list.begin(), list.end()), list.end());
 }
 
 /// The cells of the set, and a vertex for each of its nodes that these do not have.

@@ -89,7 +89,7 @@ int vtkBoundaryDisplacement::RequestData(
   {
     const filters::Input::Mesh mesh = filters::Input::TakeMesh(
       vtkDataObject::GetData(inputVector[0]), own.Blocks, this->Options->CoincidentPoints,
-      filters::Input::Use::ToMorphOnRanks, this->GetClassName(), monitor);
+      filters::Input::Use::ToMorph, this->GetClassName(), monitor);
     own.Displace(*this->Options, mesh, vtkInternals::InputsOf(inputVector), output, monitor);
   };
   const auto clear = [&]
@@ -98,12 +98,9 @@ int vtkBoundaryDisplacement::RequestData(
     own.ResetResults();
   };
   filters::Execution::Run(this, "displace this mesh's boundary", displace, clear);
-  for (const std::string& warning : monitor.TakeWarnings())
+  if (own.IsTeller())
   {
-    if (own.IsTeller())
-    {
-      vtkWarningMacro(<< warning);
-    }
+    monitor.TellWarnings();
   }
   return 1;
 }

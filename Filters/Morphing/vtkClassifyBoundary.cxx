@@ -14,6 +14,7 @@
 #include "Private/Pipeline/Monitor.h"
 #include "Private/Pipeline/Ports.h"
 #include "Private/Pipeline/Ranks.h"
+#include "Support/Lists.h"
 #include "Support/ProgressRange.h"
 
 #include <vtkDataObject.h>
@@ -26,7 +27,6 @@
 
 #include <cstdint>
 #include <memory>
-#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -51,13 +51,6 @@ public:
 
 namespace
 {
-std::vector<morph::Index> firstNumbers(morph::Index count)
-{
-  std::vector<morph::Index> all(count);
-  std::iota(all.begin(), all.end(), morph::Index(0));
-  return all;
-}
-
 /// The geometry where each body has a node of its own behind the boundary's, and then no body.
 morph::Classification withBodies(morph::Classification geometry, morph::Index bodies)
 {
@@ -119,17 +112,16 @@ int vtkClassifyBoundary::RequestData(
   this->Clear(outputVector);
   const auto classify = [&]
   {
-    const filters::Input::Mesh mesh =
-      filters::Input::TakeMesh(input, this->Internals->Blocks, this->Options->CoincidentPoints,
-        filters::Input::Use::ToMorphOnRanks, this->GetClassName(), monitor);
+    const filters::Input::Mesh mesh = filters::Input::TakeMesh(input, this->Internals->Blocks,
+      this->Options->CoincidentPoints, filters::Input::Use::ToMorph, this->GetClassName(), monitor);
     vtkUnstructuredGrid* grid = nullptr;
+    filters::RankGroup(mesh.IsDistributed)
+      .Together([&] { grid = filters::Input::RequireGrid(mesh.Data, "The input"); });
     if (mesh.IsDistributed)
     {
-      filters::Ranks::Together([&] { grid = filters::Input::RequireGrid(mesh.Data, "The input"); });
       this->Internals->ClassifyOnRanks(this, grid, outputVector, monitor);
       return;
     }
-    grid = filters::Input::RequireGrid(mesh.Data, "The input");
     this->Internals->Whole.reset();
     if (!mesh.IsElsewhere)
     {
@@ -138,13 +130,9 @@ int vtkClassifyBoundary::RequestData(
   };
   filters::Execution::Run(
     this, "classify this mesh's boundary", classify, [&] { this->Clear(outputVector); });
-  const bool isTeller = !this->Internals->Whole || filters::Ranks::IsFirst();
-  for (const std::string& warning : monitor.TakeWarnings())
+  if (!this->Internals->Whole || filters::Ranks::IsFirst())
   {
-    if (isTeller)
-    {
-      vtkWarningMacro(<< warning);
-    }
+    monitor.TellWarnings();
   }
   this->Internals->Blocks.Scatter(outputVector);
   return 1;
@@ -167,7 +155,7 @@ void vtkClassifyBoundary::Classify(
   vtkUnstructuredGrid* classified = this->Internals->Blocks.Output(outputVector);
   classified->ShallowCopy(grid);
   filters::Geometry::AddPointArrays(
-    geometry, firstNumbers(mesh.numberOfNodes()), classified->GetPointData());
+    geometry, morph::consecutive(mesh.numberOfNodes()), classified->GetPointData());
   vtkInternals::Write(this, grid, mesh, faces, geometry, outputVector);
 }
 

@@ -92,15 +92,10 @@ struct Method
   vtkSmartPointer<vtkMorphAlgorithm> (*Make)();
 };
 
-filters::RankGroup::Of groupOf(bool onRanks)
-{
-  return onRanks ? filters::RankGroup::Of::All : filters::RankGroup::Of::One;
-}
-
 vtkIdType badCells(
   vtkUnstructuredGrid* grid, const filters::RankGroup& processes, morph::Monitor& monitor)
 {
-  if (processes.IsOf() == filters::RankGroup::Of::All)
+  if (processes.IsOfAll())
   {
     vtkNew<vtkUnstructuredGrid> measured;
     std::vector<filters::Quality::OfCriterion> none;
@@ -255,32 +250,28 @@ int vtkCompareMorphMethods::RequestData(
     }
     return 1;
   }
-  const auto compare = [&](bool onRanks)
+  const auto compare = [&](vtkUnstructuredGrid* grid, vtkDataObject* boundary, bool isDistributed,
+                         filters::Monitor& monitor)
   {
-    return
-      [&, onRanks](vtkUnstructuredGrid* grid, vtkDataObject* boundary, filters::Monitor& monitor)
+    const filters::RankGroup processes(isDistributed);
+    std::vector<vtkSmartPointer<vtkDataObject>> boundaries;
+    const int wanted = kept.Steps.FromBoundary() ? kept.Steps.Number() : 1;
+    for (int step = 0; step < wanted; ++step)
     {
-      const filters::RankGroup processes(groupOf(onRanks));
-      std::vector<vtkSmartPointer<vtkDataObject>> boundaries;
-      const int wanted = kept.Steps.FromBoundary() ? kept.Steps.Number() : 1;
-      for (int step = 0; step < wanted; ++step)
-      {
-        processes.Together(
-          [&]
-          {
-            monitor.check();
-            vtkPointSet* points = filters::Input::RequireBoundary(
-              step == 0 ? boundary : kept.Ports.Fetch(1, kept.Steps.Time(step)));
-            boundaries.push_back(vtkSmartPointer<vtkDataObject>::Take(points->NewInstance()));
-            boundaries.back()->ShallowCopy(points);
-          });
-      }
-      this->Compare(grid, boundaries, onRanks, outputVector, monitor);
-    };
+      processes.Together(
+        [&]
+        {
+          monitor.check();
+          vtkPointSet* points = filters::Input::RequireBoundary(
+            step == 0 ? boundary : kept.Ports.Fetch(1, kept.Steps.Time(step)));
+          boundaries.push_back(vtkSmartPointer<vtkDataObject>::Take(points->NewInstance()));
+          boundaries.back()->ShallowCopy(points);
+        });
+    }
+    this->Compare(grid, boundaries, isDistributed, outputVector, monitor);
   };
   const filters::Ports::Task task = { "compare methods on this mesh",
-    this->Options->NumberOfThreads, this->Options->CoincidentPoints, reset, compare(false), {},
-    compare(true), true };
+    this->Options->NumberOfThreads, this->Options->CoincidentPoints, reset, compare, {}, true };
   return kept.Ports.RequestData(task, inputVector, outputVector);
 }
 
@@ -306,7 +297,7 @@ void vtkCompareMorphMethods::Compare(vtkUnstructuredGrid* grid,
   const std::vector<vtkSmartPointer<vtkDataObject>>& boundaries, bool onRanks,
   vtkInformationVector* outputVector, morph::Monitor& monitor)
 {
-  const filters::RankGroup processes(groupOf(onRanks));
+  const filters::RankGroup processes(onRanks);
   const std::pair<bool, Method> methods[] = { { this->Options->Smoothing,
                                                 { "Smoothing", make<vtkSmoothingMorph> } },
     { this->Options->WeightedResidual, { "Weighted residual", make<vtkWeightedResidualMorph> } },

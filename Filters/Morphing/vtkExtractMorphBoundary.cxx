@@ -54,29 +54,23 @@ int vtkExtractMorphBoundary::RequestData(
   filters::Monitor monitor(this, this->Options->NumberOfThreads);
   const auto extract = [&]
   {
-    const filters::Input::Mesh mesh =
-      filters::Input::TakeMesh(input, this->Internals->Blocks, this->Options->CoincidentPoints,
-        filters::Input::Use::ToMorphOnRanks, this->GetClassName(), monitor);
+    const filters::Input::Mesh mesh = filters::Input::TakeMesh(input, this->Internals->Blocks,
+      this->Options->CoincidentPoints, filters::Input::Use::ToMorph, this->GetClassName(), monitor);
+    vtkUnstructuredGrid* grid = nullptr;
+    filters::RankGroup(mesh.IsDistributed)
+      .Together([&] { grid = filters::Input::RequireGrid(mesh.Data, "The input"); });
     if (mesh.IsDistributed)
     {
-      vtkUnstructuredGrid* piece = nullptr;
-      filters::Ranks::Together(
-        [&] { piece = filters::Input::RequireGrid(mesh.Data, "The input"); });
-      filters::OnRanks::ExtractBoundary(piece, output, monitor);
-      return;
+      filters::OnRanks::ExtractBoundary(grid, output, monitor);
     }
-    vtkUnstructuredGrid* grid = filters::Input::RequireGrid(mesh.Data, "The input");
-    if (!mesh.IsElsewhere)
+    else if (!mesh.IsElsewhere)
     {
       this->Extract(grid, output, monitor);
     }
   };
   filters::Execution::Run(
     this, "extract this mesh's boundary", extract, [&] { output->Initialize(); });
-  for (const std::string& warning : monitor.TakeWarnings())
-  {
-    vtkWarningMacro(<< warning);
-  }
+  monitor.TellWarnings();
   return 1;
 }
 

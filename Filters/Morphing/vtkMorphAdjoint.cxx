@@ -2,6 +2,7 @@
 #include "vtkMorphAdjoint.h"
 
 #include "Mesh/Extent.h"
+#include "Private/Data/Arrays.h"
 #include "Private/Data/GridMesh.h"
 #include "Private/Options.h"
 #include "Private/Pipeline/Input.h"
@@ -211,32 +212,22 @@ int vtkMorphAdjoint::RequestData(
     : shapes ? shapes->GetCoincidentPoints()
              : 0,
     [] {},
-    [&](vtkUnstructuredGrid* rest, vtkDataObject* boundary, filters::Monitor& monitor)
-    {
-      const std::string name = filters::Input::ArrayName(this->Options->GradientArray);
-      vtkDataObject* holder =
-        carrier ? this->Internals->Ports.AsOne(carrier, "The gradient's data set", name.c_str())
-                : rest;
-      if (shapes)
-      {
-        this->ExecuteShapes(shapes, rest, holder, output, false, monitor);
-      }
-      else
-      {
-        this->Execute(morph, rest, boundary, holder, output, false, monitor);
-      }
-    },
-    {},
-    [&](vtkUnstructuredGrid* rest, vtkDataObject* boundary, filters::Monitor& monitor)
+    [&](vtkUnstructuredGrid* rest, vtkDataObject* boundary, bool isDistributed,
+      filters::Monitor& monitor)
     {
       vtkDataObject* holder = carrier ? carrier : rest;
+      if (carrier && !isDistributed)
+      {
+        const std::string name = filters::Input::ArrayName(this->Options->GradientArray);
+        holder = this->Internals->Ports.AsOne(carrier, "The gradient's data set", name.c_str());
+      }
       if (shapes)
       {
-        this->ExecuteShapes(shapes, rest, holder, output, true, monitor);
+        this->ExecuteShapes(shapes, rest, holder, output, isDistributed, monitor);
       }
       else
       {
-        this->Execute(morph, rest, boundary, holder, output, true, monitor);
+        this->Execute(morph, rest, boundary, holder, output, isDistributed, monitor);
       }
     } };
   return this->Internals->Ports.RequestData(task, inputVector, outputVector);
@@ -271,13 +262,10 @@ void vtkMorphAdjoint::ExecuteShapes(vtkMorphShapes* shapes, vtkUnstructuredGrid*
       gradient = requireGradient(holder, filters::Input::ArrayName(this->Options->GradientArray));
     }
   };
-  filters::RankGroup(onRanks ? filters::RankGroup::Of::All : filters::RankGroup::Of::One)
-    .Together(check);
-  vtkNew<vtkDoubleArray> derivatives;
+  filters::RankGroup(onRanks).Together(check);
+  auto derivatives = filters::Arrays::Make<vtkDoubleArray>("ShapeGradient");
   shapes->Differentiate(gradient, derivatives, monitor);
-  derivatives->SetName("ShapeGradient");
-  vtkNew<vtkStringArray> names;
-  names->SetName("ShapeNames");
+  auto names = filters::Arrays::Make<vtkStringArray>("ShapeNames");
   for (vtkIdType i = 0; i < derivatives->GetNumberOfValues(); ++i)
   {
     names->InsertNextValue(shapes->GetShapeName(static_cast<int>(i)));
@@ -317,16 +305,8 @@ void vtkMorphAdjoint::Execute(vtkMorphAlgorithm* morph, vtkUnstructuredGrid* res
         morph::listIds(wrong) + ". Correct them.");
     }
   };
-  if (onRanks)
-  {
-    filters::Ranks::Together(check);
-  }
-  else
-  {
-    check();
-  }
-  vtkNew<vtkDoubleArray> result;
-  result->SetName("MorphGradient");
+  filters::RankGroup(onRanks).Together(check);
+  auto result = filters::Arrays::Make<vtkDoubleArray>("MorphGradient");
   morph->Transpose(rest, points, gradient, result, onRanks, monitor);
   output->ShallowCopy(points);
   output->GetPointData()->AddArray(result);

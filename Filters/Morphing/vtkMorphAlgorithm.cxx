@@ -149,6 +149,7 @@ int vtkMorphAlgorithm::RequestData(
   const auto morph = [&](vtkUnstructuredGrid* grid, vtkDataObject* boundary, bool isDistributed,
                        filters::Monitor& monitor)
   {
+    filters::RankGroup(isDistributed).Together([&] { this->TakeInputs(grid, boundary); });
     const auto boundaryAt = [&](int step)
     {
       // On several processes all ask for the same steps, whatever time the boundary has here.
@@ -168,19 +169,9 @@ int vtkMorphAlgorithm::RequestData(
       grid, boundary, isDistributed, kept.Motion, kept.Method(), outputs, monitor);
   };
   const filters::Ports::Task task = { "morph this mesh", this->Options->NumberOfThreads,
-    this->Options->CoincidentPoints, [&] { kept.Results.Reset(); },
-    [&](vtkUnstructuredGrid* grid, vtkDataObject* boundary, filters::Monitor& monitor)
-    {
-      this->TakeInputs(grid, boundary);
-      morph(grid, boundary, false, monitor);
-    },
+    this->Options->CoincidentPoints, [&] { kept.Results.Reset(); }, morph,
     [&](vtkDataObject* input, const char* status)
-    { kept.Morpher.WriteUndeformed(input, status, outputs); },
-    [&](vtkUnstructuredGrid* grid, vtkDataObject* boundary, filters::Monitor& monitor)
-    {
-      filters::Ranks::Together([&] { this->TakeInputs(grid, boundary); });
-      morph(grid, boundary, true, monitor);
-    } };
+    { kept.Morpher.WriteUndeformed(input, status, outputs); } };
   const int done = kept.Ports.RequestData(task, inputVector, outputVector);
   kept.Motion.Steps.WriteTime(kept.Motion.Step, outputVector);
   if (!partial.empty())
@@ -202,10 +193,7 @@ bool vtkMorphAlgorithm::ApplyTranspose(vtkUnstructuredGrid* rest, vtkPointSet* b
         boundaryGradient, false, monitor);
     },
     [&] { boundaryGradient->Initialize(); });
-  for (const std::string& warning : monitor.TakeWarnings())
-  {
-    vtkWarningMacro(<< warning);
-  }
+  monitor.TellWarnings();
   return outcome != filters::Execution::Outcome::Failed;
 }
 
@@ -219,8 +207,7 @@ void vtkMorphAlgorithm::Transpose(vtkUnstructuredGrid* rest, vtkDataObject* boun
     throw morph::Error("Relative steps have no adjoint: each depends on those before it. Set "
                        "`Stepping` to Absolute.");
   }
-  const auto take = [&] { this->TakeInputs(rest, boundary); };
-  onRanks ? filters::Ranks::Together(take) : take();
+  filters::RankGroup(onRanks).Together([&] { this->TakeInputs(rest, boundary); });
   kept.Morpher.Transpose(
     rest, boundary, onRanks, gradient, kept.Method(), boundaryGradient, monitor);
 }

@@ -8,6 +8,7 @@
 #include "BoundaryMorphing/SurfaceSmoothing.h"
 #include "Mesh/Extent.h"
 #include "Mesh/Topology.h"
+#include "Private/Data/Arrays.h"
 #include "Private/Data/Directions.h"
 #include "Private/Data/Geometry.h"
 #include "Private/Data/GridMesh.h"
@@ -136,10 +137,7 @@ morph::BoundaryTargets upTo(
 template <typename Array, typename Value>
 vtkSmartPointer<Array> makeArray(const char* name, const morph::Points& rows)
 {
-  auto array = vtkSmartPointer<Array>::New();
-  array->SetName(name);
-  array->SetNumberOfComponents(3);
-  array->SetNumberOfTuples(rows.rows());
+  auto array = filters::Arrays::Make<Array>(name, rows.rows(), 3);
   std::transform(rows.data(), rows.data() + rows.size(), array->GetPointer(0),
     [](double value) { return static_cast<Value>(value); });
   return array;
@@ -154,25 +152,16 @@ vtkSmartPointer<vtkDataArray> makeArray(const char* name, const morph::Points& r
   return makeArray<vtkDoubleArray, double>(name, rows);
 }
 
-morph::Points rowsOf(const morph::Points& all, const std::vector<Index>& ids)
-{
-  morph::Points some(static_cast<Index>(ids.size()), 3);
-  for (std::size_t i = 0; i < ids.size(); ++i)
-  {
-    some.row(static_cast<Index>(i)) = all.row(ids[i]);
-  }
-  return some;
-}
-
 void writeMotion(const morph::Points& rest, const morph::Points& moved,
   const std::vector<Index>& nodes, bool isFloat, vtkPolyData* output)
 {
+  const morph::Points to = moved(nodes, morph::allColumns);
   vtkNew<vtkPoints> points;
-  points->SetData(makeArray("Points", rowsOf(moved, nodes), isFloat));
+  points->SetData(makeArray("Points", to, isFloat));
   output->SetPoints(points);
   filters::Directions::RemoveNormals(output);
   output->GetPointData()->AddArray(
-    makeArray("MorphDisplacement", rowsOf(moved, nodes) - rowsOf(rest, nodes), isFloat));
+    makeArray("MorphDisplacement", to - rest(nodes, morph::allColumns), isFloat));
   output->GetPointData()->SetActiveVectors("MorphDisplacement");
 }
 
@@ -180,8 +169,7 @@ void writeMotion(const morph::Points& rest, const morph::Points& moved,
 std::vector<Index> writeQuality(
   const morph::FaceQuality& quality, const std::vector<Index>& faceOf, vtkPolyData* output)
 {
-  vtkNew<vtkDoubleArray> values;
-  values->SetName("ScaledJacobian");
+  auto values = filters::Arrays::Make<vtkDoubleArray>("ScaledJacobian");
   std::vector<Index> folded;
   for (std::size_t cell = 0; cell < faceOf.size(); ++cell)
   {
@@ -263,11 +251,13 @@ int vtkMorphBoundary::RequestData(
   vtkInternals& kept = *this->Internals;
   const filters::Ports::Task task = { "morph this mesh's boundary", this->Options->NumberOfThreads,
     this->Options->CoincidentPoints, [&] { kept.Results.Reset(); },
-    [&](vtkUnstructuredGrid* grid, vtkDataObject* boundary, filters::Monitor& monitor)
-    { kept.Morph(grid, boundary, target, output, monitor); },
-    [&](vtkDataObject*, const char*) { kept.Results.Write(output); },
-    [&](vtkUnstructuredGrid* piece, vtkDataObject* boundary, filters::Monitor& monitor)
-    { kept.MorphOnRanks(piece, boundary, target, output, monitor); } };
+    [&](vtkUnstructuredGrid* grid, vtkDataObject* boundary, bool isDistributed,
+      filters::Monitor& monitor)
+    {
+      isDistributed ? kept.MorphOnRanks(grid, boundary, target, output, monitor)
+                    : kept.Morph(grid, boundary, target, output, monitor);
+    },
+    [&](vtkDataObject*, const char*) { kept.Results.Write(output); } };
   return kept.Ports.RequestData(task, inputVector, outputVector);
 }
 

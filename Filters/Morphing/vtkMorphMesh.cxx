@@ -4,6 +4,7 @@
 #include "LinearMethods/FemWarp.h"
 #include "LinearMethods/LogBarrierWarp.h"
 #include "Private/Data/AffineArrays.h"
+#include "Private/Data/Arrays.h"
 #include "Private/Displace/Internals.h"
 #include "Private/Displace/Views.h"
 #include "Private/GridMorpher/GridMorpher.h"
@@ -186,9 +187,8 @@ void vtkMorphMesh::CopySurfaces(vtkDataArraySelection* names, vtkPolyData* outpu
   {
     return;
   }
-  vtkNew<vtkPoints> points;
-  points->SetDataType(shown->GetPoints()->GetDataType());
-  points->SetNumberOfPoints(output->GetNumberOfPoints());
+  auto points =
+    filters::Arrays::MakePoints(shown->GetPoints()->GetDataType(), output->GetNumberOfPoints());
   for (vtkIdType i = 0; i < output->GetNumberOfPoints(); ++i)
   {
     points->SetPoint(i, shown->GetPoint(static_cast<vtkIdType>(ids->GetComponent(i, 0))));
@@ -283,9 +283,8 @@ int vtkMorphMesh::RequestData(
   own.Results.Reset();
   const auto work = [&]
   {
-    const filters::Input::Mesh mesh =
-      filters::Input::TakeMesh(input, blocks, this->Options->CoincidentPoints,
-        filters::Input::Use::ToMorphOnRanks, this->GetClassName(), monitor);
+    const filters::Input::Mesh mesh = filters::Input::TakeMesh(input, blocks,
+      this->Options->CoincidentPoints, filters::Input::Use::ToMorph, this->GetClassName(), monitor);
     input = mesh.Data;
     const auto check = [&]
     {
@@ -294,7 +293,7 @@ int vtkMorphMesh::RequestData(
         filters::Input::RequireGrid(input, "The input"); // has the message
       }
     };
-    mesh.IsDistributed ? filters::Ranks::Together(check) : check();
+    filters::RankGroup(mesh.IsDistributed).Together(check);
     const vtkMorphing::Inputs inputs = vtkInternals::InputsOf(inputVector);
     const morph::DisplacementOptions options = own.Displacement(inputs);
     own.Displace(options, mesh, inputs, monitor);
@@ -547,8 +546,8 @@ std::string vtkMorphMesh::vtkMorphing::Morph(morph::DisplacementOptions options,
   const bool isAffineSomewhere =
     mesh.IsDistributed ? filters::Ranks::Count(isAffine) > 0 : isAffine;
   const bool isRough = this->Filter->MeshOptions->Live && !isAffineSomewhere;
-  const auto take = [&] { method = this->MethodOf(grid, soft, isRough, monitor); };
-  mesh.IsDistributed ? filters::Ranks::Together(take) : take();
+  filters::RankGroup(mesh.IsDistributed)
+    .Together([&] { method = this->MethodOf(grid, soft, isRough, monitor); });
   filters::GridMorpher::Motion motion; // Boundary has made it
   if (this->IsSeries())
   {

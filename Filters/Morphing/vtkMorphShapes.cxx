@@ -10,6 +10,7 @@
 #include "Private/Pipeline/Property.h"
 #include "Private/Shapes/Internals.h"
 #include "Support/Error.h"
+#include "Support/Lists.h"
 
 #include <vtkAlgorithmOutput.h>
 #include <vtkDoubleArray.h>
@@ -26,7 +27,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace filters = morph::filters;
 
@@ -208,12 +208,11 @@ int vtkMorphShapes::RequestInformation(
     auto* table =
       vtkTable::SafeDownCast(source->GetProducer()->GetOutputDataObject(source->GetIndex()));
     // Where one process alone has read the table, all have its times: all of them have to run.
-    const filters::RankGroup all(filters::RankGroup::Of::All);
+    const filters::RankGroup all(true);
     kept.Rows = static_cast<vtkIdType>(
       all.Maximum(table ? static_cast<double>(table->GetNumberOfRows()) : 0));
   }
-  std::vector<double> times(kept.Rows);
-  std::iota(times.begin(), times.end(), 0.);
+  std::vector<double> times = morph::consecutive<double>(kept.Rows);
   for (int port = 0; port < this->GetNumberOfOutputPorts(); ++port)
   {
     // The undeformed mesh and the shapes are taken at their inputs' own time.
@@ -251,14 +250,6 @@ int vtkMorphShapes::RequestData(
 {
   vtkInternals& kept = *this->Internals;
   vtkUnstructuredGrid* output = kept.Ports.Output(outputVector);
-  const auto morph = [&](filters::RankGroup::Of processes)
-  {
-    return [&, processes](vtkUnstructuredGrid* grid, vtkDataObject*, filters::Monitor& monitor)
-    {
-      vtkDataObject* table = vtkDataObject::GetData(inputVector[2]);
-      kept.Morph(grid, processes, inputVector[1], table, outputVector, monitor);
-    };
-  };
   const filters::Ports::Task task = { "morph this mesh", this->Options->NumberOfThreads,
     this->Options->CoincidentPoints,
     [&]
@@ -267,7 +258,11 @@ int vtkMorphShapes::RequestData(
       kept.Ranges = {};
       kept.Weights.clear();
     },
-    morph(filters::RankGroup::Of::One),
+    [&](vtkUnstructuredGrid* grid, vtkDataObject*, bool isDistributed, filters::Monitor& monitor)
+    {
+      vtkDataObject* table = vtkDataObject::GetData(inputVector[2]);
+      kept.Morph(grid, isDistributed, inputVector[1], table, outputVector, monitor);
+    },
     [&](vtkDataObject* input, const char* status)
     {
       if (filters::Version::AbortRequested(this))
@@ -276,8 +271,7 @@ int vtkMorphShapes::RequestData(
       }
       filters::MorphOutput::WriteUndeformed(input, status, 0, kept.Results, output);
       kept.WriteUndeformedSurface(output, vtkPolyData::GetData(outputVector, 2));
-    },
-    morph(filters::RankGroup::Of::All) };
+    } };
   const int done = kept.Ports.RequestData(task, inputVector, outputVector);
   for (int port = 0; port < this->GetNumberOfOutputPorts(); ++port)
   {
@@ -344,7 +338,7 @@ void vtkMorphShapes::Differentiate(
     throw morph::Error("Morph Shapes has no result: update it before its derivatives.");
   }
   const morph::Index points = kept.Modes.GetSolver()->GridNodes();
-  const bool isPiece = kept.Modes.Group().IsOf() == filters::RankGroup::Of::All;
+  const bool isPiece = kept.Modes.Group().IsOfAll();
   morph::Points nodes(0, 3);
   kept.Modes.Group().Together(
     [&]

@@ -162,17 +162,14 @@ int vtkScaledJacobian::RequestData(
         filters::Input::TakeMesh(input, blocks, this->Options->CoincidentPoints,
           filters::Input::Use::ToMeasure, this->GetClassName(), monitor);
       isEmpty = mesh.IsEmpty;
+      const bool takesPieces = mesh.IsDistributed && filters::Ranks::TakePieces();
       vtkUnstructuredGrid* grid = nullptr;
-      const auto require = [&] { grid = filters::Input::RequireGrid(mesh.Data, "The input"); };
-      const bool isPiece = mesh.IsDistributed && filters::Ranks::TakePieces();
-      isPiece ? filters::Ranks::Together(require) : require();
-      this->Measure(grid, isPiece, output, monitor);
+      filters::RankGroup(takesPieces)
+        .Together([&] { grid = filters::Input::RequireGrid(mesh.Data, "The input"); });
+      this->Measure(grid, takesPieces, output, monitor);
     },
     clear);
-  for (const std::string& warning : monitor.TakeWarnings())
-  {
-    vtkWarningMacro(<< warning);
-  }
+  monitor.TellWarnings();
   if (outcome != filters::Execution::Outcome::Done)
   {
     this->Internals->Results.Write(output);

@@ -91,21 +91,36 @@ Row bent(const Row& x)
   return Row(x[0] + 0.3 * x[1] * x[1], x[1] - 0.2 * x[0] * x[1], 0);
 }
 
-/// The layer of a square in the turned plane, its sides prescribed.
-struct Layer
+/// A plane mesh or a shell, and its layer.
+struct Shell
 {
-  Mesh flat, mesh;
+  Mesh faces, mesh;
   morph::NodePartition partition;
   morph::Monitor monitor;
 
-  explicit Layer(const std::string& cells)
-    : flat(square(cells))
+  /// Its sides are prescribed.
+  explicit Shell(Mesh of)
+    : faces(std::move(of))
+    , mesh(morph::thicken(faces))
+    , partition(motions::outerPartition(mesh))
   {
-    flat.points = motions::mapped(flat.points, turned);
-    mesh = morph::thicken(flat);
-    partition = motions::outerPartition(mesh);
   }
-
+  Shell(Mesh of, const std::function<bool(const Row&)>& isPrescribed)
+    : Shell(std::move(of))
+  {
+    std::vector<Index> nodes;
+    for (const Index image : { Index(0), faces.numberOfNodes() })
+    {
+      for (Index n = 0; n < faces.numberOfNodes(); ++n)
+      {
+        if (isPrescribed(faces.points.row(n)))
+        {
+          nodes.push_back(n + image);
+        }
+      }
+    }
+    partition = morph::partitionNodes(mesh, nodes);
+  }
   Points moved(morph::Morpher& method, const motions::Map& map)
   {
     method.prepare(mesh, partition, monitor);
@@ -113,7 +128,47 @@ struct Layer
     method.evaluate(motions::targets(mesh, partition, map), result, monitor);
     return result;
   }
+  Points front(const Points& points) const { return points.topRows(faces.numberOfNodes()); }
+  morph::Quality quality(const Points& points) { return qualityOf(mesh, points); }
+  morph::Quality qualityOf(const Mesh& of, const Points& points)
+  {
+    const std::vector<std::int8_t> signs(of.types.size(), 1);
+    return morph::measureQuality(of, points, signs, {}, monitor);
+  }
 };
+
+Mesh mappedSquare(const std::string& cells, const motions::Map& map)
+{
+  Mesh mesh = square(cells);
+  mesh.points = motions::mapped(mesh.points, map);
+  return mesh;
+}
+
+/// How far points are from the turned plane.
+double offPlane(const Points& points)
+{
+  return motions::mapped(points, turnedBack).col(2).cwiseAbs().maxCoeff();
+}
+
+/// A block comes in through the square's lower side, further than FEMWARP can follow.
+Row blocked(const Row& x)
+{
+  const bool isBlock = x[1] < 0.01 && std::abs(x[0] - 0.5) < 0.2;
+  return Row(x[0], x[1] + 0.75 * isBlock, 0);
+}
+
+/// Cells have the quality of their faces.
+void expectQualityOfFaces(Shell& shell)
+{
+  const morph::Quality solid = shell.quality(shell.mesh.points),
+                       flat = shell.qualityOf(shell.faces, shell.faces.points);
+  EXPECT_EQ(solid.measured, flat.measured);
+  ASSERT_EQ(solid.scaledJacobian.size(), flat.scaledJacobian.size());
+  for (std::size_t c = 0; c < flat.scaledJacobian.size(); ++c)
+  {
+    EXPECT_NEAR(solid.scaledJacobian[c], flat.scaledJacobian[c], 1e-12) << c;
+  }
+}
 
 /// Each edge pulls by the cotangents of the angles that face it times the difference of `motion`.
 Points cotangentForces(const Mesh& triangles, const Points& motion)
@@ -136,9 +191,8 @@ Points cotangentForces(const Mesh& triangles, const Points& motion)
 }
 
 /// The method's transpose is that of its map. `boundary`: displacements of the prescribed nodes.
-template <typename Prepared>
-void expectTranspose(const meshes::LinearMethod& method, Prepared& shell, const Points& boundary,
-  const Points& gradient)
+void expectTranspose(
+  const meshes::LinearMethod& method, Shell& shell, const Points& boundary, const Points& gradient)
 {
   const auto made = method.make();
   made->prepare(shell.mesh, shell.partition, shell.monitor);
@@ -152,7 +206,7 @@ void expectTranspose(const meshes::LinearMethod& method, Prepared& shell, const 
 class ShellLayer : public testing::TestWithParam<const char*>
 {
 protected:
-  Layer layer{ GetParam() };
+  Shell layer{ mappedSquare(GetParam(), turned) };
 };
 INSTANTIATE_TEST_SUITE_P(Cells, ShellLayer, testing::Values("quads", "triangles", "mixed"),
   [](const auto& info) { return std::string(info.param); });
@@ -167,24 +221,14 @@ TEST_P(ShellLayer, OnlyItsSidesAreBoundary)
 
 TEST_P(ShellLayer, CellsHaveTheQualityOfTheirFaces)
 {
-  const auto measure = [&](const Mesh& mesh)
-  {
-    const std::vector<std::int8_t> signs(mesh.types.size(), 1);
-    return morph::measureQuality(mesh, mesh.points, signs, {}, layer.monitor).scaledJacobian;
-  };
-  const auto solid = measure(layer.mesh), flat = measure(layer.flat);
-  ASSERT_EQ(solid.size(), flat.size());
-  for (std::size_t c = 0; c < flat.size(); ++c)
-  {
-    EXPECT_NEAR(solid[c], flat[c], 1e-12) << c;
-  }
+  expectQualityOfFaces(layer);
 }
 
 TEST_P(ShellLayer, LinearMethodsAreExactForAffineMotionsAndKeepThePlane)
 {
   const auto affine =
     inPlane([](const Row& x) { return Row(1.3 * x[0] + 0.4 * x[1] + 1, 0.8 * x[1] - 2, 0); });
-  const Index nodes = layer.flat.numberOfNodes();
+  const Index nodes = layer.faces.numberOfNodes();
   for (const meshes::LinearMethod& method : meshes::linearMethods())
   {
     SCOPED_TRACE(method.name);
@@ -193,8 +237,7 @@ TEST_P(ShellLayer, LinearMethodsAreExactForAffineMotionsAndKeepThePlane)
       motions::difference(layer.moved(*made, affine), motions::mapped(layer.mesh.points, affine)),
       1e-12);
     const Points moved = layer.moved(*made, inPlane(bent));
-    EXPECT_LT(
-      motions::mapped(moved.topRows(nodes), turnedBack).col(2).cwiseAbs().maxCoeff(), 1e-14);
+    EXPECT_LT(offPlane(layer.front(moved)), 1e-14);
     const Points motion = moved - layer.mesh.points;
     EXPECT_LT(motions::difference(motion.topRows(nodes), motion.middleRows(nodes, nodes)), 1e-14);
   }
@@ -216,34 +259,23 @@ TEST_P(ShellLayer, TransposesBelongToTheMethods)
 
 TEST_P(ShellLayer, TangledMeshesAreUntangledInThePlane)
 {
-  // A block comes in through the lower side, further than FEMWARP can follow.
-  const auto map = inPlane(
-    [](const Row& x)
-    {
-      const bool isBlock = x[1] < 0.01 && std::abs(x[0] - 0.5) < 0.2;
-      return Row(x[0], x[1] + 0.75 * isBlock, 0);
-    });
-  const std::vector<std::int8_t> signs(layer.mesh.types.size(), 1);
-  const Index nodes = layer.flat.numberOfNodes();
   morph::FemWarp warp;
   morph::InversionFree free;
-  const auto inverted = [&](const Points& points)
-  { return morph::measureQuality(layer.mesh, points, signs, {}, layer.monitor).inverted; };
-  EXPECT_GT(inverted(layer.moved(warp, map)), 0);
-  const Points moved = layer.moved(free, map);
-  EXPECT_EQ(inverted(moved), 0);
-  EXPECT_LT(motions::mapped(moved.topRows(nodes), turnedBack).col(2).cwiseAbs().maxCoeff(), 1e-14);
+  EXPECT_GT(layer.quality(layer.moved(warp, inPlane(blocked))).inverted, 0);
+  const Points moved = layer.moved(free, inPlane(blocked));
+  EXPECT_EQ(layer.quality(moved).inverted, 0);
+  EXPECT_LT(offPlane(layer.front(moved)), 1e-14);
 }
 
 TEST(ShellLayer, FemWarpIsTheMembraneOfCotangents)
 {
-  Layer layer("triangles");
+  Shell layer(mappedSquare("triangles", turned));
   morph::FemWarp warp;
   warp.setTolerance(1e-14);
   const Points moved = layer.moved(warp, inPlane(bent));
   // Each free node is the mean of its neighbors by the cotangents of the angles that face the edge.
   const Points motion = moved - layer.mesh.points;
-  const Points force = cotangentForces(layer.flat, motion);
+  const Points force = cotangentForces(layer.faces, motion);
   for (const Index node : layer.partition.free)
   {
     EXPECT_LT(force.row(node % force.rows()).norm(), 1e-12) << node;
@@ -303,53 +335,6 @@ Mesh sphere(const std::string& cells)
   return mesh;
 }
 
-/// A curved shell: open with its edges prescribed, or closed with two patches prescribed.
-struct Shell
-{
-  Mesh faces, mesh;
-  morph::NodePartition partition;
-  morph::Monitor monitor;
-
-  Shell(Mesh of, const std::function<bool(const Row&)>& isPrescribed)
-    : faces(std::move(of))
-    , mesh(morph::thicken(faces))
-  {
-    std::vector<Index> nodes;
-    for (const Index image : { Index(0), faces.numberOfNodes() })
-    {
-      for (Index n = 0; n < faces.numberOfNodes(); ++n)
-      {
-        if (isPrescribed(faces.points.row(n)))
-        {
-          nodes.push_back(n + image);
-        }
-      }
-    }
-    partition = morph::partitionNodes(mesh, nodes);
-  }
-  Points moved(morph::Morpher& method, const motions::Map& map)
-  {
-    method.prepare(mesh, partition, monitor);
-    Points result;
-    method.evaluate(motions::targets(mesh, partition, map), result, monitor);
-    return result;
-  }
-  Points front(const Points& points) const { return points.topRows(faces.numberOfNodes()); }
-  morph::Quality quality(const Points& points)
-  {
-    const std::vector<std::int8_t> signs(mesh.types.size(), 1);
-    return morph::measureQuality(mesh, points, signs, {}, monitor);
-  }
-};
-
-Shell openShell(const std::string& cells)
-{
-  Mesh mesh = square(cells);
-  mesh.points = motions::mapped(mesh.points, saddle);
-  return { std::move(mesh),
-    [](const Row& x) { return x[0] == 0 || x[0] == 1 || x[1] == 0 || x[1] == 1; } };
-}
-
 /// A mesh of triangles and quadrilaterals with a node on each edge, bulged by `map` as its corners.
 Mesh quadratic(const Mesh& linear, const motions::Map& map)
 {
@@ -385,10 +370,20 @@ Mesh quadratic(const Mesh& linear, const motions::Map& map)
   return mesh;
 }
 
+/// Of the square and its images by saddle().
+bool isOnSide(const Row& x)
+{
+  return x[2] < 9 && (x[0] == 0 || x[0] == 1 || x[1] == 0 || x[1] == 1);
+}
+
+Shell openShell(const std::string& cells)
+{
+  return { mappedSquare(cells, saddle), isOnSide };
+}
+
 Shell quadraticShell(const std::string& cells)
 {
-  return { quadratic(square(cells), saddle),
-    [](const Row& x) { return x[0] == 0 || x[0] == 1 || x[1] == 0 || x[1] == 1; } };
+  return { quadratic(square(cells), saddle), isOnSide };
 }
 
 /// The same with points of no cell far away, that come first.
@@ -403,8 +398,7 @@ Shell shellWithOthers(const std::string& cells)
   {
     node += 3;
   }
-  return { std::move(mesh),
-    [](const Row& x) { return x[2] < 9 && (x[0] == 0 || x[0] == 1 || x[1] == 0 || x[1] == 1); } };
+  return { std::move(mesh), isOnSide };
 }
 
 Shell closedShell(const std::string& cells)
@@ -451,15 +445,7 @@ TEST_P(CurvedShell, CellsHaveTheQualityOfTheirFaces)
 {
   for (Shell shell : { openShell(GetParam()), closedShell(GetParam()) })
   {
-    const std::vector<std::int8_t> signs(shell.faces.types.size(), 1);
-    const auto flat =
-      morph::measureQuality(shell.faces, shell.faces.points, signs, {}, shell.monitor);
-    const morph::Quality quality = shell.quality(shell.mesh.points);
-    EXPECT_EQ(quality.measured, flat.measured);
-    for (std::size_t c = 0; c < flat.scaledJacobian.size(); ++c)
-    {
-      EXPECT_NEAR(quality.scaledJacobian[c], flat.scaledJacobian[c], 1e-12) << c;
-    }
+    expectQualityOfFaces(shell);
   }
 }
 
@@ -628,13 +614,8 @@ TEST(CurvedShell, AStripTwistsBy720DegreesWithoutInversion)
 
 TEST_P(CurvedShell, TangledShellsAreUntangledNearTheirSurface)
 {
-  // A block comes in through the lower side, further than FEMWARP can follow.
   Shell shell = openShell(GetParam());
-  const motions::Map map = [](const Row& x)
-  {
-    const bool isBlock = x[1] < 0.01 && std::abs(x[0] - 0.5) < 0.2;
-    return saddle(Row(x[0], x[1] + 0.75 * isBlock, 0));
-  };
+  const motions::Map map = [](const Row& x) { return saddle(blocked(x)); };
   morph::FemWarp warp;
   morph::InversionFree free;
   EXPECT_GT(shell.quality(shell.moved(warp, map)).inverted, 0);

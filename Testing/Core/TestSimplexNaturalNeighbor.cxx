@@ -6,7 +6,6 @@
 #include "Meshes.h"
 #include "Motions.h"
 
-#include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -33,24 +32,6 @@ Points morphed(const Mesh& mesh, const NodePartition& partition, const Points& t
   return moved;
 }
 
-}
-
-TEST(SimplexNaturalNeighbor, TurningALatticeChangesNothing)
-{
-  // Every tessellation of a lattice is a choice, and another one after turning.
-  const Eigen::Matrix3d R =
-    Eigen::AngleAxisd(.7, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
-  const motions::Map rigid = [&](const Row& x) { return Row(2.5 * x * R + Row(4, -3, 8)); };
-  for (const auto& [name, mesh] : jittered())
-  {
-    const NodePartition partition = outerPartition(mesh);
-    const Points target = targets(mesh, partition, twistOf(4));
-    Mesh turned = mesh;
-    meshes::transform(turned, rigid);
-    const Points expected = motions::mapped(morphed(mesh, partition, target), rigid);
-    const Points result = morphed(turned, partition, motions::mapped(target, rigid));
-    EXPECT_LT(difference(result, expected), 1e-8 * meshes::size(turned.points)) << name;
-  }
 }
 
 TEST(SimplexNaturalNeighbor, SymmetricMotionsStaySymmetric)

@@ -108,7 +108,7 @@ std::vector<Surface> surfaces()
 struct Outcome
 {
   Points moved;
-  SurfaceResidual::Report report;
+  bool isReplaced;
 };
 
 Outcome morphed(const Surface& s, const Points& target, Index neighbors = 20, int threads = 1)
@@ -118,7 +118,7 @@ Outcome morphed(const Surface& s, const Points& target, Index neighbors = 20, in
   method.setNumberOfNeighbors(neighbors);
   method.prepare(s.prescribed, s.points, s.loops, monitor);
   Outcome result;
-  result.report = method.evaluate(target, result.moved, monitor);
+  result.isReplaced = method.evaluate(target, result.moved, monitor);
   return result;
 }
 
@@ -130,7 +130,7 @@ TEST(SurfaceResidual, NoMotionIsTheIdentityBitForBit)
   {
     const Outcome result = morphed(s, s.prescribed);
     EXPECT_TRUE(identical(result.moved, s.points));
-    EXPECT_NEAR(result.report.determinant, 1, 1e-15);
+    EXPECT_FALSE(result.isReplaced);
   }
 }
 
@@ -140,8 +140,7 @@ TEST(SurfaceResidual, SimilarMotionsAreExactOffThePlaneToo)
   {
     const Outcome result = morphed(s, mapped(s.prescribed, similar));
     EXPECT_LT(difference(result.moved, mapped(s.points, similar)), 1e-12);
-    EXPECT_FALSE(result.report.replaced());
-    EXPECT_NEAR(result.report.determinant, 1.7 * 1.7 * 1.7, 1e-12);
+    EXPECT_FALSE(result.isReplaced);
   }
   // Half a turn about an axis in the plane turns the dome over, whatever shows the plane's side.
   for (bool loops : { false, true })
@@ -161,12 +160,12 @@ TEST(SurfaceResidual, AffineMotionsAreExactWhereTheyAreDetermined)
   {
     const Surface flat = annulus(0, loops);
     const Outcome result = morphed(flat, mapped(flat.prescribed, motions::affine));
-    EXPECT_EQ(result.report.fit, SurfaceResidual::Fit::Plane);
+    EXPECT_FALSE(result.isReplaced);
     EXPECT_LT(difference(result.moved, mapped(flat.points, motions::affine)), 1e-12);
   }
   const Surface s = shell();
   const Outcome result = morphed(s, mapped(s.prescribed, motions::affine));
-  EXPECT_EQ(result.report.fit, SurfaceResidual::Fit::Affine);
+  EXPECT_FALSE(result.isReplaced);
   EXPECT_LT(difference(result.moved, mapped(s.points, motions::affine)), 1e-12);
 }
 
@@ -274,8 +273,7 @@ TEST(SurfaceResidual, ReflectedBoundariesGetASimilarity)
   };
   const Points target = mapped(s.prescribed, mirrored);
   const Outcome result = morphed(s, target);
-  EXPECT_TRUE(result.report.replaced());
-  EXPECT_NEAR(result.report.determinant, -8, 1e-12);
+  EXPECT_TRUE(result.isReplaced);
   EXPECT_TRUE(result.moved.allFinite());
   // The residuals bring points near the edges back to them.
   EXPECT_LT(meshes::size(result.moved), 1.5 * meshes::size(target));
@@ -284,8 +282,8 @@ TEST(SurfaceResidual, ReflectedBoundariesGetASimilarity)
   const Surface flat = annulus(.3, true);
   Points swapped = flat.prescribed;
   swapped.col(1) *= -1;
-  EXPECT_FALSE(morphed(flat, swapped).report.replaced());
-  EXPECT_FALSE(morphed(annulus(.3, false), swapped).report.replaced());
+  EXPECT_FALSE(morphed(flat, swapped).isReplaced);
+  EXPECT_FALSE(morphed(annulus(.3, false), swapped).isReplaced);
   // Only the rim is reversed, and it is the only loop: normal and affine map disagree.
   Surface partly = annulus(.3, true);
   partly.loops.resize(1);
@@ -293,8 +291,7 @@ TEST(SurfaceResidual, ReflectedBoundariesGetASimilarity)
   Points rim = partly.prescribed;
   rim.topRows(24).col(1) *= -.5;
   const Outcome torn = morphed(partly, rim);
-  EXPECT_TRUE(torn.report.replaced());
-  EXPECT_LT(torn.report.determinant, -.1);
+  EXPECT_TRUE(torn.isReplaced);
 
   // Everything onto a line, and into a point.
   for (int columns : { 2, 3 })
@@ -302,8 +299,7 @@ TEST(SurfaceResidual, ReflectedBoundariesGetASimilarity)
     Points collapsed = flat.prescribed;
     collapsed.leftCols(columns).setZero();
     const Outcome outcome = morphed(flat, collapsed);
-    EXPECT_TRUE(outcome.report.replaced());
-    EXPECT_EQ(outcome.report.determinant, 0);
+    EXPECT_TRUE(outcome.isReplaced);
     EXPECT_TRUE(outcome.moved.allFinite());
   }
 }
@@ -318,7 +314,7 @@ TEST(SurfaceResidual, LinesAndSinglePlacesTranslate)
   {
     s.prescribed.rightCols(3 - kept).setZero();
     const Outcome result = morphed(s, mapped(s.prescribed, shifted));
-    EXPECT_EQ(result.report.fit, SurfaceResidual::Fit::Translation);
+    EXPECT_FALSE(result.isReplaced);
     EXPECT_LT(difference(result.moved, mapped(s.points, shifted)), 1e-13);
   }
 }

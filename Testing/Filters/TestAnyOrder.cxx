@@ -173,10 +173,7 @@ TEST(AnyOrder, AffineMotionsAreExact)
       const auto grid = grids::make(ofOrder(linear, order, first));
       auto filter = grids::morphed<vtkFEMWarpMorph>(grid, grids::affine);
       filter->CertifyOn();
-      grids::Listener listener(filter);
-      filter->Update();
-      ASSERT_TRUE(listener.Errors.empty()) << listener.Errors[0];
-      listener.ExpectWarning("validity between them is undecided");
+      grids::expectWarning(filter, "validity between them is undecided");
       const Points expected = grids::mapped(grids::points(grid), grids::affine);
       EXPECT_LT((grids::points(filter->GetOutput()) - expected).cwiseAbs().maxCoeff(), 1e-11);
       EXPECT_EQ(filter->GetUndecidedCells(), grid->GetNumberOfCells());

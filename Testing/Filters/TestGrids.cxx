@@ -225,6 +225,13 @@ void update(vtkAlgorithm* filter)
   EXPECT_TRUE(listener.Errors.empty()) << listener.Errors[0];
 }
 
+void updateQuietly(vtkAlgorithm* filter)
+{
+  const Listener listener(filter);
+  update(filter);
+  EXPECT_TRUE(listener.Warnings.empty()) << listener.Warnings[0];
+}
+
 Points points(vtkPointSet* data)
 {
   Points result(data->GetNumberOfPoints(), 3);

@@ -51,10 +51,14 @@ Row affine(const Row& x);
 /// A twist about the z axis and a bulge: not affine.
 Row twist(const Row& x);
 
-/// Updates the filter. Expects no error; one error, or one warning and no error, with this part.
+/// Updates the filter. Expects no error; neither error nor warning; one error, or one warning and
+/// no error, with this part.
+///@{
 void update(vtkAlgorithm* filter);
+void updateQuietly(vtkAlgorithm* filter);
 void expectError(vtkAlgorithm* filter, const std::string& part);
 void expectWarning(vtkAlgorithm* filter, const std::string& part);
+///@}
 /// Updates the filter. Returns its error: it is the only one, and the executive has none.
 std::string errorOf(vtkAlgorithm* filter);
 

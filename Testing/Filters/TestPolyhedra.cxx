@@ -59,10 +59,7 @@ Row bent(const Row& x)
 /// Updates the filter; no error and no warning.
 void expectQuiet(vtkAlgorithm* filter)
 {
-  grids::Listener listener(filter);
-  filter->Update();
-  EXPECT_TRUE(listener.Errors.empty()) << listener.Errors.front();
-  EXPECT_TRUE(listener.Warnings.empty()) << listener.Warnings.front();
+  grids::updateQuietly(filter);
 }
 
 std::vector<vtkIdType> faceStream(vtkUnstructuredGrid* grid, vtkIdType cell)
@@ -182,9 +179,7 @@ TEST(PolyhedraInFilters, EveryFilterTakesThem)
     {
       SCOPED_TRACE(any.name + " on " + name);
       auto filter = any.connected(grid, boundary);
-      grids::Listener listener(filter);
-      filter->Update();
-      EXPECT_TRUE(listener.Errors.empty()) << listener.Errors.front();
+      grids::update(filter);
     }
   }
 }
@@ -254,9 +249,7 @@ TEST(PolyhedraInFilters, SmoothingInversionFreeAndRepairGiveValidMeshes)
     {
       filter->SetInputData(grid);
       filter->SetBoundaryData(boundary);
-      grids::Listener listener(filter);
-      filter->Update();
-      EXPECT_TRUE(listener.Errors.empty()) << listener.Errors.front();
+      grids::update(filter);
       // FEMWARP gives no guarantee, and smoothing its mesh makes it no worse.
       if (filter != filters.back())
       {
@@ -351,9 +344,7 @@ TEST(PolyhedraInFilters, BlocksGiveTheMeshThatTheyMakeTogether)
   }
   composite->SetInputDataObject(0, blocks::multiBlock(parts));
   composite->SetBoundaryData(boundary);
-  grids::Listener listener(composite);
-  composite->Update();
-  EXPECT_TRUE(listener.Errors.empty()) << listener.Errors.front();
+  grids::update(composite);
   auto* tree = composite->GetOutputDataObject(0);
   const auto moved = blocks::pointsByNumber(vtkDataObjectTree::SafeDownCast(tree));
   const morph::Points expected = grids::points(single->GetOutput());

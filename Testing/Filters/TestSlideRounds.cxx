@@ -111,10 +111,7 @@ TEST(SlideRounds, APlaneOfSymmetryGivesHalfOfTheWholeMesh)
   for (const int rounds : { 0, 3 })
   {
     filter->SetSlideRounds(rounds);
-    grids::Listener listener(filter);
-    filter->Update();
-    ASSERT_TRUE(listener.Errors.empty()) << listener.Errors[0];
-    EXPECT_TRUE(listener.Warnings.empty()) << listener.Warnings[0];
+    grids::updateQuietly(filter);
     const Points moved = grids::points(filter->GetOutput());
     for (Index n = 0; n < from.rows(); ++n)
     {

@@ -79,12 +79,10 @@ vtkSmartPointer<vtkBoundaryDisplacement> twisted(vtkDataObject* grid)
 Points morphed(
   vtkMorphAlgorithm* method, vtkUnstructuredGrid* grid, vtkBoundaryDisplacement* displacement)
 {
-  grids::Listener listener(method);
   method->SetInputData(grid);
   method->SetBoundaryConnection(displacement->GetOutputPort());
   method->SetValidity(vtkMorphAlgorithm::VALIDITY_NONE);
-  method->Update();
-  EXPECT_TRUE(listener.Errors.empty()) << listener.Errors.front();
+  grids::update(method);
   return grids::points(method->GetOutput());
 }
 
@@ -231,9 +229,7 @@ TEST(Zones, SelectionsAndBlocksAreZonesToo)
   mesh->SetTranslation(0.3, 0, 0.8);
   mesh->SetValidity(vtkMorphAlgorithm::VALIDITY_NONE);
   mesh->AddFixedZone("B");
-  grids::Listener listener(mesh);
-  mesh->Update();
-  ASSERT_TRUE(listener.Errors.empty()) << listener.Errors.front();
+  grids::update(mesh);
   EXPECT_EQ(mesh->GetZonePoints(), 27);
   // The array `Number` counts from 1000 on.
   for (const auto& [node, x] : blocks::pointsByNumber(mesh->GetOutputDataObject(0)))

@@ -6,6 +6,7 @@
 #include "Mesh/CellShape.h"
 #include "Support/Buckets.h"
 #include "Support/Error.h"
+#include "Support/Lists.h"
 #include "Support/Parallel.h"
 #include "Support/ReproducibleSum.h"
 
@@ -73,8 +74,7 @@ void validate(Index nodes, const BoundaryFaces& faces, const ClassificationOptio
 /// Adds to `to`, which ascends, the values that it lacks.
 void unite(std::vector<Index> values, std::vector<Index>& to)
 {
-  std::sort(values.begin(), values.end());
-  values.erase(std::unique(values.begin(), values.end()), values.end());
+  sortUnique(values);
   std::vector<Index> all;
   std::set_union(values.begin(), values.end(), to.begin(), to.end(), std::back_inserter(all));
   to = std::move(all);

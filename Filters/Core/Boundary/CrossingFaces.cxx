@@ -6,6 +6,7 @@
 #include "Geometry/OrientationPredicate.h"
 #include "Geometry/OverlappingBoxes.h"
 #include "Support/Buckets.h"
+#include "Support/Lists.h"
 #include "Support/Parallel.h"
 
 #include <Eigen/Geometry>
@@ -43,8 +44,7 @@ struct Shell
     , cells(faces.cells)
     , orientation(orientationOfCells)
   {
-    std::sort(this->nodes.begin(), this->nodes.end());
-    this->nodes.erase(std::unique(this->nodes.begin(), this->nodes.end()), this->nodes.end());
+    sortUnique(this->nodes);
     std::vector<Index> number(this->nodes.empty() ? 0 : this->nodes.back() + 1);
     for (std::size_t i = 0; i < this->nodes.size(); ++i)
     {

@@ -2,9 +2,9 @@
 #include "Boundary/GivenSurfaces.h"
 
 #include "Support/Error.h"
+#include "Support/Lists.h"
 
 #include <algorithm>
-#include <numeric>
 #include <tuple>
 
 namespace morph
@@ -41,8 +41,7 @@ std::vector<Index> fromNodes(const BoundaryFaces& faces, const GivenGeometry& gi
   }
   if (!torn.empty())
   {
-    std::sort(torn.begin(), torn.end());
-    torn.erase(std::unique(torn.begin(), torn.end()), torn.end());
+    sortUnique(torn);
     throw Error(
       "Nodes are given to a surface, but share a boundary face with a node given to "
       "another surface: node ids " +
@@ -74,8 +73,7 @@ Index spread(const SurfaceEdges& edges, const MayCross& mayCross, std::vector<In
 {
   Index visits = 0;
   std::vector<std::pair<Index, Index>> found; // face, id
-  std::vector<Index> waiting(id.size());
-  std::iota(waiting.begin(), waiting.end(), Index(0));
+  std::vector<Index> waiting = consecutive(id.size());
   do
   {
     found.clear();
@@ -119,8 +117,7 @@ Index spread(const SurfaceEdges& edges, const MayCross& mayCross, std::vector<In
         }
       }
     }
-    std::sort(waiting.begin(), waiting.end());
-    waiting.erase(std::unique(waiting.begin(), waiting.end()), waiting.end());
+    sortUnique(waiting);
   } while (!waiting.empty());
   return visits;
 }

@@ -4,6 +4,7 @@
 #include "Boundary/SurfaceEdges.h"
 #include "Boundary/SurfacePatches.h"
 #include "Mesh/FacesOfCells.h"
+#include "Support/Lists.h"
 
 #include <algorithm>
 #include <utility>
@@ -56,8 +57,7 @@ SheetPatches sheetPatches(const ConstPoints& points, const BoundaryFaces& faces,
   }
   for (std::vector<Index>& nodes : result.nodes)
   {
-    std::sort(nodes.begin(), nodes.end());
-    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+    sortUnique(nodes);
   }
   return result;
 }

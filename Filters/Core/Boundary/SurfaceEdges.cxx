@@ -2,6 +2,7 @@
 #include "Boundary/SurfaceEdges.h"
 
 #include "Support/Buckets.h"
+#include "Support/Lists.h"
 #include "Support/Parallel.h"
 
 #include <Eigen/Geometry>
@@ -159,8 +160,7 @@ Index fillNormals(const ConstPoints& points, const SurfaceEdges& edges,
         }
       }
     }
-    std::sort(flat.begin(), flat.end());
-    flat.erase(std::unique(flat.begin(), flat.end()), flat.end());
+    sortUnique(flat);
   } while (!flat.empty());
   return visits;
 }

@@ -2,6 +2,7 @@
 #include "Boundary/WallLayers.h"
 
 #include "Boundary/LayerCells.h"
+#include "Support/Lists.h"
 
 #include <algorithm>
 #include <iterator>
@@ -38,8 +39,7 @@ WallLayers findWallLayers(const Mesh& mesh, const BoundaryFaces& faces,
       faceFront.push_back(face);
     }
   }
-  std::sort(result.walls.begin(), result.walls.end());
-  result.walls.erase(std::unique(result.walls.begin(), result.walls.end()), result.walls.end());
+  sortUnique(result.walls);
 
   // Where the column of each node at the front begins, and which nodes some column has.
   std::unordered_map<Index, Index> columnOf;

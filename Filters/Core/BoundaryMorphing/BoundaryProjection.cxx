@@ -3,11 +3,11 @@
 
 #include "Boundary/FaceQuality.h"
 #include "BoundaryMorphing/MidNodes.h"
+#include "Support/Lists.h"
 #include "Support/Parallel.h"
 
 #include <algorithm>
 #include <iterator>
-#include <numeric>
 #include <utility>
 
 namespace morph
@@ -143,8 +143,7 @@ public:
     {
       this->eachNeighbor(node, [&](Index other) { around.push_back(other); });
     }
-    std::sort(around.begin(), around.end());
-    around.erase(std::unique(around.begin(), around.end()), around.end());
+    sortUnique(around);
     std::vector<Index> moving;
     std::set_intersection(
       around.begin(), around.end(), projected.begin(), projected.end(), std::back_inserter(moving));
@@ -258,8 +257,7 @@ ProjectionReport projectCurves(const Classification& geometry, const ProjectionT
   for (const GeometryCurve& curve : geometry.curves)
   {
     const std::size_t n = curve.nodes.size(), pieces = curve.loop ? n : n - 1;
-    std::vector<std::size_t> waiting(pieces);
-    std::iota(waiting.begin(), waiting.end(), std::size_t(0));
+    std::vector<std::size_t> waiting = consecutive<std::size_t>(pieces);
     report.checkedPieces += static_cast<Index>(pieces);
     monitor.check();
     while (!waiting.empty())
@@ -315,8 +313,7 @@ ProjectionReport projectSurfaces(const BoundaryFaces& faces, const Classificatio
           faces.connectivity.begin() + faces.offsets[f + 1]);
       }
     }
-    std::sort(nodes.begin(), nodes.end());
-    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+    sortUnique(nodes);
     monitor.check();
     return nodes;
   };

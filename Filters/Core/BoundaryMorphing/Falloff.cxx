@@ -4,10 +4,10 @@
 #include "Geometry/NearestNodes.h"
 #include "Interpolation/InverseDistanceWeights.h"
 #include "Support/Error.h"
+#include "Support/Lists.h"
 #include "Support/Parallel.h"
 
 #include <cmath>
-#include <numeric>
 
 namespace morph
 {
@@ -15,13 +15,6 @@ namespace
 {
 constexpr Index Neighbors = 20;
 constexpr Index Grain = 1024;
-
-std::vector<Index> all(Index count)
-{
-  std::vector<Index> rows(count);
-  std::iota(rows.begin(), rows.end(), Index(0));
-  return rows;
-}
 
 /// Returns the distance of each place from the nearest node.
 std::vector<double> distances(const Points& nodes, const Points& places, Monitor& monitor)
@@ -46,7 +39,7 @@ void Falloff::prepare(const Points& moving, const Points& places, double radius,
     throw Error("No node moves, so there is nothing that could fade.");
   }
   this->places_ = places.rows();
-  this->sites_ = InterpolationSites(moving, all(moving.rows()));
+  this->sites_ = InterpolationSites(moving, consecutive(moving.rows()));
   this->reached_.clear();
   this->factor_.clear();
   const std::vector<double> distance = distances(this->sites_.coordinates(), places, monitor);

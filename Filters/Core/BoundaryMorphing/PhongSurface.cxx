@@ -2,6 +2,7 @@
 #include "BoundaryMorphing/PhongSurface.h"
 
 #include "Mesh/GatherMap.h"
+#include "Support/Lists.h"
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
@@ -39,8 +40,7 @@ PhongSurface::PhongSurface(
   {
     this->nodes_.insert(this->nodes_.end(), first(f), first(f + 1));
   }
-  std::sort(this->nodes_.begin(), this->nodes_.end());
-  this->nodes_.erase(std::unique(this->nodes_.begin(), this->nodes_.end()), this->nodes_.end());
+  sortUnique(this->nodes_);
   const auto local = [this](Index node) {
     return std::lower_bound(this->nodes_.begin(), this->nodes_.end(), node) - this->nodes_.begin();
   };
@@ -59,19 +59,18 @@ PhongSurface::PhongSurface(
     }
   }
   this->around_ = gatherMap(static_cast<Index>(3 * this->triangles_.size()), this->points_.rows(),
-    [this](Index place) { return this->triangles_[place / 3].node[place % 3]; });
+    [this](Index place) { return this->triangles_[place / 3][place % 3]; });
   this->normals_ = Points::Zero(this->points_.rows(), 3);
   for (Index& use : this->around_.values)
   {
     use /= 3;
   }
-  for (const Triangle& t : this->triangles_)
+  for (const std::array<Index, 3>& t : this->triangles_)
   {
-    const Row a = this->points_.row(t.node[0]);
-    const Row area =
-      (Row(this->points_.row(t.node[1])) - a).cross(Row(this->points_.row(t.node[2])) - a);
+    const Row a = this->points_.row(t[0]);
+    const Row area = (Row(this->points_.row(t[1])) - a).cross(Row(this->points_.row(t[2])) - a);
     this->planeNormal_ += area;
-    for (const Index node : t.node)
+    for (const Index node : t)
     {
       this->normals_.row(node) += area;
     }
@@ -101,9 +100,15 @@ Index PhongSurface::triangleAt(Index node) const
   return *this->around_.begin(place - this->nodes_.begin());
 }
 
+struct PhongSurface::Place
+{
+  double weight[3];
+  double distance2;
+};
+
 PhongSurface::Place PhongSurface::nearestIn(Index triangle, const Row& x) const
 {
-  const std::array<Index, 3>& node = this->triangles_[triangle].node;
+  const std::array<Index, 3>& node = this->triangles_[triangle];
   const Row p[3] = { this->points_.row(node[0]), this->points_.row(node[1]),
     this->points_.row(node[2]) };
   const Row normal = (p[1] - p[0]).cross(p[2] - p[0]);
@@ -148,7 +153,7 @@ Row PhongSurface::closest(const Row& x, Index& triangle) const
     const Index from = triangle;
     for (int k = 0; k < 3; ++k)
     {
-      const Index node = this->triangles_[from].node[k];
+      const Index node = this->triangles_[from][k];
       for (const Index* t = this->around_.begin(node); t != this->around_.end(node); ++t)
       {
         const Place there = this->nearestIn(*t, x);
@@ -164,7 +169,7 @@ Row PhongSurface::closest(const Row& x, Index& triangle) const
       break;
     }
   }
-  const std::array<Index, 3>& node = this->triangles_[triangle].node;
+  const std::array<Index, 3>& node = this->triangles_[triangle];
   Row flat = Row::Zero(), lift = Row::Zero();
   for (int k = 0; k < 3; ++k)
   {

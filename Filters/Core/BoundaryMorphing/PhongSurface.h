@@ -37,22 +37,14 @@ public:
   Row closest(const Row& x, Index& triangle) const;
 
 private:
-  struct Triangle
-  {
-    std::array<Index, 3> node; ///< local numbers
-  };
-  struct Place
-  {
-    double weight[3];
-    double distance2;
-  };
+  struct Place;
   bool fitPlane();
   Place nearestIn(Index triangle, const Row& x) const;
 
-  std::vector<Index> nodes_; ///< ids, ascending
-  Points points_, normals_;  ///< #nodes_ x 3
-  std::vector<Triangle> triangles_;
-  Adjacency around_; ///< #nodes_: triangles
+  std::vector<Index> nodes_;                    ///< ids, ascending
+  Points points_, normals_;                     ///< #nodes_ x 3
+  std::vector<std::array<Index, 3>> triangles_; ///< places in nodes_
+  Adjacency around_;                            ///< #nodes_: triangles
   bool isPlane_ = false;
   Row center_ = Row::Zero(), planeNormal_ = Row::Zero();
 };

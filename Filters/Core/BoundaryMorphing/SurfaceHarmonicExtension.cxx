@@ -4,6 +4,7 @@
 #include "BoundaryMorphing/MidNodes.h"
 #include "Geometry/AffineFit.h"
 #include "Solvers/SpdSolver.h"
+#include "Support/Lists.h"
 #include "Support/ProgressRange.h"
 
 #include <algorithm>
@@ -29,8 +30,7 @@ std::vector<Pair> edgesOf(const BoundaryFaces& faces, const std::vector<Index>& 
       edges.emplace_back(std::min(a, b), std::max(a, b));
     }
   }
-  std::sort(edges.begin(), edges.end());
-  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  sortUnique(edges);
   return edges;
 }
 

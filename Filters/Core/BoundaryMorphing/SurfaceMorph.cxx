@@ -68,7 +68,7 @@ bool moveByResidual(const SurfaceResidual& residual, const std::vector<Index>& f
 {
   const Points target = motion.rest(fixed, allColumns) + motion.displacement(fixed, allColumns);
   Points moved;
-  const bool replaced = residual.evaluate(target, moved, monitor).replaced();
+  const bool replaced = residual.evaluate(target, moved, monitor);
   for (std::size_t i = 0; i < free.size(); ++i)
   {
     motion.displacement.row(free[i]) = moved.row(static_cast<Index>(i)) - motion.rest.row(free[i]);

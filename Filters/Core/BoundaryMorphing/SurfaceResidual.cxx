@@ -4,12 +4,12 @@
 #include "Boundary/SurfaceEdges.h"
 #include "Interpolation/InverseDistanceWeights.h"
 #include "Support/Error.h"
+#include "Support/Lists.h"
 #include "Support/Parallel.h"
 
 #include <Eigen/Dense>
 
 #include <cmath>
-#include <numeric>
 #include <string>
 
 namespace morph
@@ -18,7 +18,6 @@ namespace
 {
 constexpr Index Grain = 1024;
 constexpr double Flat = 1e-12; // determinants and areas below this, relative, count as zero
-constexpr double Most = 0.5;   // the share of a direction from which the report counts it
 
 void requireFinite(const char* what, const Points& points)
 {
@@ -107,9 +106,9 @@ Eigen::Matrix3d similarity(const Points& rest, const Points& moved)
 /// u(x) = mean + (x - center) gradient.
 struct SurfaceResidual::Map
 {
-  Report report;
   Eigen::RowVector3d center, mean;
   Eigen::Matrix3d gradient;
+  bool isReplaced = false; ///< by the best rotation and scale
 
   Eigen::RowVector3d displacement(const Eigen::RowVector3d& x) const
   {
@@ -136,9 +135,7 @@ void SurfaceResidual::prepare(
   this->prescribed_ = prescribed;
   this->points_ = points;
   this->loops_ = loops;
-  std::vector<Index> rows(prescribed.rows());
-  std::iota(rows.begin(), rows.end(), Index(0));
-  this->sites_ = InterpolationSites(prescribed, rows);
+  this->sites_ = InterpolationSites(prescribed, consecutive(prescribed.rows()));
   this->fit_ = AffineLeastSquares(this->sites_.coordinates(), points);
   this->weights_ = inverseDistanceWeights(this->sites_, points, this->numberOfNeighbors_, monitor);
   this->prepared_ = true;
@@ -153,11 +150,7 @@ SurfaceResidual::Map SurfaceResidual::linearMap(const Points& displacement) cons
   map.mean = fit.displacement(map.center);
   // Points on a line tell no map of a surface. Those nearly on one tell it as far as their second
   // direction counts.
-  const Eigen::RowVector3d& shares = this->fit_.directions().shares();
-  map.report.fit = shares[1] < Most   ? Fit::Translation
-                   : shares[0] < Most ? Fit::Plane
-                                      : Fit::Affine;
-  map.gradient = shares[1] * fit.gradient();
+  map.gradient = this->fit_.directions().shares()[1] * fit.gradient();
   return map;
 }
 
@@ -198,11 +191,9 @@ SurfaceResidual::Map SurfaceResidual::map(
       shares[1] * (1 - shares[0]) * normal * (scale * movedNormal - normal).transpose();
   }
   const Eigen::Matrix3d A = Eigen::Matrix3d::Identity() + map.gradient;
-  map.report.determinant = A.determinant();
-  if (map.report.determinant <= Flat * std::pow(A.norm(), 3))
+  map.isReplaced = A.determinant() <= Flat * std::pow(A.norm(), 3);
+  if (map.isReplaced)
   {
-    map.report.determinant = std::min(map.report.determinant, 0.);
-    map.report.fit = Fit::Similarity;
     map.gradient = similarity(centered(sites), centered(moved)) - Eigen::Matrix3d::Identity();
   }
   return map;
@@ -236,8 +227,7 @@ Points SurfaceResidual::spread(const Map& map, Points residual, Monitor& monitor
   return displacement;
 }
 
-SurfaceResidual::Report SurfaceResidual::evaluate(
-  const Points& prescribed, Points& moved, Monitor& monitor) const
+bool SurfaceResidual::evaluate(const Points& prescribed, Points& moved, Monitor& monitor) const
 {
   this->require(prescribed);
   monitor.check();
@@ -256,7 +246,7 @@ SurfaceResidual::Report SurfaceResidual::evaluate(
     }
   }
   moved.swap(result);
-  return map.report;
+  return map.isReplaced;
 }
 
 void SurfaceResidual::evaluateLinear(

@@ -27,22 +27,6 @@ public:
   /// surface: the outer one counter-clockwise around the normal, holes clockwise, or all reversed.
   using Loops = std::vector<std::vector<Index>>;
 
-  enum class Fit
-  {
-    Affine,      ///< prescribed points in space
-    Plane,       ///< prescribed points nearly in a plane: affine in the plane, the normal mapped
-    Translation, ///< prescribed points nearly on a line or at one place
-    Similarity   ///< replaces a map that reflects or flattens: best rotation and scale
-  };
-
-  struct Report
-  {
-    Fit fit = Fit::Affine;
-    /// Determinant of the affine map before any replacement; zero or negative if it was replaced.
-    double determinant = 1;
-    bool replaced() const { return this->fit == Fit::Similarity; }
-  };
-
   /// Sets the number of prescribed points that influence a point (or all of fewer). At least 1,
   /// default 20, the paper's choice for surfaces.
   void setNumberOfNeighbors(Index count);
@@ -57,10 +41,11 @@ public:
     const Points& prescribed, const Points& points, const Loops& loops, Monitor& monitor);
 
   /// `prescribed`: #prescribed x 3, new positions. `moved`: becomes #points x 3, the undeformed
-  /// positions bit for bit without motion. May be called any number of times. Throws Error, leaving
-  /// `moved` untouched, for a wrong number of rows, positions that are not finite, or unless the
-  /// last prepare() succeeded. Cost: one pass over the weights.
-  Report evaluate(const Points& prescribed, Points& moved, Monitor& monitor) const;
+  /// positions bit for bit without motion. May be called any number of times. Returns whether the
+  /// affine map reflects or flattens, so that the best rotation and scale take its place. Throws
+  /// Error, leaving `moved` untouched, for a wrong number of rows, positions that are not finite,
+  /// or unless the last prepare() succeeded. Cost: one pass over the weights.
+  bool evaluate(const Points& prescribed, Points& moved, Monitor& monitor) const;
 
   /// The part of evaluate() that is linear in the displacements, and the same for each coordinate:
   /// neither maps the normal nor replaces a map. It is evaluate() where the surface is plane, or

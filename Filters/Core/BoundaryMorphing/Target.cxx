@@ -4,13 +4,13 @@
 #include "Boundary/SurfaceEdges.h"
 #include "Geometry/NearestNodes.h"
 #include "Support/Error.h"
+#include "Support/Lists.h"
 
 #include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <numeric>
 #include <utility>
 
 namespace morph
@@ -77,8 +77,7 @@ BoundaryFaces facesOf(const std::vector<TargetTriangle>& triangles)
     faces.offsets.push_back(static_cast<Index>(faces.connectivity.size()));
   }
   faces.nodes = faces.connectivity;
-  std::sort(faces.nodes.begin(), faces.nodes.end());
-  faces.nodes.erase(std::unique(faces.nodes.begin(), faces.nodes.end()), faces.nodes.end());
+  sortUnique(faces.nodes);
   faces.between.offsets.assign(faces.nodes.size() + 1, 0);
   return faces;
 }
@@ -166,8 +165,7 @@ struct Target::Implementation
       return false;
     };
     this->all->nearest(x, distance, collect);
-    std::sort(candidates.begin(), candidates.end());
-    candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());
+    sortUnique(candidates);
     for (const Index s : candidates)
     {
       const auto belongs = [&](Index triangle)
@@ -202,8 +200,7 @@ Target::Target(const Points& points, const std::vector<TargetTriangle>& triangle
     throw Error("The target surface has no polygons to project onto (it has " +
                 std::to_string(points.rows()) + " points).");
   }
-  std::vector<Index> all(own.triangles.size());
-  std::iota(all.begin(), all.end(), Index(0));
+  std::vector<Index> all = consecutive(own.triangles.size());
   own.all = own.treeOf(all);
 
   ClassificationOptions classification;

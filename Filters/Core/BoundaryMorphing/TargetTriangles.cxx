@@ -2,12 +2,12 @@
 #include "BoundaryMorphing/TargetTriangles.h"
 
 #include "Boundary/SurfaceEdges.h"
+#include "Support/Lists.h"
 
 #include <algorithm>
 #include <cstdint>
 #include <iterator>
 #include <map>
-#include <numeric>
 #include <tuple>
 #include <utility>
 
@@ -63,8 +63,7 @@ private:
 
   void removeRepeated()
   {
-    std::vector<std::size_t> order(this->triangles_.size());
-    std::iota(order.begin(), order.end(), std::size_t(0));
+    std::vector<std::size_t> order = consecutive<std::size_t>(this->triangles_.size());
     std::sort(order.begin(), order.end(),
       [&](std::size_t a, std::size_t b)
       { return std::tie(this->triangles_[a], a) < std::tie(this->triangles_[b], b); });

@@ -4,6 +4,7 @@
 #include "Boundary/FaceAreas.h"
 #include "Mesh/FacesOfCells.h"
 #include "Mesh/HangingNodes.h"
+#include "Support/Lists.h"
 
 #include <Eigen/Geometry>
 
@@ -47,12 +48,6 @@ std::vector<Index> facesOfCells(const Mesh& mesh, const BoundaryFaces& faces, st
     }
   }
   return result;
-}
-
-void sortUnique(std::vector<Index>& list)
-{
-  std::sort(list.begin(), list.end());
-  list.erase(std::unique(list.begin(), list.end()), list.end());
 }
 
 /// As a set of inner faces, which are the last ones of the boundary.
@@ -204,8 +199,7 @@ void BoundaryModel::findFaces(const std::vector<std::uint8_t>& isNamed, Monitor&
       }
     }
   }
-  std::sort(sheets.begin(), sheets.end());
-  sheets.erase(std::unique(sheets.begin(), sheets.end()), sheets.end());
+  sortUnique(sheets);
   if (this->inner.size() > 0)
   {
     InnerFaces::Places places;

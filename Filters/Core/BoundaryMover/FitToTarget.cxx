@@ -8,6 +8,7 @@
 #include "BoundaryMover/Patches.h"
 #include "Mesh/ShellLayer.h"
 #include "Support/Error.h"
+#include "Support/Lists.h"
 #include "Support/ProgressRange.h"
 
 #include <Eigen/Geometry>
@@ -17,7 +18,6 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <numeric>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -143,13 +143,6 @@ std::pair<std::vector<TriangleTree::Triangle>, std::vector<Index>> trianglesOf(
   return { std::move(triangles), std::move(faceOf) };
 }
 
-std::vector<Index> allFaces(const BoundaryModel& model)
-{
-  std::vector<Index> ids(model.faces.offsets.size() - 1);
-  std::iota(ids.begin(), ids.end(), Index(0));
-  return ids;
-}
-
 BoundaryMotion allHeld(const BoundaryModel& model)
 {
   BoundaryMotion motion;
@@ -257,7 +250,7 @@ void moveAlong(Target& target, const BoundaryModel& model, const Choice& choice,
 Eigen::Isometry3d alignedOnto(
   const BoundaryModel& model, const Choice* choice, const Target& target, Monitor& monitor)
 {
-  std::vector<Index> ids = allFaces(model);
+  std::vector<Index> ids = consecutive(model.faces.offsets.size() - 1);
   if (choice && std::count(choice->isMovingFace.begin(), choice->isMovingFace.end(), 1) > 0)
   {
     ids.erase(std::remove_if(ids.begin(), ids.end(),
@@ -269,8 +262,7 @@ Eigen::Isometry3d alignedOnto(
   {
     corners.insert(corners.end(), triangle.begin(), triangle.end());
   }
-  std::sort(corners.begin(), corners.end());
-  corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+  sortUnique(corners);
   return alignment(target.tree(), target.points()(corners, allColumns),
     TriangleTree(trianglesOf(model, ids).first), monitor);
 }
@@ -278,7 +270,7 @@ Eigen::Isometry3d alignedOnto(
 std::set<std::string> surfacesNearest(const Target& target, const BoundaryModel& model)
 {
   const Classification& geometry = model.geometry;
-  auto [triangles, faceOf] = trianglesOf(model, allFaces(model));
+  auto [triangles, faceOf] = trianglesOf(model, consecutive(model.faces.offsets.size() - 1));
   const TriangleTree boundary(std::move(triangles));
   std::vector<double> votes(geometry.surfaces.size(), 0), own(geometry.surfaces.size(), 0);
   const Points areas = faceAreas(model.points(), model.faces);

@@ -9,6 +9,7 @@
 #include "Mesh/ShellLayer.h"
 #include "Morpher/PolyhedralMorpher.h"
 #include "Support/Error.h"
+#include "Support/Lists.h"
 
 #include <algorithm>
 #include <iterator>
@@ -209,8 +210,7 @@ void InnerNodes::constrain(
     }
   }
   setMoving(moving, choice, targets);
-  std::sort(held.begin(), held.end());
-  held.erase(std::unique(held.begin(), held.end()), held.end());
+  sortUnique(held);
   choice.held.clear();
   std::copy_if(held.begin(), held.end(), std::back_inserter(choice.held),
     [&](Index node) { return moving.count(node) == 0; });

@@ -6,10 +6,10 @@
 #include "Mesh/FacesOfCells.h"
 #include "Mesh/ShellLayer.h"
 #include "Support/Error.h"
+#include "Support/Lists.h"
 
 #include <algorithm>
 #include <map>
-#include <numeric>
 
 namespace morph
 {
@@ -216,8 +216,7 @@ std::vector<std::string> patchShapes(const BoundaryModel& model)
   const auto add = [](const auto& more, std::vector<Index>& all)
   {
     all.insert(all.end(), more.begin(), more.end());
-    std::sort(all.begin(), all.end());
-    all.erase(std::unique(all.begin(), all.end()), all.end());
+    sortUnique(all);
   };
   for (const NamedSet& set : model.namedSets)
   {
@@ -242,8 +241,7 @@ std::vector<std::string> patchShapes(const BoundaryModel& model)
   {
     const BoundaryFaces faces = facesAt(model.mesh, inner.places);
     GeometrySurface part;
-    part.faces.resize(inner.places.size());
-    std::iota(part.faces.begin(), part.faces.end(), 0);
+    part.faces = consecutive(inner.places.size());
     part.nodes = faces.nodes;
     shapes[inner.name] = SurfaceShape::text(points, faces, part);
   }
@@ -343,9 +341,7 @@ SymmetryPlanes symmetryPlanes(const BoundaryModel& model, const std::set<std::st
       result.others.push_back(set.name);
     }
   }
-  std::sort(result.surfaces.begin(), result.surfaces.end());
-  result.surfaces.erase(
-    std::unique(result.surfaces.begin(), result.surfaces.end()), result.surfaces.end());
+  sortUnique(result.surfaces);
   return result;
 }
 
@@ -378,8 +374,7 @@ std::vector<Index> surfacesNamed(
     }
   }
   requireNone(missing, model, option);
-  std::sort(numbers.begin(), numbers.end());
-  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+  sortUnique(numbers);
   return numbers;
 }
 

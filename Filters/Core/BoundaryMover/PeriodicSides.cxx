@@ -4,6 +4,7 @@
 #include "BoundaryMover/Patches.h"
 #include "Geometry/NearestNodes.h"
 #include "Support/Error.h"
+#include "Support/Lists.h"
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
@@ -290,8 +291,7 @@ void PeriodicSides::tie(const BoundaryModel& model, Surroundings::Result& result
   }
   if (!free.empty())
   {
-    std::sort(free.begin(), free.end());
-    free.erase(std::unique(free.begin(), free.end()), free.end());
+    sortUnique(free);
     throw Error("Nodes of `PeriodicSurfaces` are free: point ids " + listIds(free) +
                 ". Such surfaces move, follow, slide or stay; or give `PeriodicSurfaces` none.");
   }

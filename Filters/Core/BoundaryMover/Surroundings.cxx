@@ -6,11 +6,11 @@
 #include "BoundaryMorphing/SurfaceSmoothing.h"
 #include "Mesh/ShellLayer.h"
 #include "Support/Error.h"
+#include "Support/Lists.h"
 
 #include <algorithm>
 #include <iterator>
 #include <map>
-#include <numeric>
 #include <sstream>
 #include <tuple>
 #include <utility>
@@ -240,8 +240,7 @@ const SurfaceShape& Surroundings::shapeOf(const BoundaryModel& model, Index surf
       const BoundaryFaces faces = frontFaces(model.mesh);
       GeometrySurface front;
       front.nodes = faces.nodes;
-      front.faces.resize(faces.cells.size());
-      std::iota(front.faces.begin(), front.faces.end(), Index(0));
+      front.faces = consecutive(faces.cells.size());
       this->shell_ = std::make_unique<SurfaceShape>(model.points(), faces, front);
     }
   }
@@ -372,8 +371,7 @@ void Surroundings::follow(const BoundaryModel& model, const Choice& choice, cons
       following.push_back(static_cast<Index>(s));
     }
   }
-  std::sort(fixed.begin(), fixed.end());
-  fixed.erase(std::unique(fixed.begin(), fixed.end()), fixed.end());
+  sortUnique(fixed);
   std::vector<Index> given = choice.moving;
   given.insert(given.end(), fixed.begin(), fixed.end());
   Points places(static_cast<Index>(given.size()), 3);

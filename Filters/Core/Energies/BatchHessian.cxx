@@ -2,6 +2,7 @@
 #include "Energies/BatchHessian.h"
 
 #include "Support/Error.h"
+#include "Support/Lists.h"
 
 #include <limits>
 #include <string>
@@ -58,8 +59,7 @@ void openBlocks(const CellBatches& batches, const std::vector<Index>& free, cons
     forUpper(i, [&](std::int32_t column) { found.push_back(column); });
     row = found;
     row.push_back(static_cast<std::int32_t>(i));
-    std::sort(row.begin(), row.end());
-    row.erase(std::unique(row.begin(), row.end()), row.end());
+    sortUnique(row);
     if (row.size() > std::numeric_limits<std::uint16_t>::max())
     {
       throw Error(Error::Kind::InvalidInput,

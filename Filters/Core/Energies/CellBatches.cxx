@@ -2,23 +2,16 @@
 #include "Energies/CellBatches.h"
 
 #include "Mesh/GatherMap.h"
+#include "Support/Lists.h"
 
 #include <algorithm>
 #include <array>
-#include <numeric>
 
 namespace morph
 {
 namespace
 {
 constexpr std::array<Shape, 4> Volumes = { Shape::Tet, Shape::Hex, Shape::Wedge, Shape::Pyramid };
-
-std::vector<Index> allCells(const Mesh& mesh)
-{
-  std::vector<Index> ids(mesh.numberOfCells());
-  std::iota(ids.begin(), ids.end(), 0);
-  return ids;
-}
 
 /// Returns the minimum row of a volume cell's corners; negative if none is free.
 Index minimumRow(const Mesh& mesh, Index cell, const std::vector<std::int32_t>& row)
@@ -35,7 +28,7 @@ Index minimumRow(const Mesh& mesh, Index cell, const std::vector<std::int32_t>& 
 }
 
 CellBatches::CellBatches(const Mesh& mesh, const std::vector<Index>& free)
-  : CellBatches(mesh, free, allCells(mesh))
+  : CellBatches(mesh, free, consecutive(mesh.numberOfCells()))
 {
 }
 

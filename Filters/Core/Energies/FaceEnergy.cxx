@@ -2,6 +2,7 @@
 #include "Energies/FaceEnergy.h"
 
 #include "Mesh/GatherMap.h"
+#include "Support/Lists.h"
 #include "Support/Parallel.h"
 #include "Support/ReproducibleSum.h"
 
@@ -124,8 +125,7 @@ void FaceEnergy::openMatrix(BlockCsr3f& matrix) const
     row.assign(1, static_cast<std::int32_t>(i));
     std::copy_if(found.begin(), found.end(), std::back_inserter(row),
       [i](std::int32_t column) { return column >= i; });
-    std::sort(row.begin(), row.end());
-    row.erase(std::unique(row.begin(), row.end()), row.end());
+    sortUnique(row);
     for (const std::int32_t column : found)
     {
       const auto place = std::lower_bound(row.begin(), row.end(), column) - row.begin();

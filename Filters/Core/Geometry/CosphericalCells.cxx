@@ -2,6 +2,7 @@
 #include "Geometry/CosphericalCells.h"
 
 #include "Geometry/MeanOfRows.h"
+#include "Support/Lists.h"
 #include "Support/Parallel.h"
 
 #include <Eigen/Geometry>
@@ -227,8 +228,7 @@ std::vector<int> CosphericalCells::cornersOf(const Tetrahedra& members) const
     const auto& sites = this->tetrahedra_[t].sites;
     corners.insert(corners.end(), sites.begin(), sites.end());
   }
-  std::sort(corners.begin(), corners.end());
-  corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+  sortUnique(corners);
   return corners;
 }
 

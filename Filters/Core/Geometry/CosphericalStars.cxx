@@ -4,6 +4,7 @@
 #include "Geometry/CosphericalCells.h"
 #include "Geometry/MeanOfRows.h"
 #include "Support/Buckets.h"
+#include "Support/Lists.h"
 #include "Support/Parallel.h"
 #include "Support/UnionFind.h"
 
@@ -11,7 +12,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <numeric>
 #include <tuple>
 #include <utility>
 
@@ -122,9 +122,7 @@ Star::Polygon polygonOf(const std::vector<Face>& faces, const std::vector<int>& 
     const Corners& corners = faces[f].corners;
     polygon.corners.insert(polygon.corners.end(), corners.begin(), corners.end());
   }
-  std::sort(polygon.corners.begin(), polygon.corners.end());
-  polygon.corners.erase(
-    std::unique(polygon.corners.begin(), polygon.corners.end()), polygon.corners.end());
+  sortUnique(polygon.corners);
   return polygon;
 }
 
@@ -170,8 +168,7 @@ Star starOf(const Points& sites, const CosphericalCells& cells, Index cell)
       star.polygons.push_back(polygonOf(faces, part));
     }
   }
-  star.byCorners.resize(star.polygons.size());
-  std::iota(star.byCorners.begin(), star.byCorners.end(), 0);
+  star.byCorners = consecutive<int>(star.polygons.size());
   std::sort(star.byCorners.begin(), star.byCorners.end(),
     [&](int a, int b) { return star.polygons[a].corners < star.polygons[b].corners; });
   for (std::size_t e = 0; e < edges.size(); ++e)

@@ -2,6 +2,7 @@
 #include "Geometry/Delaunay.h"
 
 #include "Support/Error.h"
+#include "Support/Lists.h"
 #include "Support/Parallel.h"
 
 #include <CGAL/Delaunay_triangulation_3.h>
@@ -22,7 +23,6 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <numeric>
 #include <utility>
 
 namespace morph
@@ -73,8 +73,7 @@ Triangulation triangulated(const Points& sites, Monitor& monitor)
 {
   std::vector<Point> points;
   points.reserve(sites.rows());
-  std::vector<std::size_t> order(sites.rows());
-  std::iota(order.begin(), order.end(), std::size_t(0));
+  std::vector<std::size_t> order = consecutive<std::size_t>(sites.rows());
   for (Index i = 0; i < sites.rows(); ++i)
   {
     points.push_back(toPoint(sites.row(i).data()));

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Geometry/TriangleTree.h"
 
+#include "Support/Lists.h"
+
 #include <Eigen/Geometry>
 #include <unsupported/Eigen/BVH>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <utility>
 
 namespace morph
@@ -175,8 +176,7 @@ TriangleTree::TriangleTree(std::vector<Triangle> triangles)
 {
   Implementation& own = *this->implementation_;
   own.triangles = std::move(triangles);
-  std::vector<int> numbers(own.triangles.size());
-  std::iota(numbers.begin(), numbers.end(), 0);
+  std::vector<int> numbers = consecutive<int>(own.triangles.size());
   std::vector<Tree::Volume> boxes;
   for (const Triangle& corner : own.triangles)
   {

@@ -2,6 +2,7 @@
 #include "Interpolation/InterpolationSites.h"
 
 #include "Support/Error.h"
+#include "Support/Lists.h"
 #include "Support/Parallel.h"
 #include "Support/UnionFind.h"
 
@@ -127,8 +128,7 @@ InterpolationSites::InterpolationSites(const Points& points, const std::vector<I
   this->tolerance_ = RelativeTolerance * extent;
 
   // From here on, numbers are positions in canonical order.
-  std::vector<Index> order(n);
-  std::iota(order.begin(), order.end(), Index(0));
+  std::vector<Index> order = consecutive(n);
   std::sort(order.begin(), order.end(),
     [&](Index a, Index b)
     {

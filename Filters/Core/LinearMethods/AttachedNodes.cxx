@@ -4,11 +4,11 @@
 #include "Geometry/AffineFit.h"
 #include "Geometry/RigidFit.h"
 #include "Mesh/CellShape.h"
+#include "Support/Lists.h"
 #include "Support/UnionFind.h"
 
 #include <algorithm>
 #include <cstdint>
-#include <numeric>
 #include <tuple>
 #include <utility>
 
@@ -80,12 +80,6 @@ Index placeOf(const std::vector<Index>& ids, Index id)
 {
   const auto found = std::lower_bound(ids.begin(), ids.end(), id);
   return found != ids.end() && *found == id ? found - ids.begin() : -1;
-}
-
-void sortUnique(std::vector<Index>& ids)
-{
-  std::sort(ids.begin(), ids.end());
-  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
 }
 
 /// The nodes of links that are anchors, ascending.
@@ -260,8 +254,7 @@ void AttachedNodes::prepare(std::vector<Link> links, std::vector<Index> anchors)
 
 void AttachedNodes::findNodes()
 {
-  std::vector<Index> nodes(this->rest_->numberOfNodes());
-  std::iota(nodes.begin(), nodes.end(), Index(0));
+  std::vector<Index> nodes = consecutive(this->rest_->numberOfNodes());
   const std::vector<Index> ids = this->processes_->idsOf(nodes);
   std::vector<Index> nodeOfAnchor(this->anchors_.size(), -1);
   this->nodeOf_.assign(this->ids_.size(), -1);

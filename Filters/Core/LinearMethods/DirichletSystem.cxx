@@ -5,6 +5,7 @@
 #include "Solvers/GeneralSolver.h"
 #include "Solvers/SpdSolver.h"
 #include "Support/Error.h"
+#include "Support/Lists.h"
 #include "Support/Parallel.h"
 
 #include <algorithm>
@@ -59,8 +60,7 @@ AffineGuess::AffineGuess(const Points& points, const NodePartition& partition,
   for (std::size_t c = 0; c < this->coupled_.size(); ++c)
   {
     std::vector<int>& columns = this->coupled_[c];
-    std::sort(columns.begin(), columns.end());
-    columns.erase(std::unique(columns.begin(), columns.end()), columns.end());
+    sortUnique(columns);
     this->isShared_[c] = owners[c] > 1;
     std::vector<Index> nodes = nodesOf(columns, partition);
     const std::unique_ptr<CopiedRows> copies = this->processesOf(c).rows(nodes);

@@ -3,6 +3,7 @@
 
 #include "Mesh/CellEdges.h"
 #include "Solvers/SpdSolver.h"
+#include "Support/Lists.h"
 #include "Support/ProgressRange.h"
 
 #include <algorithm>
@@ -27,8 +28,7 @@ std::vector<std::pair<int, int>> edgesOf(const Mesh& mesh)
         edges.emplace_back(static_cast<int>(std::min(a, b)), static_cast<int>(std::max(a, b)));
       }
     });
-  std::sort(edges.begin(), edges.end());
-  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  sortUnique(edges);
   return edges;
 }
 }

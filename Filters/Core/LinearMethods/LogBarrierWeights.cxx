@@ -2,11 +2,11 @@
 #include "LinearMethods/LogBarrierWeights.h"
 
 #include "Geometry/ThinSvd3.h"
+#include "Support/Lists.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 
 namespace morph
 {
@@ -44,7 +44,22 @@ double newtonStep(const double H[6], const Eigen::Vector3d& g, Eigen::Vector3d& 
   x[0] = y0 * i0 - l1 * x[1] - l2 * x[2];
   return std::sqrt(std::max(0., y0 * y0 * i0 + y1 * y1 * i1 + y2 * y2 * i2));
 }
+
+enum class Status
+{
+  Converged,
+  OnBoundary, ///< mu . d_j >= 0 for all j: g has no minimum
+  BeyondLimit,
+  Stalled
+};
 }
+
+struct LogBarrierWeights::Dual
+{
+  Eigen::Vector3d mu = Eigen::Vector3d::Zero(); ///< in whitened coordinates
+  int iterations = 0;
+  Status status = Status::Stalled;
+};
 
 void LogBarrierWeights::resize(int k)
 {
@@ -293,8 +308,7 @@ LogBarrierWeights::Result LogBarrierWeights::compute(
 LogBarrierWeights::Result LogBarrierWeights::computeCarefully(
   const double (*offsets)[3], int k, double scale, double* weights)
 {
-  std::vector<int> kept(k);
-  std::iota(kept.begin(), kept.end(), 0);
+  std::vector<int> kept = consecutive<int>(k);
   Result result = { Place::Inside, 0 };
   using Offset = std::array<double, 3>;
   std::vector<Offset> some;

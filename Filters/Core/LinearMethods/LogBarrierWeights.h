@@ -43,19 +43,7 @@ public:
 
 private:
   using Pair = Eigen::Array2d; ///< two neighbors at a time: one SSE register
-  enum class Status
-  {
-    Converged,
-    OnBoundary, ///< mu . d_j >= 0 for all j: g has no minimum
-    BeyondLimit,
-    Stalled
-  };
-  struct Dual
-  {
-    Eigen::Vector3d mu = Eigen::Vector3d::Zero(); ///< in whitened coordinates
-    int iterations = 0;
-    Status status = Status::Stalled;
-  };
+  struct Dual;
 
   void resize(int k);
   bool whiten(const double (*offsets)[3], int k, double scale);

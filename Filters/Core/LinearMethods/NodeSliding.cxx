@@ -15,6 +15,13 @@ constexpr int MostHalvings = 4;
 constexpr int MaxIterations = 5000;
 }
 
+/// The displacements, and the force on all nodes.
+struct NodeSliding::State
+{
+  Points x, force; ///< #rows x 3
+  double pull = 0; ///< the norm of the force along the surfaces
+};
+
 NodeSliding::NodeSliding(const LinearSolver& solver, const Points& b, const Nodes& nodes,
   const Surfaces& surfaces, const Communicator& communicator)
   : solver_(solver)

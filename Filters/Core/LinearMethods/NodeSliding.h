@@ -57,12 +57,7 @@ public:
   std::vector<Round> run(const Limits& limits, Points& x, Monitor& monitor);
 
 private:
-  /// The displacements, and the force on all nodes.
-  struct State
-  {
-    Points x, force; ///< #rows x 3
-    double pull = 0; ///< the norm of the force along the surfaces
-  };
+  struct State;
   void solve(const RowConstraints& constraints, Points& x, Monitor& monitor);
   /// Finds the other unknowns, the sliding nodes' being given.
   void settle(State& state, Monitor& monitor);

@@ -6,6 +6,7 @@
 #include "Mesh/FacesOfCells.h"
 #include "Mesh/HigherOrderNodes.h"
 #include "Mesh/Polyhedra.h"
+#include "Support/Lists.h"
 #include "Support/Parallel.h"
 
 #include <Eigen/Dense>
@@ -532,8 +533,7 @@ Mesh HangingNodes::conforming(const Mesh& mesh) const
           result.faces.insert(result.faces.end(), polygon.begin(), polygon.end());
           nodes.insert(nodes.end(), polygon.begin(), polygon.end());
         }
-        std::sort(nodes.begin(), nodes.end());
-        nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+        sortUnique(nodes);
       }
     }
     result.connectivity.insert(result.connectivity.end(), nodes.begin(), nodes.end());

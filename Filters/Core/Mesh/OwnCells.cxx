@@ -3,9 +3,9 @@
 
 #include "Mesh/CellShape.h"
 #include "Mesh/FacesOfCells.h"
+#include "Support/Lists.h"
 
 #include <algorithm>
-#include <numeric>
 #include <utility>
 
 namespace morph
@@ -26,10 +26,8 @@ SubMesh ownPart(Mesh mesh, bool isWhole, const Communicator& processes)
   SubMesh part(mesh, cells);
   if (isWhole)
   {
-    part.nodes.resize(mesh.numberOfNodes());
-    std::iota(part.nodes.begin(), part.nodes.end(), Index(0));
-    part.cells.resize(mesh.numberOfCells());
-    std::iota(part.cells.begin(), part.cells.end(), Index(0));
+    part.nodes = consecutive(mesh.numberOfNodes());
+    part.cells = consecutive(mesh.numberOfCells());
     part.mesh = std::move(mesh);
   }
   return part;

@@ -2,6 +2,7 @@
 #include "Mesh/Polyhedra.h"
 
 #include "Support/Error.h"
+#include "Support/Lists.h"
 
 #include <Eigen/Geometry>
 
@@ -153,8 +154,7 @@ Flaw flawOf(const Mesh& mesh, Index cell, std::vector<Index>& own, std::vector<S
     return Flaw::Faces;
   }
   own.assign(mesh.cell(cell), mesh.cell(cell) + mesh.cellSize(cell));
-  std::sort(own.begin(), own.end());
-  own.erase(std::unique(own.begin(), own.end()), own.end());
+  sortUnique(own);
   bool areNodesRight = true;
   std::vector<Index> face, used;
   forEachFace(mesh, cell,
@@ -166,8 +166,7 @@ Flaw flawOf(const Mesh& mesh, Index cell, std::vector<Index>& own, std::vector<S
         areNodesRight && size >= 3 && std::adjacent_find(face.begin(), face.end()) == face.end();
       used.insert(used.end(), face.begin(), face.end());
     });
-  std::sort(used.begin(), used.end());
-  used.erase(std::unique(used.begin(), used.end()), used.end());
+  sortUnique(used);
   if (!areNodesRight || used != own)
   {
     return Flaw::Nodes;

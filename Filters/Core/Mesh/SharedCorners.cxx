@@ -4,6 +4,7 @@
 #include "Mesh/CellShape.h"
 #include "Mesh/Polyhedra.h"
 #include "Support/Buckets.h"
+#include "Support/Lists.h"
 #include "Support/UnionFind.h"
 
 #include <algorithm>
@@ -124,8 +125,7 @@ std::vector<Index> cornersOf(const Mesh& mesh, Index cell)
 {
   const Index* nodes = mesh.cell(cell);
   std::vector<Index> corners(nodes, nodes + numberOfCorners(mesh, cell));
-  std::sort(corners.begin(), corners.end());
-  corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+  sortUnique(corners);
   return corners;
 }
 
@@ -179,8 +179,7 @@ std::vector<Index> repeatedCells(const Mesh& mesh, Monitor& monitor)
       const std::lock_guard<std::mutex> lock(mutex);
       result.insert(result.end(), found.begin(), found.end());
     });
-  std::sort(result.begin(), result.end());
-  result.erase(std::unique(result.begin(), result.end()), result.end());
+  sortUnique(result);
   return result;
 }
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Mesh/StandingCells.h"
 
-#include <Eigen/Geometry>
+#include "Support/Lists.h"
 
-#include <numeric>
+#include <Eigen/Geometry>
 
 namespace morph
 {
@@ -44,8 +44,7 @@ Mesh standing(const Mesh& mesh, const ConstPoints& points)
   Mesh result;
   result.types = mesh.types;
   result.offsets = mesh.offsets;
-  result.connectivity.resize(mesh.connectivity.size());
-  std::iota(result.connectivity.begin(), result.connectivity.end(), Index(0));
+  result.connectivity = consecutive(mesh.connectivity.size());
   result.points = points(mesh.connectivity, allColumns);
   for (Index c = 0; c < mesh.numberOfCells(); ++c)
   {

@@ -2,10 +2,10 @@
 #include "Morpher/SiteMethod.h"
 
 #include "Morpher/BodyByBody.h"
+#include "Support/Lists.h"
 #include "Support/ProgressRange.h"
 
 #include <algorithm>
-#include <numeric>
 
 namespace morph
 {
@@ -50,10 +50,8 @@ void SiteMethod::doPrepare(const Mesh& rest, Monitor& monitor)
   points.points.resize(sites.rows() + own, 3);
   points.points << sites, rest.points(free, allColumns);
   NodePartition partition;
-  partition.prescribed.resize(sites.rows());
-  std::iota(partition.prescribed.begin(), partition.prescribed.end(), Index(0));
-  partition.free.resize(own);
-  std::iota(partition.free.begin(), partition.free.end(), sites.rows());
+  partition.prescribed = consecutive(sites.rows());
+  partition.free = consecutive(own, sites.rows());
   this->serial_ = this->method_->copyWithoutCells();
   if (bodies.count > 1)
   {

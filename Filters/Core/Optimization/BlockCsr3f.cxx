@@ -3,6 +3,7 @@
 
 #include "Solvers/ConjugateGradients.h"
 #include "Support/Error.h"
+#include "Support/Lists.h"
 #include "Support/Parallel.h"
 #include "Support/Simd.h"
 
@@ -13,7 +14,6 @@
 #include <cmath>
 #include <functional>
 #include <iterator>
-#include <numeric>
 #include <string>
 
 namespace morph
@@ -149,8 +149,7 @@ void BlockCsr3f::numberByChunks()
     after.clear();
     std::copy_if(
       first, last, std::back_inserter(after), [&](std::int32_t column) { return column >= end; });
-    std::sort(after.begin(), after.end());
-    after.erase(std::unique(after.begin(), after.end()), after.end());
+    sortUnique(after);
     std::transform(first, last, first,
       [&](std::int32_t column)
       {
@@ -162,11 +161,8 @@ void BlockCsr3f::numberByChunks()
     this->mostRows_ = std::max(this->mostRows_, end - begin + static_cast<Index>(after.size()));
   }
   this->copiedRow_ = this->copyRow_;
-  std::sort(this->copiedRow_.begin(), this->copiedRow_.end());
-  this->copiedRow_.erase(
-    std::unique(this->copiedRow_.begin(), this->copiedRow_.end()), this->copiedRow_.end());
-  std::vector<std::int32_t> order(this->copyRow_.size());
-  std::iota(order.begin(), order.end(), 0);
+  sortUnique(this->copiedRow_);
+  std::vector<std::int32_t> order = consecutive<std::int32_t>(this->copyRow_.size());
   std::stable_sort(order.begin(), order.end(),
     [&](std::int32_t a, std::int32_t b) { return this->copyRow_[a] < this->copyRow_[b]; });
   this->uses_ = std::move(order);

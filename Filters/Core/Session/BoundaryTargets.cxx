@@ -3,6 +3,7 @@
 
 #include "Mesh/Extent.h"
 #include "Support/Error.h"
+#include "Support/Lists.h"
 
 #include <algorithm>
 #include <cmath>
@@ -101,8 +102,7 @@ std::vector<Index> keepInPlane(
       to = rest.points.row(node) + (to - rest.points.row(front));
     }
   }
-  std::sort(leaving.begin(), leaving.end());
-  leaving.erase(std::unique(leaving.begin(), leaving.end()), leaving.end());
+  sortUnique(leaving);
   return leaving;
 }
 

@@ -11,6 +11,7 @@
 #include "Quality/ScaledJacobian.h"
 #include "Session/AfterMotion.h"
 #include "Support/Error.h"
+#include "Support/Lists.h"
 #include "Support/ProgressRange.h"
 #include "Untangling/BoundaryCheck.h"
 #include "Untangling/InversionFree.h"
@@ -101,8 +102,7 @@ std::vector<Index> Validity::idsOf(const std::vector<Index>& cells) const
   const std::vector<double> numbers =
     this->all().gather(std::vector<double>(own.begin(), own.end()));
   std::vector<Index> ids(numbers.begin(), numbers.end());
-  std::sort(ids.begin(), ids.end());
-  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+  sortUnique(ids);
   return ids;
 }
 

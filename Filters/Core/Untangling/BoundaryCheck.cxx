@@ -2,20 +2,12 @@
 #include "Untangling/BoundaryCheck.h"
 
 #include "Boundary/FoldedFaces.h"
+#include "Support/Lists.h"
 
 #include <algorithm>
 
 namespace morph
 {
-namespace
-{
-void makeUnique(std::vector<Index>& ids)
-{
-  std::sort(ids.begin(), ids.end());
-  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
-}
-}
-
 std::vector<Index> ForbiddenCells::all(const InvertedBefore& before) const
 {
   std::vector<Index> cells = this->determined;
@@ -28,7 +20,7 @@ std::vector<Index> ForbiddenCells::all(const InvertedBefore& before) const
   }
   cells.insert(cells.end(), this->folded.begin(), this->folded.end());
   cells.insert(cells.end(), this->crossing.begin(), this->crossing.end());
-  makeUnique(cells);
+  sortUnique(cells);
   return before.without(cells);
 }
 
@@ -57,7 +49,7 @@ std::vector<Index> crossingCells(const WholeBoundary& boundary,
       cells.push_back(boundary.cells()[given.cells[f]]);
     }
   }
-  makeUnique(cells);
+  sortUnique(cells);
   return cells;
 }
 
@@ -103,7 +95,7 @@ ForbiddenCells BoundaryCheck::at(const Points& boundary) const
       {
         result.folded.push_back(this->whole_.cells()[f]);
       }
-      makeUnique(result.folded);
+      sortUnique(result.folded);
       result.folded = this->processes_.cellsOf(result.folded);
     });
   result.crossing = this->processes_.cellsOf(

@@ -7,6 +7,7 @@
 #include "Optimization/Minimizers.h"
 #include "Quality/CellMap.h"
 #include "Quality/Certificate.h"
+#include "Support/Lists.h"
 #include "Support/Parallel.h"
 #include "Support/ReproducibleSum.h"
 
@@ -62,8 +63,7 @@ std::vector<Index> nodesOf(
     std::copy_if(mesh.cell(c), mesh.cell(c) + mesh.cellSize(c), std::back_inserter(result),
       [&](Index node) { return std::binary_search(nodes.begin(), nodes.end(), node); });
   }
-  std::sort(result.begin(), result.end());
-  result.erase(std::unique(result.begin(), result.end()), result.end());
+  sortUnique(result);
   return result;
 }
 

@@ -5,6 +5,7 @@
 #include "Mesh/CellEdges.h"
 #include "Mesh/KRing.h"
 #include "Support/Error.h"
+#include "Support/Lists.h"
 #include "Support/ProgressRange.h"
 #include "Untangling/QualityRaising.h"
 #include "Untangling/Untangling.h"
@@ -122,8 +123,7 @@ std::vector<Index> MeshImprovement::untangle(const Aim& aim, const std::vector<I
   {
     cells.push_back(this->boundary_.cells[f]);
   }
-  std::sort(cells.begin(), cells.end());
-  cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+  sortUnique(cells);
   return cells;
 }
 

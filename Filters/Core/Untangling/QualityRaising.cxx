@@ -5,12 +5,12 @@
 #include "Mesh/CellShape.h"
 #include "Mesh/KRing.h"
 #include "Mesh/SubMesh.h"
+#include "Support/Lists.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <memory>
-#include <numeric>
 
 namespace morph
 {
@@ -41,13 +41,6 @@ bool isMostlyTetrahedra(const Mesh& mesh, const Communicator& communicator)
   return 2 * communicator.sum(tetrahedra) > communicator.sum(mesh.numberOfCells());
 }
 
-std::vector<Index> numbersTo(std::size_t count)
-{
-  std::vector<Index> numbers(count);
-  std::iota(numbers.begin(), numbers.end(), 0);
-  return numbers;
-}
-
 /// A part of a mesh with its objective.
 struct Part
 {
@@ -56,7 +49,7 @@ struct Part
     : mesh(measured.mesh(), cells)
     , processes(measured.communicator().part(this->mesh.nodes))
     , points(points(this->mesh.nodes, allColumns))
-    , objective(this->mesh.mesh, this->mesh.take(measured.orientation()), numbersTo(cells.size()),
+    , objective(this->mesh.mesh, this->mesh.take(measured.orientation()), consecutive(cells.size()),
         this->freeOf(ring), start(this->mesh.nodes, allColumns), *this->processes)
   {
   }

@@ -9,13 +9,13 @@
 #include "Mesh/SimplicialDecomposition.h"
 #include "Optimization/Minimizers.h"
 #include "Quality/ScaledJacobian.h"
+#include "Support/Lists.h"
 #include "Support/ReproducibleSum.h"
 #include "Untangling/KeepMinimum.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 namespace morph
 {
@@ -61,8 +61,7 @@ std::vector<double> edgeLengths(
         ++sums(node, 1);
       }
     });
-  std::vector<Index> nodes(mesh.numberOfNodes());
-  std::iota(nodes.begin(), nodes.end(), Index(0));
+  std::vector<Index> nodes = consecutive(mesh.numberOfNodes());
   communicator.rows(nodes)->add(sums);
   std::vector<double> mean(mesh.numberOfNodes());
   for (Index n = 0; n < mesh.numberOfNodes(); ++n)

@@ -6,6 +6,7 @@
 #include "Formats/AbaqusKeyword.h"
 #include "Formats/AbaqusSets.h"
 #include "Formats/TextFile.h"
+#include "Support/Lists.h"
 #include "Text/NumberText.h"
 
 #include <algorithm>
@@ -685,8 +686,7 @@ void AbaqusFile::addLinks(const std::unordered_map<Index, Index>& positions)
         }
       }
     }
-    std::sort(nodes.begin(), nodes.end()); // faces of a surface share nodes
-    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+    sortUnique(nodes); // faces of a surface share nodes
     return nodes;
   };
   for (const auto& [first, second] : this->all_.links)

@@ -4,6 +4,7 @@
 #include "Formats/AbaqusElements.h"
 #include "Formats/AbaqusKeyword.h"
 #include "Support/Error.h"
+#include "Support/Lists.h"
 #include "Text/NumberText.h"
 
 #include <algorithm>
@@ -13,12 +14,6 @@ namespace morph::io
 {
 namespace
 {
-void sortUnique(std::vector<Index>& list)
-{
-  std::sort(list.begin(), list.end());
-  list.erase(std::unique(list.begin(), list.end()), list.end());
-}
-
 void addFound(
   Index number, const std::unordered_map<Index, Index>& positionOf, std::vector<Index>& list)
 {

@@ -6,6 +6,7 @@
 #include "Formats/JoinedNodes.h"
 #include "Formats/NetCdf.h"
 #include "Support/Error.h"
+#include "Support/Lists.h"
 
 #include <algorithm>
 #include <array>
@@ -13,7 +14,6 @@
 #include <cmath>
 #include <initializer_list>
 #include <map>
-#include <numeric>
 
 namespace morph::io
 {
@@ -200,8 +200,7 @@ void ExodusFile::addNodes(
       }
     }
   }
-  std::vector<Index> first(numbers.size());
-  std::iota(first.begin(), first.end(), Index(0));
+  std::vector<Index> first = consecutive(numbers.size());
   if (blocks > 1)
   {
     first = joinedNodes(coordinates, blockOf);

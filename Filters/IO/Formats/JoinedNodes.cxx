@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Formats/JoinedNodes.h"
 
+#include "Support/Lists.h"
+
 #include <algorithm>
 #include <array>
-#include <numeric>
 
 namespace morph::io
 {
@@ -25,9 +26,7 @@ std::vector<Index> joinedNodes(
     const double* x = coordinates.data() + 3 * node;
     return std::array<double, 3>{ x[0], x[1], x[2] };
   };
-  std::vector<Index> result(parts.size()), order(parts.size());
-  std::iota(result.begin(), result.end(), Index(0));
-  std::iota(order.begin(), order.end(), Index(0));
+  std::vector<Index> result = consecutive(parts.size()), order = result;
   std::sort(order.begin(), order.end(),
     [&](Index a, Index b)
     {

@@ -3,6 +3,7 @@
 
 #include "Mesh/CollapsedCells.h"
 #include "Support/Error.h"
+#include "Support/Lists.h"
 
 #include <algorithm>
 #include <array>
@@ -89,8 +90,7 @@ Index SolverMesh::addPolyhedron(const std::vector<std::vector<Index>>& faces, In
     this->faces.insert(this->faces.end(), face.begin(), face.end());
     nodes.insert(nodes.end(), face.begin(), face.end());
   }
-  std::sort(nodes.begin(), nodes.end());
-  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  sortUnique(nodes);
   return this->addCell(Polyhedron, nodes, number);
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Private/Blocks/BlockArrays.h"
 
+#include "Private/Data/Arrays.h"
+
 #include <vtkAbstractArray.h>
 #include <vtkDataArray.h>
 #include <vtkDataSetAttributes.h>
@@ -94,9 +96,7 @@ void mergeGhosts(const std::vector<Part>& parts, vtkIdType count, vtkDataSetAttr
     }
     if (!ghosts)
     {
-      ghosts = vtkSmartPointer<vtkUnsignedCharArray>::New();
-      ghosts->SetName(name);
-      ghosts->SetNumberOfValues(count);
+      ghosts = Arrays::Make<vtkUnsignedCharArray>(name, count);
       ghosts->FillValue(0);
     }
     copyTuples(flags, part, ghosts);

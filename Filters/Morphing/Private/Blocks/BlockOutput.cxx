@@ -2,6 +2,7 @@
 #include "Private/Blocks/BlockOutput.h"
 
 #include "Private/Blocks/BlockArrays.h"
+#include "Private/Data/Arrays.h"
 #include "Private/Data/Directions.h"
 #include "Private/Data/Quality.h"
 
@@ -54,9 +55,7 @@ vtkSmartPointer<vtkPointSet> withPoints(vtkDataSet* data)
   }
   auto grid = vtkSmartPointer<vtkStructuredGrid>::New();
   grid->SetExtent(extent);
-  vtkNew<vtkPoints> points;
-  points->SetDataTypeToDouble();
-  points->SetNumberOfPoints(data->GetNumberOfPoints());
+  auto points = filters::Arrays::MakePoints(VTK_DOUBLE, data->GetNumberOfPoints());
   for (vtkIdType i = 0; i < data->GetNumberOfPoints(); ++i)
   {
     points->SetPoint(i, data->GetPoint(i));
@@ -71,9 +70,7 @@ vtkSmartPointer<vtkPointSet> withPoints(vtkDataSet* data)
 void movePoints(vtkPoints* from, const std::vector<Index>& nodes, vtkPointSet* set)
 {
   const auto count = static_cast<vtkIdType>(nodes.size());
-  vtkNew<vtkPoints> points;
-  points->SetDataType(from->GetDataType());
-  points->SetNumberOfPoints(count);
+  auto points = filters::Arrays::MakePoints(from->GetDataType(), count);
   for (vtkIdType i = 0; i < count; ++i)
   {
     points->SetPoint(i, nodes[i] < 0 ? set->GetPoint(i) : from->GetPoint(nodes[i]));
@@ -143,15 +140,8 @@ void activate(
 void addIds(const std::vector<Index>& ids, const std::vector<Index>& of, const char* name,
   vtkDataSetAttributes* leaf)
 {
-  vtkNew<vtkIdTypeArray> array;
-  array->SetName(name);
-  array->SetNumberOfValues(static_cast<vtkIdType>(ids.size()));
-  for (std::size_t i = 0; i < ids.size(); ++i)
-  {
-    const Index id = ids[i] < 0 || of.empty() ? ids[i] : of[ids[i]];
-    array->SetValue(static_cast<vtkIdType>(i), static_cast<vtkIdType>(id));
-  }
-  leaf->AddArray(array);
+  leaf->AddArray(Arrays::MakeOf<vtkIdTypeArray>(
+    name, ids, [&of](Index id) { return id < 0 || of.empty() ? id : of[id]; }));
 }
 
 /// The value of the mesh's worst cell behind each cell of a set; NaN where there is none.
@@ -172,11 +162,8 @@ std::vector<double> worstBehind(vtkDataArray* quality, const MergedBlocks::Block
 /// too.
 void writeQualityBehind(const std::vector<double>& values, vtkDataSetAttributes* leaf)
 {
-  vtkNew<vtkDoubleArray> array;
-  array->SetName(QualityName);
-  array->SetNumberOfValues(static_cast<vtkIdType>(values.size()));
-  std::copy(values.begin(), values.end(), array->GetPointer(0));
-  leaf->AddArray(array);
+  leaf->AddArray(
+    Arrays::MakeOf<vtkDoubleArray>(QualityName, values, [](double value) { return value; }));
   leaf->SetActiveScalars(QualityName);
 }
 }

@@ -5,6 +5,7 @@
 #include "Private/Blocks/BlockCells.h"
 #include "Private/Blocks/Leaves.h"
 #include "Private/Blocks/MergedBlocks.h"
+#include "Private/Data/Arrays.h"
 #include "Private/Data/DataCheck.h"
 #include "Support/Error.h"
 
@@ -212,9 +213,7 @@ vtkSmartPointer<vtkPolyData> Make(
     refuse(subject, std::string("values of '") + agreeing + "'", wrong);
   }
   auto result = vtkSmartPointer<vtkPolyData>::New();
-  vtkNew<vtkPoints> points;
-  points->SetDataTypeToDouble();
-  points->SetNumberOfPoints(number);
+  auto points = filters::Arrays::MakePoints(VTK_DOUBLE, number);
   for (Index i = 0; i < number; ++i)
   {
     points->SetPoint(i, positions.row(i).data());

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Private/Blocks/BlockSets.h"
 
+#include "Private/Data/Arrays.h"
+
 #include <vtkDataSet.h>
 #include <vtkFieldData.h>
 #include <vtkIdList.h>
@@ -65,9 +67,7 @@ void AddMarks(const Marks& marks, vtkUnstructuredGrid* grid)
   const vtkSmartPointer<vtkStringArray> names = knownNames(grid->GetFieldData());
   for (const auto& [label, nodes] : marks)
   {
-    vtkNew<vtkUnsignedCharArray> array;
-    array->SetName(label.c_str());
-    array->SetNumberOfValues(grid->GetNumberOfPoints());
+    auto array = Arrays::Make<vtkUnsignedCharArray>(label.c_str(), grid->GetNumberOfPoints());
     array->FillValue(0);
     for (const Index node : nodes)
     {

@@ -9,9 +9,11 @@
 #include "Private/Blocks/Leaves.h"
 #include "Private/Blocks/SharedNodes.h"
 #include "Private/Blocks/SplitNodes.h"
+#include "Private/Data/Arrays.h"
 #include "Private/Data/DataCheck.h"
 #include "Private/Data/Version.h"
 #include "Support/Error.h"
+#include "Support/Lists.h"
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
@@ -33,7 +35,6 @@
 #include <iterator>
 #include <limits>
 #include <map>
-#include <numeric>
 
 namespace morph::filters
 {
@@ -211,8 +212,7 @@ void orderCells(const std::vector<Part>& parts, Cells& cells)
   }
   const auto idOf = [&](Index cell)
   { return ids[cells.Owners[cell].first][cells.Owners[cell].second]; };
-  std::vector<Index> order(cells.Owners.size());
-  std::iota(order.begin(), order.end(), Index(0));
+  std::vector<Index> order = consecutive(cells.Owners.size());
   std::sort(order.begin(), order.end(), [&](Index a, Index b) { return idOf(a) < idOf(b); });
   if (std::adjacent_find(order.begin(), order.end(),
         [&](Index a, Index b) { return idOf(a) == idOf(b); }) != order.end())
@@ -308,9 +308,7 @@ void writeNodes(const std::vector<Part>& parts, Index number, MergedBlocks& merg
       auto* set = vtkPointSet::SafeDownCast(part.Data);
       return set && set->GetPoints() && set->GetPoints()->GetDataType() == VTK_FLOAT;
     });
-  vtkNew<vtkPoints> points;
-  points->SetDataType(isFloat ? VTK_FLOAT : VTK_DOUBLE);
-  points->SetNumberOfPoints(number);
+  auto points = Arrays::MakePoints(isFloat ? VTK_FLOAT : VTK_DOUBLE, number);
   std::vector<std::uint8_t> isWritten(number, 0);
   Owned owned(parts.size());
   std::vector<BlockArrays::Part> sources;
@@ -410,8 +408,7 @@ void orderNodes(const SharedNodes& nodes, MergedBlocks& merged)
   {
     return;
   }
-  std::vector<Index> rank(order.size());
-  std::iota(rank.begin(), rank.end(), Index(0));
+  std::vector<Index> rank = consecutive(order.size());
   reorder(order, rank);
   for (Block& block : merged.All)
   {

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Private/Blocks/SharedNodes.h"
 
+#include "Support/Lists.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <numeric>
 
 namespace morph::filters
 {
@@ -190,8 +191,7 @@ std::vector<Index> SharedNodes::Order() const
   {
     return {};
   }
-  std::vector<Index> order(this->Nodes.size());
-  std::iota(order.begin(), order.end(), Index(0));
+  std::vector<Index> order = consecutive(this->Nodes.size());
   std::sort(order.begin(), order.end(),
     [this](Index a, Index b) { return this->Nodes[a].Id < this->Nodes[b].Id; });
   return order;

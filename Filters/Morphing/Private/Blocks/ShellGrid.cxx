@@ -4,9 +4,11 @@
 #include "Mesh/CellShape.h"
 #include "Mesh/ShellLayer.h"
 #include "Private/Blocks/BlockCells.h"
+#include "Private/Data/Arrays.h"
 #include "Private/Data/GridMesh.h"
 #include "Private/Data/SubGrid.h"
 #include "Private/Data/Surface.h"
+#include "Support/Lists.h"
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
@@ -20,7 +22,6 @@
 #include <vtkPolyData.h>
 #include <vtkUnstructuredGrid.h>
 
-#include <numeric>
 #include <vector>
 
 namespace morph::filters
@@ -43,9 +44,7 @@ vtkSmartPointer<vtkUnstructuredGrid> solidOf(const morph::Mesh& mesh, vtkUnstruc
 {
   const vtkIdType front = from->GetNumberOfPoints(), nodes = mesh.numberOfNodes();
   auto grid = vtkSmartPointer<vtkUnstructuredGrid>::New();
-  vtkNew<vtkPoints> points;
-  points->SetDataType(from->GetPoints()->GetDataType());
-  points->SetNumberOfPoints(nodes);
+  auto points = Arrays::MakePoints(from->GetPoints()->GetDataType(), nodes);
   for (vtkIdType i = 0; i < nodes; ++i)
   {
     points->SetPoint(i, mesh.points.row(i).data());
@@ -118,9 +117,7 @@ void copyPoints(
   vtkUnstructuredGrid* from, const std::vector<vtkIdType>& ids, vtkUnstructuredGrid* to)
 {
   const auto count = static_cast<vtkIdType>(ids.size());
-  vtkNew<vtkPoints> points;
-  points->SetDataType(from->GetPoints()->GetDataType());
-  points->SetNumberOfPoints(count);
+  auto points = Arrays::MakePoints(from->GetPoints()->GetDataType(), count);
   vtkPointData* arrays = to->GetPointData();
   arrays->Initialize();
   arrays->CopyAllocate(from->GetPointData(), count);
@@ -190,8 +187,7 @@ void ShellGrid::Flatten(vtkUnstructuredGrid* output, bool withFaces) const
   {
     return;
   }
-  std::vector<vtkIdType> front(this->Flat->GetNumberOfPoints());
-  std::iota(front.begin(), front.end(), vtkIdType(0));
+  std::vector<vtkIdType> front = consecutive<vtkIdType>(this->Flat->GetNumberOfPoints());
   vtkNew<vtkUnstructuredGrid> flat;
   areFaces ? insertEdges(output, this->Flat->GetNumberOfPoints(), flat)
            : flat->ShallowCopy(this->Flat); // its cells

@@ -4,12 +4,12 @@
 #include "Mesh/Polyhedra.h"
 #include "Private/Blocks/SharedNodes.h"
 #include "Private/Data/Faces.h"
+#include "Support/Lists.h"
 #include "Support/UnionFind.h"
 
 #include <algorithm>
 #include <iterator>
 #include <map>
-#include <numeric>
 #include <set>
 #include <utility>
 
@@ -103,8 +103,7 @@ void addFaces(const Part& part, std::size_t number, const std::vector<Index>& pl
 std::vector<morph::Index> Join(
   const SharedNodes& shared, std::vector<Part>& parts, morph::Index& number)
 {
-  std::vector<Index> renamed(number);
-  std::iota(renamed.begin(), renamed.end(), Index(0));
+  std::vector<Index> renamed = consecutive(number);
   std::vector<std::uint8_t> isSplit;
   const std::vector<Index> places = shared.Places(isSplit);
   if (std::find(isSplit.begin(), isSplit.end(), 1) == isSplit.end())

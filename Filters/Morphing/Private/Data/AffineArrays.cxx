@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Private/Data/AffineArrays.h"
 
+#include "Private/Data/Arrays.h"
+
 #include <vtkDataArray.h>
 #include <vtkDoubleArray.h>
 #include <vtkFieldData.h>
@@ -15,10 +17,7 @@ namespace morph::filters::AffineArrays
 void Write(vtkDataArray* fields, const morph::AffineMotion& motion, vtkPointSet* boundary)
 {
   boundary->GetPointData()->AddArray(fields);
-  vtkNew<vtkDoubleArray> rows;
-  rows->SetName(MotionName);
-  rows->SetNumberOfComponents(4);
-  rows->SetNumberOfTuples(3);
+  auto rows = Arrays::Make<vtkDoubleArray>(MotionName, 3, 4);
   for (int i = 0; i < 3; ++i)
   {
     for (int j = 0; j < 4; ++j)

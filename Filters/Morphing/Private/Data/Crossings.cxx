@@ -7,6 +7,7 @@
 #include "Private/Data/NamedSets.h"
 #include "Private/Data/Surface.h"
 #include "Private/Data/WrittenPoints.h"
+#include "Support/Lists.h"
 
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
@@ -97,8 +98,7 @@ std::vector<Index> facesOf(const Pairs& pairs)
   {
     faces.insert(faces.end(), pair.begin(), pair.end());
   }
-  std::sort(faces.begin(), faces.end());
-  faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+  sortUnique(faces);
   return faces;
 }
 

@@ -2,8 +2,10 @@
 #include "Private/Data/Geometry.h"
 
 #include "Mesh/CellShape.h"
+#include "Private/Data/Arrays.h"
 #include "Private/Data/Surface.h"
 #include "Support/Error.h"
+#include "Support/Lists.h"
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
@@ -20,7 +22,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 
 namespace morph::filters
 {
@@ -194,15 +195,6 @@ morph::ClassificationOptions coreOptions(const Geometry::Options& options)
   core.sheets = options.Sheets;
   return core;
 }
-
-template <typename Array>
-vtkSmartPointer<Array> makeArray(const char* name, std::size_t size)
-{
-  auto array = vtkSmartPointer<Array>::New();
-  array->SetName(name);
-  array->SetNumberOfValues(static_cast<vtkIdType>(size));
-  return array;
-}
 }
 
 namespace Geometry
@@ -228,9 +220,8 @@ morph::Classification Classify(vtkPolyData* surface, const morph::Points& points
   morph::ClassificationOptions core = coreOptions(options);
   if (!options.SurfaceIdArray.empty())
   {
-    std::vector<Index> polygons(faces.offsets.size() - 1);
-    std::iota(
-      polygons.begin(), polygons.end(), surface->GetNumberOfVerts() + surface->GetNumberOfLines());
+    std::vector<Index> polygons = consecutive<Index>(
+      faces.offsets.size() - 1, surface->GetNumberOfVerts() + surface->GetNumberOfLines());
     const std::vector<Index> ids =
       wholeNumbers(requireCellNumbers(surface, options.SurfaceIdArray), polygons, "cell");
     core.given.surface.assign(ids.begin() + polygons[0], ids.begin() + polygons.back() + 1);
@@ -245,9 +236,11 @@ morph::Classification Classify(vtkPolyData* surface, const morph::Points& points
 void AddPointArrays(const morph::Classification& geometry, const std::vector<morph::Index>& nodes,
   vtkDataSetAttributes* output)
 {
-  auto dimension = makeArray<vtkSignedCharArray>(DimensionName, nodes.size());
-  auto id = makeArray<vtkIdTypeArray>(IdName, nodes.size());
-  auto parameter = makeArray<vtkDoubleArray>(ParameterName, nodes.size());
+  auto dimension =
+    Arrays::Make<vtkSignedCharArray>(DimensionName, static_cast<vtkIdType>(nodes.size()));
+  auto id = Arrays::Make<vtkIdTypeArray>(IdName, static_cast<vtkIdType>(nodes.size()));
+  auto parameter =
+    Arrays::Make<vtkDoubleArray>(ParameterName, static_cast<vtkIdType>(nodes.size()));
   for (std::size_t i = 0; i < nodes.size(); ++i)
   {
     const vtkIdType k = static_cast<vtkIdType>(i);
@@ -264,13 +257,8 @@ void AddPointArrays(const morph::Classification& geometry, const std::vector<mor
 void AddSurfaceIds(const morph::Classification& geometry, const std::vector<morph::Index>& faceOf,
   vtkPolyData* output)
 {
-  auto id = makeArray<vtkIdTypeArray>(IdName, faceOf.size());
-  for (std::size_t i = 0; i < faceOf.size(); ++i)
-  {
-    id->SetValue(
-      static_cast<vtkIdType>(i), geometry.surfaces[geometry.surfaceOfFace[faceOf[i]]].id);
-  }
-  output->GetCellData()->AddArray(id);
+  output->GetCellData()->AddArray(Arrays::MakeOf<vtkIdTypeArray>(IdName, faceOf,
+    [&](Index face) { return geometry.surfaces[geometry.surfaceOfFace[face]].id; }));
 }
 
 void WriteCurves(
@@ -285,9 +273,8 @@ void WriteCurves(
     }
   }
   std::vector<vtkIdType> number(geometry.dimension.size(), -1);
-  vtkNew<vtkPoints> points;
-  points->SetDataType(grid->GetPoints()->GetDataType());
-  auto ids = makeArray<vtkIdTypeArray>(Surface::IdName, nodes.size());
+  auto points = Arrays::MakePoints(grid->GetPoints()->GetDataType());
+  auto ids = Arrays::Make<vtkIdTypeArray>(Surface::IdName, static_cast<vtkIdType>(nodes.size()));
   for (std::size_t i = 0; i < nodes.size(); ++i)
   {
     number[nodes[i]] = points->InsertNextPoint(grid->GetPoint(nodes[i]));
@@ -297,9 +284,9 @@ void WriteCurves(
   output->GetPointData()->AddArray(ids);
   AddPointArrays(geometry, nodes, output->GetPointData());
 
-  const std::size_t cells = geometry.vertices.size() + geometry.curves.size();
-  auto dimension = makeArray<vtkSignedCharArray>(DimensionName, cells);
-  auto id = makeArray<vtkIdTypeArray>(IdName, cells);
+  const auto cells = static_cast<vtkIdType>(geometry.vertices.size() + geometry.curves.size());
+  auto dimension = Arrays::Make<vtkSignedCharArray>(DimensionName, cells);
+  auto id = Arrays::Make<vtkIdTypeArray>(IdName, cells);
   vtkIdType cell = 0;
   vtkNew<vtkCellArray> vertices, lines;
   for (const morph::GeometryVertex& vertex : geometry.vertices)

@@ -4,7 +4,9 @@
 #include "Boundary/Classification.h"
 #include "Boundary/SurfaceEdges.h"
 #include "Boundary/SurfacePatches.h"
+#include "Private/Data/Arrays.h"
 #include "Private/Data/Surface.h"
+#include "Support/Lists.h"
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
@@ -54,8 +56,7 @@ void MovedSurface::Make(vtkUnstructuredGrid* grid, const morph::Mesh& mesh,
   this->Nodes = vtkIdTypeArray::SafeDownCast(surface->GetPointData()->GetArray(Surface::IdName));
   this->Owners = vtkIdTypeArray::SafeDownCast(surface->GetCellData()->GetArray("MorphCellId"));
   this->Outer = faces.cells;
-  std::sort(this->Outer.begin(), this->Outer.end());
-  this->Outer.erase(std::unique(this->Outer.begin(), this->Outer.end()), this->Outer.end());
+  sortUnique(this->Outer);
 }
 
 void MovedSurface::SetFeatureLines(bool on, const morph::Mesh& mesh,
@@ -96,9 +97,8 @@ void MovedSurface::SetFeatureLines(bool on, const morph::Mesh& mesh,
   }
   const vtkIdType before = this->Lines ? this->Lines->GetNumberOfCells() : 0;
   const vtkIdType count = lines ? lines->GetNumberOfCells() : 0;
-  vtkNew<vtkIdTypeArray> owners;
-  owners->SetName(this->Owners->GetName());
-  owners->SetNumberOfValues(this->Owners->GetNumberOfValues() - before + count);
+  auto owners = Arrays::Make<vtkIdTypeArray>(
+    this->Owners->GetName(), this->Owners->GetNumberOfValues() - before + count);
   std::fill_n(owners->GetPointer(0), count, -1);
   std::copy(this->Owners->GetPointer(before),
     this->Owners->GetPointer(0) + this->Owners->GetNumberOfValues(), owners->GetPointer(count));
@@ -110,9 +110,7 @@ void MovedSurface::Write(vtkPoints* moved, vtkPolyData* output) const
 {
   output->Initialize();
   const vtkIdType count = this->Nodes->GetNumberOfValues();
-  vtkNew<vtkPoints> points;
-  points->SetDataType(moved->GetDataType());
-  points->SetNumberOfPoints(count);
+  auto points = Arrays::MakePoints(moved->GetDataType(), count);
   if (!gather<vtkDoubleArray>(moved->GetData(), this->Nodes, points->GetData()) &&
       !gather<vtkFloatArray>(moved->GetData(), this->Nodes, points->GetData()))
   {
@@ -132,9 +130,8 @@ vtkIdType MovedSurface::Write(
   vtkPoints* moved, const morph::Quality& quality, vtkPolyData* output) const
 {
   this->Write(moved, output);
-  vtkNew<vtkDoubleArray> scaledJacobian;
-  scaledJacobian->SetName("ScaledJacobian");
-  scaledJacobian->SetNumberOfValues(this->Owners->GetNumberOfValues());
+  auto scaledJacobian =
+    Arrays::Make<vtkDoubleArray>("ScaledJacobian", this->Owners->GetNumberOfValues());
   for (vtkIdType i = 0; i < this->Owners->GetNumberOfValues(); ++i)
   {
     const vtkIdType owner = this->Owners->GetValue(i);

@@ -2,6 +2,7 @@
 #include "Private/Data/NamedSets.h"
 
 #include "Mesh/CellShape.h"
+#include "Private/Data/Arrays.h"
 
 #include <vtkCellData.h>
 #include <vtkCellType.h>
@@ -119,13 +120,9 @@ void AddNamedSets(const std::vector<NamedSet>& sets, const std::vector<Index>& f
   {
     return;
   }
-  vtkNew<vtkStringArray> names;
-  names->SetName("SurfaceNames");
   for (const NamedSet& set : sets)
   {
-    vtkNew<vtkUnsignedCharArray> array;
-    array->SetName(set.name.c_str());
-    array->SetNumberOfValues(output->GetNumberOfCells());
+    auto array = Arrays::Make<vtkUnsignedCharArray>(set.name.c_str(), output->GetNumberOfCells());
     array->FillValue(0);
     for (std::size_t polygon = 0; polygon < faceOf.size(); ++polygon)
     {
@@ -133,8 +130,8 @@ void AddNamedSets(const std::vector<NamedSet>& sets, const std::vector<Index>& f
       array->SetValue(firstPolygon + static_cast<vtkIdType>(polygon), has);
     }
     output->GetCellData()->AddArray(array);
-    names->InsertNextValue(set.name);
   }
-  output->GetFieldData()->AddArray(names);
+  output->GetFieldData()->AddArray(Arrays::MakeOf<vtkStringArray>(
+    "SurfaceNames", sets, [](const NamedSet& set) { return set.name; }));
 }
 }

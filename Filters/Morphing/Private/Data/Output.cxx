@@ -2,6 +2,7 @@
 #include "Private/Data/Output.h"
 
 #include "Mesh/Extent.h"
+#include "Private/Data/Arrays.h"
 #include "Private/Data/Directions.h"
 #include "Support/Error.h"
 
@@ -43,15 +44,8 @@ struct Written
   static Written Make(
     const morph::Points& rest, const morph::Points& moved, morph::Monitor& monitor)
   {
-    const auto make = [&moved](const char* name)
-    {
-      auto array = vtkSmartPointer<Array>::New();
-      array->SetName(name);
-      array->SetNumberOfComponents(3);
-      array->SetNumberOfTuples(moved.rows());
-      return array;
-    };
-    Written written = { make("Points"), make("MorphDisplacement"), true };
+    Written written = { Arrays::Make<Array>("Points", moved.rows(), 3),
+      Arrays::Make<Array>("MorphDisplacement", moved.rows(), 3), true };
     auto *to = written.Coordinates->GetPointer(0), *by = written.Displacement->GetPointer(0);
     using Value = std::remove_pointer_t<decltype(to)>;
     const double most =
@@ -103,8 +97,7 @@ void writePoints(vtkUnstructuredGrid* input, const morph::Points& rest, const mo
 template <typename Array, typename Value>
 void addField(vtkDataObject* output, const char* name, Value value)
 {
-  vtkNew<Array> array;
-  array->SetName(name);
+  auto array = Arrays::Make<Array>(name);
   array->InsertNextValue(value);
   output->GetFieldData()->AddArray(array);
 }

@@ -2,6 +2,7 @@
 #include "Private/Data/Quality.h"
 
 #include "Mesh/CellShape.h"
+#include "Private/Data/Arrays.h"
 #include "Private/Data/WrittenPoints.h"
 #include "Quality/ScaledJacobian.h"
 #include "Support/Error.h"
@@ -121,13 +122,7 @@ template <typename Array, typename Value>
 void addColumn(vtkUnstructuredGrid* output, const char* name,
   const std::vector<Quality::OfCriterion>& rows, const Value& value)
 {
-  vtkNew<Array> column;
-  column->SetName(name);
-  for (const Quality::OfCriterion& row : rows)
-  {
-    column->InsertNextValue(value(row));
-  }
-  output->GetFieldData()->AddArray(column);
+  output->GetFieldData()->AddArray(Arrays::MakeOf<Array>(name, rows, value));
 }
 }
 
@@ -198,11 +193,8 @@ morph::CertificateReport Certify(const morph::Mesh& mesh, vtkUnstructuredGrid* o
 
 void Write(const morph::Quality& quality, vtkUnstructuredGrid* output)
 {
-  vtkNew<vtkDoubleArray> values;
-  values->SetName("ScaledJacobian");
-  values->SetNumberOfValues(static_cast<vtkIdType>(quality.scaledJacobian.size()));
-  std::copy(quality.scaledJacobian.begin(), quality.scaledJacobian.end(), values->GetPointer(0));
-  output->GetCellData()->AddArray(values);
+  output->GetCellData()->AddArray(Arrays::MakeOf<vtkDoubleArray>(
+    "ScaledJacobian", quality.scaledJacobian, [](double value) { return value; }));
   output->GetCellData()->SetActiveScalars("ScaledJacobian");
   // Viewers prefer active point scalars to active cell scalars.
   output->GetPointData()->SetActiveScalars(nullptr);
@@ -210,12 +202,8 @@ void Write(const morph::Quality& quality, vtkUnstructuredGrid* output)
 
 void Write(const morph::CertificateReport& report, vtkUnstructuredGrid* output)
 {
-  vtkNew<vtkSignedCharArray> values;
-  values->SetName("JacobianCertificate");
-  values->SetNumberOfValues(static_cast<vtkIdType>(report.cells.size()));
-  std::transform(report.cells.begin(), report.cells.end(), values->GetPointer(0),
-    [](morph::Certificate found) { return static_cast<signed char>(found); });
-  output->GetCellData()->AddArray(values);
+  output->GetCellData()->AddArray(Arrays::MakeOf<vtkSignedCharArray>("JacobianCertificate",
+    report.cells, [](morph::Certificate found) { return static_cast<signed char>(found); }));
 }
 
 std::vector<OfCriterion> ReadCriteria(const std::string& text)
@@ -266,8 +254,7 @@ void Measure(OfCriterion& criterion, const morph::Mesh& mesh, vtkUnstructuredGri
   std::vector<double> values = morph::measureCriterion(measure, mesh, mesh.points, orientation,
     skip, wallNodes(criterion.Walls, mesh, output), monitor);
   takeVerdict(measure.name, output, values);
-  vtkNew<vtkDoubleArray> array;
-  array->SetName(criterion.Label.c_str());
+  auto array = Arrays::Make<vtkDoubleArray>(criterion.Label.c_str());
   for (vtkIdType c = 0; c < output->GetNumberOfCells(); ++c)
   {
     const double value = skip[c] ? std::numeric_limits<double>::quiet_NaN() : values[c];

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Private/Data/SubGrid.h"
 
+#include "Private/Data/Arrays.h"
+
 #include <vtkCellData.h>
 #include <vtkCellType.h>
 #include <vtkIdList.h>
@@ -23,8 +25,7 @@ void copyTuples(
   to->CopyAllOn();
   // 0 would mean the size of `from`.
   to->CopyAllocate(from, std::max<vtkIdType>(1, ids->GetNumberOfIds()));
-  vtkNew<vtkIdTypeArray> numbers;
-  numbers->SetName(idName);
+  auto numbers = Arrays::Make<vtkIdTypeArray>(idName);
   for (vtkIdType i = 0; i < ids->GetNumberOfIds(); ++i)
   {
     to->CopyData(from, ids->GetId(i), i);
@@ -101,8 +102,7 @@ void Extract(vtkUnstructuredGrid* grid, vtkIdList* cells, vtkUnstructuredGrid* o
     InsertCell(
       grid, cells->GetId(i), [&nodes](vtkIdType node) { return nodes.NumberOf(node); }, output);
   }
-  vtkNew<vtkPoints> points;
-  points->SetDataType(grid->GetPoints()->GetDataType());
+  auto points = Arrays::MakePoints(grid->GetPoints()->GetDataType());
   grid->GetPoints()->GetPoints(nodes.Ids, points);
   output->SetPoints(points);
   copyTuples(grid->GetPointData(), nodes.Ids, output->GetPointData(), "MorphPointId");

@@ -2,6 +2,7 @@
 #include "Private/Data/Surface.h"
 
 #include "Mesh/Polyhedra.h"
+#include "Private/Data/Arrays.h"
 #include "Private/Data/Faces.h"
 
 #include <vtkCellArray.h>
@@ -56,13 +57,8 @@ void writePoints(
     points->SetDataType(grid->GetPoints()->GetDataType());
   }
   points->SetNumberOfPoints(count);
-  vtkNew<vtkIdTypeArray> ids;
-  ids->SetName(Surface::IdName);
-  ids->SetNumberOfValues(count);
-  vtkNew<vtkDoubleArray> rest;
-  rest->SetName(Surface::RestName);
-  rest->SetNumberOfComponents(4);
-  rest->SetNumberOfTuples(count);
+  auto ids = Arrays::Make<vtkIdTypeArray>(Surface::IdName, count);
+  auto rest = Arrays::Make<vtkDoubleArray>(Surface::RestName, count, 4);
   const char* components[] = { "X", "Y", "Z", "W" };
   for (int j = 0; j < 4; ++j)
   {
@@ -99,8 +95,7 @@ std::vector<morph::Index> writePolygons(vtkUnstructuredGrid* grid, const morph::
   }
 
   vtkNew<vtkCellArray> polygons;
-  vtkNew<vtkIdTypeArray> owners;
-  owners->SetName("MorphCellId");
+  auto owners = Arrays::Make<vtkIdTypeArray>("MorphCellId");
   vtkCellData* from = grid->GetCellData();
   vtkCellData* to = output->GetCellData();
   to->CopyGlobalIdsOff();

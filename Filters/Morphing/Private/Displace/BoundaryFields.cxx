@@ -2,6 +2,7 @@
 #include "Private/Displace/BoundaryFields.h"
 
 #include "Private/Data/AffineArrays.h"
+#include "Private/Data/Arrays.h"
 
 #include <vtkPolyData.h>
 
@@ -91,10 +92,8 @@ void BoundaryFields::Compute(const InputBoundary& model, const Choice& choice,
   const morph::Points weight =
     spread.spread(model, choice, from.rowwise() + shift, options, monitor).moved - model.points();
 
-  this->Fields = vtkSmartPointer<vtkDoubleArray>::New();
-  this->Fields->SetName(AffineArrays::FieldsName);
-  this->Fields->SetNumberOfComponents(4);
-  this->Fields->SetNumberOfTuples(static_cast<vtkIdType>(model.NodeOfPoint().size()));
+  this->Fields = Arrays::Make<vtkDoubleArray>(
+    AffineArrays::FieldsName, static_cast<vtkIdType>(model.NodeOfPoint().size()), 4);
   for (std::size_t i = 0; i < model.NodeOfPoint().size(); ++i)
   {
     const morph::Index node = model.NodeOfPoint()[i];

@@ -2,6 +2,7 @@
 #include "Private/Displace/ControlPoints.h"
 
 #include "Mesh/Extent.h"
+#include "Private/Data/Arrays.h"
 #include "Support/Error.h"
 
 #include <vtkCellArray.h>
@@ -94,23 +95,19 @@ Handle handleOf(const std::array<double, 7>& v)
 vtkSmartPointer<vtkPolyData> asPoints(const std::vector<Handle>& handles)
 {
   auto result = vtkSmartPointer<vtkPolyData>::New();
-  vtkNew<vtkPoints> places;
-  places->SetDataTypeToDouble();
-  vtkNew<vtkDoubleArray> vectors, radii;
-  vectors->SetName("Displacement");
-  vectors->SetNumberOfComponents(3);
-  radii->SetName("Radius");
+  auto places = Arrays::MakePoints(VTK_DOUBLE);
+  auto vectors = Arrays::Make<vtkDoubleArray>("Displacement", 0, 3);
   result->AllocateExact(static_cast<vtkIdType>(handles.size()), 1);
   result->SetPoints(places);
   for (const Handle& handle : handles)
   {
     const vtkIdType point = places->InsertNextPoint(handle.place.data());
     vectors->InsertNextTuple(handle.displacement.data());
-    radii->InsertNextValue(handle.radius);
     result->InsertNextCell(VTK_VERTEX, 1, &point);
   }
   result->GetPointData()->AddArray(vectors);
-  result->GetPointData()->AddArray(radii);
+  result->GetPointData()->AddArray(Arrays::MakeOf<vtkDoubleArray>(
+    "Radius", handles, [](const Handle& handle) { return handle.radius; }));
   return result;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Private/Displace/DisplacedSurface.h"
 
+#include "Private/Data/Arrays.h"
 #include "Private/Data/Directions.h"
 #include "Private/Data/Geometry.h"
 #include "Private/Data/GridMesh.h"
@@ -34,16 +35,8 @@ using morph::Index;
 template <typename Array, typename Value>
 void writePoints(const morph::Points& rest, const morph::Points& moved, vtkPolyData* output)
 {
-  const auto make = [&](const char* name)
-  {
-    auto array = vtkSmartPointer<Array>::New();
-    array->SetName(name);
-    array->SetNumberOfComponents(3);
-    array->SetNumberOfTuples(moved.rows());
-    return array;
-  };
-  auto coordinates = make("Points");
-  auto displacement = make("BoundaryDisplacement");
+  auto coordinates = Arrays::Make<Array>("Points", moved.rows(), 3);
+  auto displacement = Arrays::Make<Array>("BoundaryDisplacement", moved.rows(), 3);
   using Written = Eigen::Map<Eigen::Matrix<Value, Eigen::Dynamic, 3, Eigen::RowMajor>>;
   Written coordinate(coordinates->GetPointer(0), moved.rows(), 3);
   coordinate = moved.template cast<Value>();
@@ -62,18 +55,10 @@ void writePoints(const morph::Points& rest, const morph::Points& moved, vtkPolyD
 void writeRoles(
   const std::vector<Index>& nodes, const std::vector<signed char>& roleOfNode, vtkPolyData* output)
 {
-  const auto make = [](vtkIdType count)
-  {
-    auto roles = vtkSmartPointer<vtkSignedCharArray>::New();
-    roles->SetName("Role");
-    roles->SetNumberOfValues(count);
-    return roles;
-  };
-  auto ofPoints = make(output->GetNumberOfPoints());
-  std::transform(nodes.begin(), nodes.end(), ofPoints->GetPointer(0),
-    [&roleOfNode](Index node) { return roleOfNode[node]; });
+  auto ofPoints = Arrays::MakeOf<vtkSignedCharArray>(
+    "Role", nodes, [&roleOfNode](Index node) { return roleOfNode[node]; });
   vtkCellArray* faces = output->GetPolys();
-  auto ofCells = make(faces->GetNumberOfCells());
+  auto ofCells = Arrays::Make<vtkSignedCharArray>("Role", faces->GetNumberOfCells());
   vtkNew<vtkIdList> points;
   for (vtkIdType cell = 0; cell < faces->GetNumberOfCells(); ++cell)
   {
@@ -108,8 +93,7 @@ void writeFree(
   {
     return;
   }
-  vtkNew<vtkUnsignedCharArray> free;
-  free->SetName(Surface::FreeName);
+  auto free = Arrays::Make<vtkUnsignedCharArray>(Surface::FreeName);
   bool any = false;
   for (std::size_t i = 0; i < nodes.size(); ++i)
   {
@@ -178,9 +162,7 @@ void AppendInner(vtkUnstructuredGrid* grid, const std::vector<morph::Index>& nod
   }
   const vtkIdType before = output->GetNumberOfPoints();
   const vtkIdType all = before + static_cast<vtkIdType>(nodes.size());
-  vtkNew<vtkPoints> points;
-  points->SetDataType(output->GetPoints()->GetDataType());
-  points->SetNumberOfPoints(all);
+  auto points = Arrays::MakePoints(output->GetPoints()->GetDataType(), all);
   points->GetData()->InsertTuples(0, before, 0, output->GetPoints()->GetData());
   for (vtkIdType i = before; i < all; ++i)
   {

@@ -2,10 +2,12 @@
 #include "Private/Displace/InputBoundary.h"
 
 #include "Mesh/Extent.h"
+#include "Private/Data/Arrays.h"
 #include "Private/Data/GridMesh.h"
 #include "Private/Data/Surface.h"
 #include "Private/Distributed/WholeSurface.h"
 #include "Support/Error.h"
+#include "Support/Lists.h"
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
@@ -20,7 +22,6 @@
 #include <vtkUnstructuredGrid.h>
 
 #include <algorithm>
-#include <numeric>
 #include <sstream>
 #include <utility>
 
@@ -125,8 +126,7 @@ morph::BoundaryFaces polygons(vtkPolyData* surface)
                 morph::listIds(wrong) + ". Remove them.");
   }
   faces.nodes = faces.connectivity;
-  std::sort(faces.nodes.begin(), faces.nodes.end());
-  faces.nodes.erase(std::unique(faces.nodes.begin(), faces.nodes.end()), faces.nodes.end());
+  sortUnique(faces.nodes);
   faces.between.offsets.assign(faces.nodes.size() + 1, 0);
   return faces;
 }
@@ -312,13 +312,8 @@ void InputBoundary::TakeGrid(vtkUnstructuredGrid* grid, const Options& options,
   if (this->inner.size() > 0)
   {
     const auto first = static_cast<Index>(this->faces.cells.size() - this->inner.size());
-    vtkNew<vtkUnsignedCharArray> isInner;
-    isInner->SetName("Inner");
-    for (const Index face : this->Polygons)
-    {
-      isInner->InsertNextValue(face >= first);
-    }
-    this->Written->GetCellData()->AddArray(isInner);
+    this->Written->GetCellData()->AddArray(Arrays::MakeOf<vtkUnsignedCharArray>(
+      "Inner", this->Polygons, [first](Index face) { return face >= first; }));
   }
   Geometry::AddPointArrays(this->geometry, this->Nodes, this->Written->GetPointData());
   Geometry::AddSurfaceIds(this->geometry, this->Polygons, this->Written);
@@ -357,10 +352,8 @@ void InputBoundary::TakeSurface(vtkPolyData* surface, const Geometry::Options& o
   this->mesh.points = std::move(current);
   this->Written = vtkSmartPointer<vtkPolyData>::New();
   this->Written->ShallowCopy(surface);
-  this->Nodes.resize(surface->GetNumberOfPoints());
-  std::iota(this->Nodes.begin(), this->Nodes.end(), Index(0));
-  this->Polygons.resize(this->faces.offsets.size() - 1);
-  std::iota(this->Polygons.begin(), this->Polygons.end(), Index(0));
+  this->Nodes = consecutive(surface->GetNumberOfPoints());
+  this->Polygons = consecutive(this->faces.offsets.size() - 1);
   Geometry::AddPointArrays(this->geometry, this->Nodes, this->Written->GetPointData());
   if (this->Polygons.size() == static_cast<std::size_t>(surface->GetNumberOfCells()))
   {

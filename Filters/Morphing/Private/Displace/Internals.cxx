@@ -5,6 +5,7 @@
 #include "BoundaryMover/Patches.h"
 #include "Mesh/ShellLayer.h"
 #include "Private/Data/AffineArrays.h"
+#include "Private/Data/Arrays.h"
 #include "Private/Data/GridMesh.h"
 #include "Private/Data/Output.h"
 #include "Private/Data/Surface.h"
@@ -12,6 +13,7 @@
 #include "Private/Pipeline/Ranks.h"
 #include "Private/Project/TargetDistance.h"
 #include "Support/Error.h"
+#include "Support/Lists.h"
 #include "Support/ProgressRange.h"
 
 #include <vtkAbstractTransform.h>
@@ -27,7 +29,6 @@
 #include <array>
 #include <functional>
 #include <limits>
-#include <numeric>
 #include <utility>
 
 namespace filters = morph::filters;
@@ -45,16 +46,11 @@ vtkMTimeType timeOf(vtkObject* object)
 void writeRounds(
   const std::vector<morph::SlidingWarp::Round>& rounds, double size, vtkFieldData* data)
 {
-  vtkNew<vtkDoubleArray> change, force;
-  change->SetName("SlideChange");
-  force->SetName("SlideForce");
-  for (const morph::SlidingWarp::Round& round : rounds)
-  {
-    change->InsertNextValue(round.change / size);
-    force->InsertNextValue(round.force);
-  }
-  data->AddArray(change);
-  data->AddArray(force);
+  using Round = morph::SlidingWarp::Round;
+  data->AddArray(filters::Arrays::MakeOf<vtkDoubleArray>(
+    "SlideChange", rounds, [size](const Round& round) { return round.change / size; }));
+  data->AddArray(filters::Arrays::MakeOf<vtkDoubleArray>(
+    "SlideForce", rounds, [](const Round& round) { return round.force; }));
 }
 
 /// The pairs of the property or, where it is empty, of the file.
@@ -94,9 +90,7 @@ std::set<std::string> symmetricOf(const morph::DisplacementOptions& options, vtk
 void writeGaps(
   const morph::Contact::Gaps& before, const morph::Contact::Gaps& after, vtkFieldData* data)
 {
-  vtkNew<vtkDoubleArray> gaps;
-  gaps->SetName("ContactGaps");
-  gaps->SetNumberOfComponents(2);
+  auto gaps = filters::Arrays::Make<vtkDoubleArray>("ContactGaps", 0, 2);
   gaps->InsertNextTuple2(before.least, before.most);
   gaps->InsertNextTuple2(after.least, after.most);
   data->AddArray(gaps);
@@ -234,8 +228,8 @@ vtkPolyData* vtkDisplacementAlgorithm::vtkInternals::WholeShell(
     morph::Monitor serial;
     this->IsShellClosed = morph::boundaryFaces(mesh, serial).nodes.empty();
     morph::BoundaryFaces faces = morph::frontFaces(mesh);
-    faces.nodes.resize(mesh.layer.nodes); // all of the input, so that messages have its ids
-    std::iota(faces.nodes.begin(), faces.nodes.end(), morph::Index(0));
+    faces.nodes =
+      morph::consecutive(mesh.layer.nodes); // of the input, so that messages have its ids
     this->Shell = vtkSmartPointer<vtkPolyData>::New();
     filters::Surface::Write(grid, mesh, faces, this->Shell);
     this->ShellOf = grid;
@@ -362,13 +356,12 @@ bool vtkDisplacementAlgorithm::vtkInternals::FindMoving(const Options& options, 
   {
     return false;
   }
-  Surroundings::Options& rest = moves.Rest;
+  Surroundings::Options& rest = moves.Mover.rest;
   rest.sliding = morph::surfacesNamed(this->Model, options.SlidingSurfaces, "SlidingSurfaces");
   const morph::SymmetryPlanes planes =
     morph::symmetryPlanes(this->Model, symmetricOf(options, input));
   rest.sliding.insert(rest.sliding.end(), planes.surfaces.begin(), planes.surfaces.end());
-  std::sort(rest.sliding.begin(), rest.sliding.end());
-  rest.sliding.erase(std::unique(rest.sliding.begin(), rest.sliding.end()), rest.sliding.end());
+  morph::sortUnique(rest.sliding);
   for (const std::string& name : planes.others)
   {
     monitor.warn("The patch '" + name +
@@ -391,7 +384,7 @@ bool vtkDisplacementAlgorithm::vtkInternals::FindMoving(const Options& options, 
 void vtkDisplacementAlgorithm::vtkInternals::Prepare(const Options& options, vtkPointSet* input,
   const Inputs& inputs, morph::Points field, Moves& moves, morph::Monitor& monitor)
 {
-  Surroundings::Options& rest = moves.Rest;
+  Surroundings::Options& rest = moves.Mover.rest;
   filters::Motion::Options& motion = moves.Motion;
   motion = { options, this->Transform, &moves.Given };
   moves.Choice = this->Choice;
@@ -433,10 +426,20 @@ void vtkDisplacementAlgorithm::vtkInternals::Prepare(const Options& options, vtk
   rest.follow.method = static_cast<morph::SurfaceMorphOptions::Method>(options.SurfaceMethod);
   rest.follow.unattached = static_cast<morph::UnattachedMotion>(options.UnattachedMotion);
   rest.free = morph::surfacesNamed(this->Model, options.FreeSurfaces, "FreeSurfaces");
-  moves.Contact.distance = options.ContactDistance;
-  moves.Contact.surfaces =
-    morph::surfacesNamed(this->Model, options.ContactSurfaces, "ContactSurfaces");
-  moves.Periodic = periodicOf(options.PeriodicSurfaces, input);
+  morph::Contact::Options contact;
+  contact.distance = options.ContactDistance;
+  contact.surfaces = morph::surfacesNamed(this->Model, options.ContactSurfaces, "ContactSurfaces");
+  morph::PeriodicSides::Names periodic = periodicOf(options.PeriodicSurfaces, input);
+  if (options.Moving != MOVING_NOTHING)
+  {
+    moves.Mover.contact = std::move(contact);
+    moves.Mover.periodic = std::move(periodic);
+    moves.Mover.slide.rounds = options.SlideRounds;
+    if (this->IsDragged)
+    {
+      moves.Mover.slide.tolerance = DragTolerance;
+    }
+  }
   for (const morph::Index sheet : this->Model.sheets())
   {
     if (std::count(rest.sliding.begin(), rest.sliding.end(), sheet) == 0)
@@ -475,34 +478,25 @@ void vtkDisplacementAlgorithm::vtkInternals::Displace(const Options& options, vt
       this->Prepare(options, input, inputs, std::move(field), moves, monitor);
       zones = this->ZoneOptions(options, inputs.Zone);
     });
-  morph::BoundaryMover::Options mover;
-  mover.rest = moves.Rest;
   if (options.Moving != MOVING_NOTHING)
   {
-    this->FindInner(options, grid, zones, mover);
-    mover.slide.rounds = options.SlideRounds;
-    if (this->IsDragged)
-    {
-      mover.slide.tolerance = DragTolerance;
-    }
-    mover.contact = moves.Contact;
-    mover.periodic = moves.Periodic;
+    this->FindInner(options, grid, zones, moves.Mover);
   }
   const std::unique_ptr<morph::InnerPieces> pieces = whole ? whole->Volume() : nullptr;
   morph::ProgressRange moving(monitor, target ? 0.7 : 0.5, 1);
-  this->Mover.move(this->Model, moves.Choice, moves.Targets, mover, pieces.get(), moving);
-  alike([&] { this->Write(options, input, target, moves, mover, output, monitor); });
-  if (mover.hasInner())
+  this->Mover.move(this->Model, moves.Choice, moves.Targets, moves.Mover, pieces.get(), moving);
+  alike([&] { this->Write(options, input, target, moves, output, monitor); });
+  if (moves.Mover.hasInner())
   {
     alike([&] { this->AppendInner(grid, output); });
   }
-  this->CountRoles(mover.hasInner());
+  this->CountRoles(moves.Mover.hasInner());
 }
 
 void vtkDisplacementAlgorithm::vtkInternals::Write(const Options& options, vtkPointSet* input,
-  bool isFitted, const Moves& moves, const morph::BoundaryMover::Options& mover,
-  vtkPolyData* output, morph::Monitor& monitor)
+  bool isFitted, const Moves& moves, vtkPolyData* output, morph::Monitor& monitor)
 {
+  const morph::BoundaryMover::Options& mover = moves.Mover;
   const Surroundings::Result& result = this->Mover.result();
   const std::vector<morph::Index> faces =
     morph::collapsedFaces(this->Model, moves.Choice, result.moved);
@@ -548,7 +542,7 @@ void vtkDisplacementAlgorithm::vtkInternals::Write(const Options& options, vtkPo
   }
   else
   {
-    this->Fields.Write(this->Model, this->Choice, moves.Motion, moves.Rest, result,
+    this->Fields.Write(this->Model, this->Choice, moves.Motion, moves.Mover.rest, result,
       this->Mover.surroundings(), output, monitor);
   }
   if (isFitted)
@@ -584,9 +578,7 @@ void vtkDisplacementAlgorithm::vtkInternals::CountRoles(bool hasInner)
   {
     ++inside[roles[i]];
   }
-  const filters::RankGroup processes(
-    this->Whole ? filters::RankGroup::Of::All : filters::RankGroup::Of::One);
-  processes.Sum(inside.data(), inside.size());
+  filters::RankGroup(this->Whole != nullptr).Sum(inside.data(), inside.size());
   for (std::size_t role = 0; role < inside.size(); ++role)
   {
     this->Count[role] += static_cast<vtkIdType>(inside[role]);

@@ -150,9 +150,7 @@ private:
     morph::Points Given, Targets;
     morph::filters::Motion::Options Motion;
     morph::Choice Choice;
-    morph::Surroundings::Options Rest;
-    morph::Contact::Options Contact;
-    morph::PeriodicSides::Names Periodic;
+    morph::BoundaryMover::Options Mover;
   };
   void Classify(const Options& options, vtkPointSet* input, morph::Monitor& monitor);
   void ListZones();
@@ -188,7 +186,7 @@ private:
   void FindInner(const Options& options, vtkUnstructuredGrid* grid,
     const morph::filters::Zones::Options& zones, morph::BoundaryMover::Options& mover) const;
   void Write(const Options& options, vtkPointSet* input, bool isFitted, const Moves& moves,
-    const morph::BoundaryMover::Options& mover, vtkPolyData* output, morph::Monitor& monitor);
+    vtkPolyData* output, morph::Monitor& monitor);
   void WriteDistances(const morph::Surroundings::Result& result, vtkPolyData* output);
   /// Adds zones and layers inside to the output, points without cells.
   void AppendInner(vtkUnstructuredGrid* grid, vtkPolyData* output);

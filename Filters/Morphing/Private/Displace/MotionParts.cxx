@@ -148,9 +148,7 @@ morph::Points vtkDisplacementAlgorithm::vtkInternals::ByField(
   this->FieldOrigin = {}; // in case it throws
   this->FieldValues = filters::FieldDisplacement::At(field, array,
     this->Model.points()(this->Choice.moving, morph::allColumns),
-    options.FieldDistance * this->Model.size,
-    filters::RankGroup(this->Whole ? filters::RankGroup::Of::All : filters::RankGroup::Of::One),
-    monitor);
+    options.FieldDistance * this->Model.size, filters::RankGroup(this->Whole != nullptr), monitor);
   if (!this->Whole)
   {
     this->FieldOrigin = origin;

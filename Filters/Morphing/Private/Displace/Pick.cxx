@@ -7,6 +7,7 @@
 #include "Private/Data/Surface.h"
 #include "Private/Displace/Selection.h"
 #include "Support/Error.h"
+#include "Support/Lists.h"
 
 #include <vtkCell.h>
 #include <vtkCellArray.h>
@@ -43,12 +44,6 @@ struct Items
   std::vector<std::vector<Index>> SurfacesOf; ///< #items, ascending and unique
   std::vector<Index> FacesOn;                 ///< #surfaces, the selected faces on it
 };
-
-void unify(std::vector<Index>& numbers)
-{
-  std::sort(numbers.begin(), numbers.end());
-  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
-}
 
 /// The mesh's node of a point of `shown`.
 class Nodes
@@ -94,7 +89,7 @@ std::vector<std::uint8_t> selectedNodes(
       ids.push_back(nodes(static_cast<vtkIdType>(i)));
     }
   }
-  unify(ids);
+  sortUnique(ids);
   // A model made from a surface has numbers of its own for the mesh's nodes.
   vtkPolyData* surface = model.Surface();
   const Nodes nodesOfSurface(surface);
@@ -183,7 +178,7 @@ Items itemsOfCells(const std::vector<std::uint8_t>& flags, vtkDataSet* shown, co
   {
     if (!surfaces.empty())
     {
-      unify(surfaces);
+      sortUnique(surfaces);
       items.SurfacesOf.push_back(std::move(surfaces));
     }
   }

@@ -3,6 +3,7 @@
 
 #include "BoundaryMover/Choice.h"
 #include "Geometry/FarthestPoints.h"
+#include "Private/Data/Arrays.h"
 #include "Private/Data/Geometry.h"
 #include "Private/Data/Surface.h"
 #include "Private/Displace/Pick.h"
@@ -98,8 +99,7 @@ void addArrow(const Row& from, const Row& to, vtkPolyData* output)
 vtkSmartPointer<vtkPolyData> movedSurface(
   const InputBoundary& model, const std::vector<Index>& nodes, const Points& targets)
 {
-  vtkNew<vtkPoints> points;
-  points->SetDataTypeToDouble();
+  auto points = Arrays::MakePoints(VTK_DOUBLE);
   points->DeepCopy(model.Surface()->GetPoints());
   for (std::size_t i = 0; i < model.NodeOfPoint().size(); ++i)
   {

@@ -42,18 +42,13 @@ namespace
   throw morph::Error(subject + " is a " + type + "; " + needed + " is needed.");
 }
 
-bool hasPoints(vtkDataObject* data)
-{
-  return data && data->GetNumberOfElements(vtkDataObject::POINT) > 0;
-}
-
 /// The input, or its blocks as one grid, which all processes make together if several have some.
 vtkDataObject* gather(vtkDataObject* input, Blocks& blocks, int coincident,
   GridMesh::UnknownCells unknown, morph::Monitor& monitor)
 {
   const bool isTree = Leaves::TreeOf(input);
   const bool areOnRanks =
-    Ranks::TakePieces() && Ranks::Count(isTree) > 0 && Ranks::Count(hasPoints(input)) > 1;
+    Ranks::TakePieces() && Ranks::Count(isTree) > 0 && Ranks::Count(Input::HasPoints(input)) > 1;
   if (!areOnRanks)
   {
     return blocks.Gather(input, coincident, unknown, monitor);
@@ -61,7 +56,7 @@ vtkDataObject* gather(vtkDataObject* input, Blocks& blocks, int coincident,
   Ranks::Together(
     [&]
     {
-      if (!isTree && hasPoints(input))
+      if (!isTree && Input::HasPoints(input))
       {
         throw morph::Error("The input is composite data on some MPI ranks, and a " +
                            std::string(input->GetClassName()) +
@@ -186,6 +181,11 @@ vtkPointSet* RequireGridOrPolyData(vtkDataObject* input, const char* port, Uncha
                                                   : RequireGridOrPolyData(input, port);
 }
 
+bool HasPoints(vtkDataObject* data)
+{
+  return data && data->GetNumberOfElements(vtkDataObject::POINT) > 0;
+}
+
 bool IsReadable(vtkDataObject* data)
 {
   try
@@ -220,14 +220,7 @@ Mesh TakeMesh(vtkDataObject* input, Blocks& blocks, int coincidentPoints, Use us
   const bool hasCells =
     data && (data->GetNumberOfCells() > 0 || (blocks.Merged() && data->GetNumberOfPoints() > 0));
   const int ranks = Ranks::Count(hasCells);
-  if (ranks > 1 && use == Use::ToMorph)
-  {
-    throw morph::Error(
-      "The mesh is distributed over " + std::to_string(ranks) + " MPI ranks, and " + filter +
-      " needs it on one: the cuts between the ranks' pieces would be taken for a fixed boundary. "
-      "Run on one rank, or bring the mesh to one.");
-  }
-  if (ranks > 1 && use == Use::ToMorphOnRanks && !Ranks::TakePieces())
+  if (ranks > 1 && use == Use::ToMorph && !Ranks::TakePieces())
   {
     throw morph::Error(
       "The mesh is distributed over " + std::to_string(ranks) +

@@ -48,15 +48,17 @@ vtkPointSet* RequireBoundary(vtkDataObject* input);
 /// points and cells.
 bool IsReadable(vtkDataObject* data);
 
+/// Whether `data`, which may be null, have points.
+bool HasPoints(vtkDataObject* data);
+
 /// Throws morph::Error where `boundary` has volume cells and `input`, a grid or surface, has none.
 /// Either may be null.
 void RequireNotSwapped(vtkDataObject* input, vtkDataObject* boundary);
 
 enum class Use
 {
-  ToMorph,        ///< one MPI process may have cells, of known types alone
-  ToMorphOnRanks, ///< each process may have a part, of known types alone, where Ranks::TakePieces()
-  ToMeasure,      ///< each process may have a part, of any cells
+  ToMorph,   ///< each MPI process may have a part, of known types alone, if Ranks::TakePieces()
+  ToMeasure, ///< each process may have a part, of any cells
 };
 struct Mesh
 {

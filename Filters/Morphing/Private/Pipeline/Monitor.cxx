@@ -85,6 +85,14 @@ std::vector<std::string> Monitor::TakeWarnings()
   return taken;
 }
 
+void Monitor::TellWarnings()
+{
+  for (const std::string& warning : this->TakeWarnings())
+  {
+    vtkWarningWithObjectMacro(this->Algorithm, << warning);
+  }
+}
+
 morph::Index Monitor::RangeLength(morph::Index n, morph::Index grain) const
 {
   const morph::Index ranges = morph::Index{ 4 } * this->Threads;

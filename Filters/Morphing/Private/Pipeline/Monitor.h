@@ -29,6 +29,8 @@ public:
   /// Keeps the message until TakeWarnings(); the same text is kept once.
   void warn(const std::string& message) override;
   std::vector<std::string> TakeWarnings();
+  /// Takes the warnings, and raises them as those of the algorithm.
+  void TellWarnings();
 
   /// Uses the backend of vtkSMPTools, or STDThread where that is Sequential (ParaView's default).
   /// STDThread starts its threads for each call, about 70 microseconds: a range not longer than

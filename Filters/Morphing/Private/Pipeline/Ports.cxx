@@ -30,14 +30,6 @@
 
 namespace morph::filters
 {
-namespace
-{
-bool hasPoints(vtkDataObject* data)
-{
-  return data && data->GetNumberOfElements(vtkDataObject::POINT) > 0;
-}
-}
-
 int Ports::FillInformation(int port, vtkInformation* info)
 {
   // Any other type would make the executive run the filter block by block; see Input.h.
@@ -191,12 +183,12 @@ int Ports::RequestData(
               : given;
     vtkDataObject* boundary = vtkDataObject::GetData(inputVector[1]);
     const char* name = this->Filter->GetClassName();
-    Input::Mesh mesh = Input::TakeMesh(input, this->Mesh, task.CoincidentPoints,
-      task.WorkOnRanks ? Input::Use::ToMorphOnRanks : Input::Use::ToMorph, name, monitor, boundary);
+    Input::Mesh mesh = Input::TakeMesh(
+      input, this->Mesh, task.CoincidentPoints, Input::Use::ToMorph, name, monitor, boundary);
     input = mesh.Data;
-    if (!mesh.IsDistributed && Ranks::Count(mesh.IsElsewhere && hasPoints(boundary)) > 0)
+    if (!mesh.IsDistributed && Ranks::Count(mesh.IsElsewhere && Input::HasPoints(boundary)) > 0)
     {
-      if (!task.WorkOnRanks || !Ranks::TakePieces())
+      if (!Ranks::TakePieces())
       {
         throw morph::Error(
           std::string("The boundary is on MPI ranks that have no part of the mesh; ") + name +
@@ -206,24 +198,20 @@ int Ports::RequestData(
     }
     mesh.IsDistributed |= task.RunsFilters && Ranks::Processes() > 1;
     vtkUnstructuredGrid* grid = nullptr;
-    const auto check = [&]
+    const bool worksHere = mesh.IsDistributed || !mesh.IsElsewhere;
+    RankGroup(mesh.IsDistributed)
+      .Together(
+        [&]
+        {
+          grid = Input::RequireGrid(input, "The input", this->Checked);
+          if (worksHere)
+          {
+            boundary = this->AsOne(boundary, "The boundary");
+          }
+        });
+    if (worksHere)
     {
-      grid = Input::RequireGrid(input, "The input", this->Checked);
-      if (mesh.IsDistributed || !mesh.IsElsewhere)
-      {
-        boundary = this->AsOne(boundary, "The boundary");
-      }
-    };
-    if (mesh.IsDistributed)
-    {
-      Ranks::Together(check);
-      task.WorkOnRanks(grid, boundary, monitor);
-      return;
-    }
-    check();
-    if (!mesh.IsElsewhere)
-    {
-      task.Work(grid, boundary, monitor);
+      task.Work(grid, boundary, mesh.IsDistributed, monitor);
     }
   };
   const auto clear = [&]
@@ -237,10 +225,7 @@ int Ports::RequestData(
   };
   const Execution::Outcome outcome = Execution::Run(this->Filter, task.Name, work, clear);
   // After an error too: the warnings may explain it.
-  for (const std::string& warning : monitor.TakeWarnings())
-  {
-    vtkWarningWithObjectMacro(this->Filter, << warning);
-  }
+  monitor.TellWarnings();
   if (outcome != Execution::Outcome::Done && task.Undone)
   {
     task.Undone(input, outcome == Execution::Outcome::Cancelled ? "Cancelled" : "Failed");

@@ -60,17 +60,16 @@ public:
     /// Resets the filter's results to those of no result.
     std::function<void()> Reset;
     /// Fills the output from the undeformed mesh and the boundary, which may be null, and which
-    /// AsOne() has made one data set.
-    std::function<void(vtkUnstructuredGrid* grid, vtkDataObject* boundary, Monitor&)> Work;
+    /// AsOne() has made one data set. `isDistributed`: several MPI processes have pieces. It is
+    /// then called on all of them, communicates, and throws on all of them alike.
+    std::function<void(
+      vtkUnstructuredGrid* grid, vtkDataObject* boundary, bool isDistributed, Monitor&)>
+      Work;
     /// May be empty. Called after an error or abort, with the undeformed mesh and "Failed" or
     /// "Cancelled"; the outputs are empty. The mesh is unchecked, of any type, null where it is not
     /// available, and one grid where its blocks could be merged.
     std::function<void(vtkDataObject* input, const char* status)> Undone = {};
-    /// Work() for a mesh with pieces on several MPI processes, called on all of them: it
-    /// communicates, and throws on all of them alike. Empty: the mesh has to be on one.
-    std::function<void(vtkUnstructuredGrid* grid, vtkDataObject* boundary, Monitor&)>
-      WorkOnRanks = {};
-    /// Calls WorkOnRanks where there are several processes, wherever the mesh is. For a task that
+    /// Whether the mesh counts as distributed on several processes, wherever it is. For a task that
     /// runs other filters, which communicate.
     bool RunsFilters = false;
   };
@@ -83,8 +82,8 @@ public:
   void WriteOutput(vtkInformationVector* outputVector) { this->Mesh.Scatter(outputVector); }
   const Blocks& GetBlocks() const { return this->Mesh; }
 
-  /// Calls `task.Work`, on the one MPI process with cells if there are several processes. Calls
-  /// `task.WorkOnRanks` on all where several have cells, or others than that one have a boundary.
+  /// Calls `task.Work`: on the one MPI process with cells or, if several have cells or others than
+  /// that one have a boundary, on all.
   /// After an exception the outputs are empty; errors and warnings are the filter's. Returns the
   /// result of RequestData.
   int RequestData(

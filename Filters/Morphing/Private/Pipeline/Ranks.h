@@ -49,17 +49,12 @@ namespace morph::filters
 class RankGroup
 {
 public:
-  enum class Of
-  {
-    One,
-    All
-  };
-  explicit RankGroup(Of processes)
-    : IsShared(processes == Of::All)
+  explicit RankGroup(bool isOfAll)
+    : IsShared(isOfAll)
   {
   }
 
-  Of IsOf() const { return this->IsShared ? Of::All : Of::One; }
+  bool IsOfAll() const { return this->IsShared; }
   /// See Ranks::Together().
   void Together(const std::function<void()>& work) const;
   /// Whether this is the process that tells the user what all of them know.

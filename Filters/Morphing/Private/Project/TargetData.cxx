@@ -2,6 +2,7 @@
 #include "Private/Project/TargetData.h"
 
 #include "BoundaryMover/FitToTarget.h"
+#include "Private/Data/Arrays.h"
 #include "Private/Data/GridMesh.h"
 #include "Private/Data/Precision.h"
 #include "Support/ProgressRange.h"
@@ -66,8 +67,7 @@ std::unique_ptr<morph::Target> Make(vtkPolyData* surface, const morph::Points& m
 vtkSmartPointer<vtkPolyData> Surface(const morph::Target& target)
 {
   auto surface = vtkSmartPointer<vtkPolyData>::New();
-  vtkNew<vtkPoints> points;
-  points->SetDataTypeToDouble();
+  auto points = Arrays::MakePoints(VTK_DOUBLE);
   for (morph::Index i = 0; i < target.points().rows(); ++i)
   {
     points->InsertNextPoint(target.points().row(i).data());

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Private/Project/TargetDistance.h"
 
+#include "Private/Data/Arrays.h"
+
 #include <vtkDataSet.h>
 #include <vtkDoubleArray.h>
 #include <vtkGenericCell.h>
@@ -25,9 +27,7 @@ constexpr double Unknown = std::numeric_limits<double>::quiet_NaN();
 std::pair<double, double> add(vtkStaticCellLocator* target, const char* name,
   const std::vector<Index>& ids, const morph::Points& points, vtkDataSet* data)
 {
-  vtkNew<vtkDoubleArray> distances;
-  distances->SetName(name);
-  distances->SetNumberOfTuples(data->GetNumberOfPoints());
+  auto distances = Arrays::Make<vtkDoubleArray>(name, data->GetNumberOfPoints());
   distances->FillValue(Unknown);
   vtkNew<vtkGenericCell> cell;
   double largest = 0, sum = 0;

@@ -8,6 +8,7 @@
 #include "LinearMethods/SimplexNaturalNeighbor.h"
 #include "LinearMethods/WeightedResidual.h"
 #include "Mesh/ShellLayer.h"
+#include "Private/Data/Arrays.h"
 #include "Private/Morph/SerialMesh.h"
 #include "Private/Pipeline/Input.h"
 #include "Session/UndeformedMesh.h"
@@ -196,11 +197,11 @@ vtkIdType vtkMorphShapes::vtkInternals::RowOf(vtkIdType rows) const
   return static_cast<vtkIdType>(std::clamp(std::floor(this->Time), 0., last));
 }
 
-void vtkMorphShapes::vtkInternals::Morph(vtkUnstructuredGrid* grid,
-  filters::RankGroup::Of processes, vtkInformationVector* boundaries, vtkDataObject* table,
-  vtkInformationVector* outputs, morph::Monitor& monitor)
+void vtkMorphShapes::vtkInternals::Morph(vtkUnstructuredGrid* grid, bool isDistributed,
+  vtkInformationVector* boundaries, vtkDataObject* table, vtkInformationVector* outputs,
+  morph::Monitor& monitor)
 {
-  if (this->Modes.SetGrid(grid, processes, this->Options(), monitor))
+  if (this->Modes.SetGrid(grid, isDistributed, this->Options(), monitor))
   {
     this->SolvedFrom = {};
   }
@@ -292,27 +293,16 @@ std::vector<std::string> vtkMorphShapes::vtkInternals::Names(std::size_t number)
 void vtkMorphShapes::vtkInternals::WriteShapes(
   const std::vector<double>& weights, vtkUnstructuredGrid* output) const
 {
-  vtkNew<vtkStringArray> names;
-  names->SetName("ShapeNames");
-  for (const std::string& name : this->Names(weights.size()))
+  vtkFieldData* data = output->GetFieldData();
+  data->AddArray(filters::Arrays::MakeOf<vtkStringArray>(
+    "ShapeNames", this->Names(weights.size()), [](const std::string& name) { return name; }));
+  data->AddArray(filters::Arrays::MakeOf<vtkDoubleArray>(
+    "ShapeWeights", weights, [](double weight) { return weight; }));
+  if (const auto& ranges = this->Ranges.Shapes; !ranges.empty())
   {
-    names->InsertNextValue(name);
-  }
-  output->GetFieldData()->AddArray(names);
-  const auto add = [&](const char* name, const auto& valueOf)
-  {
-    vtkNew<vtkDoubleArray> values;
-    values->SetName(name);
-    for (std::size_t i = 0; i < weights.size(); ++i)
-    {
-      values->InsertNextValue(valueOf(i));
-    }
-    output->GetFieldData()->AddArray(values);
-  };
-  add("ShapeWeights", [&](std::size_t i) { return weights[i]; });
-  if (!this->Ranges.Shapes.empty())
-  {
-    add("ShapeLowestWeight", [this](std::size_t i) { return this->Ranges.Shapes[i].lowest; });
-    add("ShapeHighestWeight", [this](std::size_t i) { return this->Ranges.Shapes[i].highest; });
+    data->AddArray(filters::Arrays::MakeOf<vtkDoubleArray>(
+      "ShapeLowestWeight", ranges, [](const morph::ValidRange& range) { return range.lowest; }));
+    data->AddArray(filters::Arrays::MakeOf<vtkDoubleArray>(
+      "ShapeHighestWeight", ranges, [](const morph::ValidRange& range) { return range.highest; }));
   }
 }

@@ -47,10 +47,9 @@ public:
   {
   }
 
-  /// `processes`: those that have pieces of the mesh, and all of which call this.
-  void Morph(vtkUnstructuredGrid* grid, morph::filters::RankGroup::Of processes,
-    vtkInformationVector* boundaries, vtkDataObject* table, vtkInformationVector* outputs,
-    morph::Monitor& monitor);
+  /// `isDistributed`: all processes have pieces of the mesh, and call this.
+  void Morph(vtkUnstructuredGrid* grid, bool isDistributed, vtkInformationVector* boundaries,
+    vtkDataObject* table, vtkInformationVector* outputs, morph::Monitor& monitor);
   /// Writes the undeformed surface after an error, of a mesh that may not have been taken.
   void WriteUndeformedSurface(vtkUnstructuredGrid* grid, vtkPolyData* surface) const;
   /// The row of the table at Time.

@@ -5,6 +5,7 @@
 #include "Private/Morph/SerialMesh.h"
 #include "Session/UndeformedMesh.h"
 #include "Support/Error.h"
+#include "Support/Lists.h"
 #include "Support/ProgressRange.h"
 #include "Support/ReproducibleSum.h"
 #include "Support/Stopwatch.h"
@@ -12,7 +13,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <numeric>
 #include <utility>
 
 namespace morph::filters
@@ -82,14 +82,14 @@ Points displacementOf(
 }
 }
 
-bool ShapeModes::SetGrid(vtkUnstructuredGrid* grid, RankGroup::Of processes, const Options& options,
-  morph::Monitor& monitor)
+bool ShapeModes::SetGrid(
+  vtkUnstructuredGrid* grid, bool isDistributed, const Options& options, morph::Monitor& monitor)
 {
-  if (!this->Solver || this->Processes.IsOf() != processes)
+  if (!this->Solver || this->Processes.IsOfAll() != isDistributed)
   {
-    this->Processes = RankGroup(processes);
+    this->Processes = RankGroup(isDistributed);
     this->Solver = std::make_unique<ModeSolver>(
-      processes == RankGroup::Of::All ? OnRanks::MakeMesh() : std::make_unique<SerialMesh>());
+      isDistributed ? OnRanks::MakeMesh() : std::make_unique<SerialMesh>());
   }
   const bool isTaken = this->Solver->Take(grid, options.CreateMorpher, monitor);
   if (isTaken)
@@ -146,8 +146,7 @@ std::pair<morph::AxisRotation, std::vector<Index>> ShapeModes::RotationOf(
     }
   }
   rows = this->Processes.Gather(rows);
-  std::vector<std::size_t> order(rows.size() / Width);
-  std::iota(order.begin(), order.end(), std::size_t(0));
+  std::vector<std::size_t> order = consecutive<std::size_t>(rows.size() / Width);
   std::sort(order.begin(), order.end(),
     [&](std::size_t a, std::size_t b) { return rows[Width * a] < rows[Width * b]; });
   Points from(static_cast<Index>(order.size()), 3), to = from;

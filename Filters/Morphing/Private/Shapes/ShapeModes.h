@@ -50,10 +50,10 @@ public:
     morph::Index Prescribed = 0; ///< nodes
   };
 
-  /// Takes the grid, unless it is the same as the kept one; returns whether it did. `processes`:
-  /// that have pieces of it.
-  bool SetGrid(vtkUnstructuredGrid* grid, RankGroup::Of processes, const Options& options,
-    morph::Monitor& monitor);
+  /// Takes the grid, unless it is the same as the kept one; returns whether it did.
+  /// `isDistributed`: all processes have pieces of it, and call this.
+  bool SetGrid(
+    vtkUnstructuredGrid* grid, bool isDistributed, const Options& options, morph::Monitor& monitor);
   /// The mesh and the method, or null before SetGrid().
   const ModeSolver* GetSolver() const { return this->Solver.get(); }
   /// The processes with pieces of the mesh.
@@ -122,7 +122,7 @@ private:
     const morph::Points& displacement, const std::vector<morph::Index>& prescribed,
     double tolerance) const;
 
-  RankGroup Processes{ RankGroup::Of::One };
+  RankGroup Processes{ false };
   std::unique_ptr<ModeSolver> Solver;
   std::vector<morph::Index> PreparedFor;                ///< the nodes, of Solver
   std::unique_ptr<const morph::LinearMorpher> Settings; ///< of Solver; null: it is not prepared
