@@ -98,9 +98,10 @@ struct Place
         }
       }
     }
-    this->outwards.rowwise().normalize();
     for (Index i = 0; i < this->at.rows(); ++i)
     {
+      // Where faces are folded onto one another their normals may cancel, and nothing is outwards.
+      this->outwards.row(i) = this->outwards.row(i).normalized().eval();
       if (std::isfinite(shortest[i]))
       {
         this->inside.row(i) -= Depth * shortest[i] * this->outwards.row(i);
