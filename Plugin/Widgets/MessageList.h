@@ -3,12 +3,12 @@
 #define MessageList_h
 
 #include <QPointer>
+#include <QStringList>
 #include <QVector>
 #include <QWidget>
 
 class QLabel;
 class QString;
-class QStringList;
 class QVBoxLayout;
 class pqPropertyWidget;
 class pqView;

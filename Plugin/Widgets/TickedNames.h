@@ -2,7 +2,8 @@
 #ifndef TickedNames_h
 #define TickedNames_h
 
-class QStringList;
+#include <QStringList>
+
 class vtkSMProperty;
 
 /// The names that are ticked in a list in the panel, applied or not. `list`: pairs of a name and
