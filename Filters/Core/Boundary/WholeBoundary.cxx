@@ -2,11 +2,11 @@
 #include "Boundary/WholeBoundary.h"
 
 #include "Boundary/CrossingFaces.h"
+#include "Support/Lists.h"
 
 #include <algorithm>
 #include <cstddef>
 #include <iterator>
-#include <numeric>
 #include <utility>
 
 namespace morph
@@ -97,10 +97,8 @@ WholeBoundary::WholeBoundary(const Mesh& mesh, const BoundaryFaces& own,
   {
     addNumbers(node, 1, this->faces_.between.offsets, this->faces_.between.values);
   }
-  this->faces_.cells.resize(faces.size());
-  this->faces_.nodes.resize(nodes.size());
-  std::iota(this->faces_.cells.begin(), this->faces_.cells.end(), Index(0));
-  std::iota(this->faces_.nodes.begin(), this->faces_.nodes.end(), Index(0));
+  this->faces_.cells = consecutive(faces.size());
+  this->faces_.nodes = consecutive(nodes.size());
   for (const Row& face : mine)
   {
     this->numberOfOwn_.push_back(

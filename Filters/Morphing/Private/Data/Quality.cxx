@@ -6,6 +6,7 @@
 #include "Private/Data/WrittenPoints.h"
 #include "Quality/ScaledJacobian.h"
 #include "Support/Error.h"
+#include "Support/Lists.h"
 
 #include <vtkCellData.h>
 #include <vtkDataSet.h>
@@ -27,7 +28,6 @@
 #include <cstdlib>
 #include <cstring>
 #include <limits>
-#include <numeric>
 #include <sstream>
 #include <utility>
 
@@ -332,9 +332,8 @@ Measured MeasureAll(const Part& part, bool certified, std::vector<OfCriterion>& 
     count = processes.sum(count);
   }
   result.Whole = morph::ofAll(mine, processes);
-  std::vector<morph::Index> cells(criteria.empty() ? 0 : part.Mesh.types.size());
-  std::iota(cells.begin(), cells.end(), morph::Index(0));
-  cells = processes.idsOfCells(cells);
+  const std::vector<morph::Index> cells =
+    processes.idsOfCells(morph::consecutive(criteria.empty() ? 0 : part.Mesh.types.size()));
   for (OfCriterion& criterion : criteria)
   {
     processes.together(

@@ -6,6 +6,7 @@
 #include "Mesh/FacesOfCells.h"
 #include "Mesh/Polyhedra.h"
 #include "Morpher/SiteMethod.h"
+#include "Private/Data/Arrays.h"
 #include "Private/Data/GridMesh.h"
 #include "Private/Data/Surface.h"
 #include "Private/Distributed/OnRanks.h"
@@ -70,9 +71,7 @@ void renumber(vtkDataSetAttributes* data, const char* name, vtkIdType count,
   {
     return;
   }
-  vtkNew<vtkIdTypeArray> after; // others may share the array
-  after->SetName(name);
-  after->SetNumberOfValues(count);
+  auto after = Arrays::Make<vtkIdTypeArray>(name, count); // others may share the old one
   for (vtkIdType i = 0; i < count; ++i)
   {
     const auto value = static_cast<vtkIdType>(before->GetComponent(i, 0));
