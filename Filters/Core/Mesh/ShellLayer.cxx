@@ -37,10 +37,8 @@ std::vector<Index> frontNodes(const Mesh& layer, Index cell)
 {
   std::vector<Index> nodes = frontOf(layer, cell);
   const Index half = static_cast<Index>(nodes.size());
-  for (Index i = 2 * half; i < std::min(3 * half, layer.cellSize(cell)); ++i)
-  {
-    nodes.push_back(layer.cell(cell)[i]); // behind the corners of the prism
-  }
+  const Index* middles = layer.cell(cell) + 2 * half; // behind the corners of the prism
+  nodes.insert(nodes.end(), middles, middles + (layer.cellSize(cell) > 2 * half ? half : 0));
   return nodes;
 }
 
