@@ -18,6 +18,9 @@ BOX_FIELDS = "" if MAJOR < 6 else "tabWidget/qt_tabwidget_stackedwidget/fieldsPa
 #: Debian 13's ParaView 5.13 crashes when it opens its script editor, without this plugin, too.
 HAS_SCRIPT_EDITOR = (MAJOR, MINOR) != (5, 13)
 
+#: The toolbar of the plugin's filters, as test scripts name it.
+TOOLBAR = ("" if (MAJOR, MINOR) < (5, 12) else "filters.") + "Mesh Morphing"
+
 #: The file dialog of the plugin manager, as test scripts name it.
 PLUGIN_FILE_DIALOG = "pqFileDialog" if (MAJOR, MINOR) < (5, 12) else "1pqFileDialog0"
 

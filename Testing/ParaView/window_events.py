@@ -7,7 +7,7 @@ import sys
 from pathlib import Path
 from xml.sax.saxutils import quoteattr
 
-from versions import PLUGIN_FILE_DIALOG, SETTINGS
+from versions import PLUGIN_FILE_DIALOG, SETTINGS, TOOLBAR
 
 MAIN = "pqClientMainWindow/"
 PROPERTIES = MAIN + "propertiesDock/propertiesPanel/"
@@ -119,7 +119,7 @@ class Events:
 
     def toolbar(self, name):
         """A filter of FIRST, by its button."""
-        self.do(f"{MAIN}Mesh Morphing/1QToolButton{FIRST.index(name)}", "activate")
+        self.do(f"{MAIN}{TOOLBAR}/1QToolButton{FIRST.index(name)}", "activate")
 
     def filter(self, name, menu=None):
         self.menu("menuFilters/" + (menu or category(name)), name)
