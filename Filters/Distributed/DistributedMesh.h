@@ -78,9 +78,10 @@ public:
   const std::vector<std::int8_t>& orientation() const { return this->orientation_; }
   /// The number of bodies with cells of orientation -1.
   Index mirroredBodies() const { return this->mirrored_; }
-  /// The outer faces of the whole mesh that belong to this rank's cells. Their edges are divided by
-  /// nodes of the piece alone; see hanging().
+  /// The outer faces of the whole mesh that belong to this rank's cells.
   const BoundaryFaces& outerFaces() const { return this->outerFaces_; }
+  /// Those, with edges that are divided by nodes of the piece alone; see hanging().
+  BoundaryFaces facesOfPiece() const;
   /// What hangs in the whole mesh, of the local nodes and cells. What a local node is tied to, and
   /// the nodes on faces and edges of local cells, are local nodes. Cells that a node lies on count
   /// as those around it.

@@ -3,12 +3,12 @@
 
 #include "Distributed/CutMesh.h"
 #include "Distributed/HypreSolver.h"
+#include "Support/Lists.h"
 #include "Support/ReproducibleSum.h"
 
 #include <algorithm>
 #include <cstdint>
 #include <iterator>
-#include <numeric>
 #include <unordered_map>
 #include <utility>
 
@@ -104,9 +104,8 @@ private:
 }
 
 RankCommunicator::RankCommunicator(const DistributedMesh& mesh)
-  : RankCommunicator(mesh, std::vector<Index>(mesh.mesh().numberOfNodes()))
+  : RankCommunicator(mesh, consecutive(mesh.mesh().numberOfNodes()))
 {
-  std::iota(this->nodes_.begin(), this->nodes_.end(), Index(0));
 }
 
 RankCommunicator::RankCommunicator(const DistributedMesh& mesh, std::vector<Index> nodes)
@@ -220,8 +219,7 @@ std::vector<Index> RankCommunicator::nodesOf(const std::vector<Index>& ids) cons
   {
     nodes.push_back(this->mesh_.nodeOf(id));
   }
-  std::sort(nodes.begin(), nodes.end());
-  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  sortUnique(nodes);
   nodes.erase(nodes.begin(), std::lower_bound(nodes.begin(), nodes.end(), 0)); // -1: not here
   return nodes;
 }
