@@ -28,8 +28,8 @@ WallLayers wallLayers(const std::map<Index, std::vector<Index>>& columns);
 /// only cells that count; none: all. Cost: a pass over the mesh, and one over the layers.
 ///
 /// On several `processes` each has copies of the cells around its own ones' nodes. `faces` and
-/// `isLayer` are those of its own cells, and it gets the columns' nodes that count on it. Collective;
-/// cost: for each layer three exchanges and two passes over nodes and cells more.
+/// `isLayer` are those of its own cells, and it gets the columns' nodes that count on it.
+/// Collective; cost: for each layer three exchanges and two passes over nodes and cells more.
 WallLayers findWallLayers(const Mesh& mesh, const BoundaryFaces& faces,
   const std::vector<std::uint8_t>& isWall, Index most, const std::vector<std::uint8_t>& isLayer,
   const Communicator& processes = Communicator::alone());

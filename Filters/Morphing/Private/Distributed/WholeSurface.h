@@ -52,8 +52,8 @@ public:
   /// For each point of the piece its node of the boundary, or #nodes + its body or, for a point of
   /// no volume cell, #nodes + #bodies.
   virtual std::vector<morph::Index> Places() const = 0;
-  /// BoundaryMatch::Match() for the nodes of Boundary(). `boundary`: the points of this process. Inner
-  /// nodes that it names are left out. Collective.
+  /// BoundaryMatch::Match() for the nodes of Boundary(). `boundary`: the points of this process.
+  /// Inner nodes that it names are left out. Collective.
   virtual morph::BoundaryTargets Match(
     vtkPointSet* boundary, const BoundaryMatch::Options& options) const = 0;
 
@@ -73,8 +73,8 @@ public:
   /// A shallow copy of what KeepOwn() left, where MorphPointId and MorphCellId are points and cells
   /// of this process's piece.
   virtual vtkSmartPointer<vtkPolyData> OfPiece(vtkPolyData* surface) const = 0;
-  /// The largest and the mean of values of nodes, each of which counts once. `points`: of the piece,
-  /// which this process has a value for. NaN without any. Collective.
+  /// The largest and the mean of values of nodes, each of which counts once. `points`: those of the
+  /// piece that this process has a value for. NaN without any. Collective.
   virtual std::pair<double, double> MaximumAndMean(
     const std::vector<morph::Index>& points, const std::vector<double>& values) const = 0;
 
@@ -82,7 +82,8 @@ public:
   /// parts, as where each has read the whole surface, one of these counts. Collective.
   virtual vtkSmartPointer<vtkPolyData> Gather(vtkPolyData* part) const = 0;
 
-  /// The inner nodes of the mesh, by nodes of Boundary(). Holds this object by reference, after Take().
+  /// The inner nodes of the mesh, by nodes of Boundary(). Holds this object by reference, after
+  /// Take().
   virtual std::unique_ptr<morph::InnerPieces> Volume() const = 0;
 
 protected:
