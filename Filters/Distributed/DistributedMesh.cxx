@@ -9,8 +9,6 @@
 #include "Support/Error.h"
 #include "Support/Lists.h"
 
-#include <Eigen/Geometry>
-
 #include <algorithm>
 #include <iterator>
 #include <map>
@@ -361,13 +359,18 @@ void DistributedMesh::measure()
     }
   }
   this->volumeCells_ = this->ranks_->sum(cells);
+  this->size_ = diagonal(*this->ranks_, box);
+}
+
+double diagonal(const Ranks& ranks, const Eigen::AlignedBox3d& box)
+{
   Eigen::Vector3d sides;
   for (int j = 0; j < 3; ++j)
   {
-    const double low = this->ranks_->minimum(box.min()[j]);
-    sides[j] = std::max(0., this->ranks_->maximum(box.max()[j]) - low); // 0 where there are none
+    const double low = ranks.minimum(box.min()[j]);
+    sides[j] = std::max(0., ranks.maximum(box.max()[j]) - low);
   }
-  this->size_ = sides.norm();
+  return sides.norm();
 }
 
 void DistributedMesh::addGhosts(int layers, Monitor& monitor)

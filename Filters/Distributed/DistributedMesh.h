@@ -11,6 +11,8 @@
 #include "Mesh/Topology.h"
 #include "Support/Monitor.h"
 
+#include <Eigen/Geometry>
+
 #include <cstdint>
 #include <memory>
 #include <utility>
@@ -18,6 +20,9 @@
 
 namespace morph::distributed
 {
+/// Returns the diagonal of the box around those of all ranks, 0 if they are empty. Collective.
+double diagonal(const Ranks& ranks, const Eigen::AlignedBox3d& box);
+
 /// A mesh whose cells are distributed over ranks. Each rank has its piece and, behind it, copies of
 /// the other ranks' cells around the piece's nodes (ghosts). Each node that a cell uses has one
 /// owner, the lowest rank that uses it.

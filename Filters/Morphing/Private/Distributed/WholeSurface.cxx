@@ -248,22 +248,16 @@ vtkSmartPointer<vtkPolyData> GatheredBoundary::OfPiece(vtkPolyData* surface) con
   result->ShallowCopy(surface);
   renumber(result->GetPointData(), Surface::IdName, result->GetNumberOfPoints(),
     [&whole](vtkIdType id) { return static_cast<vtkIdType>(whole.nodeOf(id)); });
-  std::vector<std::pair<std::int64_t, Index>> cells;
+  std::map<vtkIdType, vtkIdType> cellOf;
   for (Index c = 0; c < whole.pieceCells(); ++c)
   {
     if (whole.isGhost()[c] == 0)
     {
-      cells.emplace_back(whole.cellId(c), c);
+      cellOf.emplace(whole.cellId(c), c);
     }
   }
-  std::sort(cells.begin(), cells.end());
   renumber(result->GetCellData(), GatheredSurface::CellName, result->GetNumberOfCells(),
-    [&cells](vtkIdType id)
-    {
-      const auto found =
-        std::lower_bound(cells.begin(), cells.end(), std::pair<std::int64_t, Index>(id, -1));
-      return static_cast<vtkIdType>(found->second);
-    });
+    [&cellOf](vtkIdType id) { return cellOf.at(id); });
   return result;
 }
 
