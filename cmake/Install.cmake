@@ -51,7 +51,7 @@ if (morph_has_mpi AND MESHMORPHING_BUILD_PARAVIEW_PLUGIN)
   # The static libraries of the filters need it; a shared one has it inside.
   set_target_properties(morph_distributed PROPERTIES EXPORT_NAME Distributed)
   list(APPEND archives morph_distributed)
-  set(morph_parallel_component ParallelMPI)
+  set(morph_parallel_component "IOXML ParallelMPI")
 endif ()
 install(TARGETS ${archives}
   EXPORT  MeshMorphing

@@ -10,12 +10,9 @@
 
 namespace morph::distributed
 {
-namespace
-{
 double distance(const std::array<double, 3>& a, const std::array<double, 3>& b)
 {
   return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
-}
 }
 
 Directory::Directory(const Ranks& ranks, const std::vector<NodeRecord>& nodes, double tolerance)
@@ -24,7 +21,7 @@ Directory::Directory(const Ranks& ranks, const std::vector<NodeRecord>& nodes, d
   std::vector<std::vector<NodeRecord>> to(ranks.count());
   for (const NodeRecord& node : nodes)
   {
-    to[this->place(node.id)].push_back(node);
+    to[place(ranks, node.id)].push_back(node);
   }
   const auto met = ranks.exchange(to);
   struct Known
@@ -77,10 +74,10 @@ Directory::Directory(const Ranks& ranks, const std::vector<NodeRecord>& nodes, d
     });
 }
 
-int Directory::place(std::int64_t id) const
+int Directory::place(const Ranks& ranks, std::int64_t id)
 {
   const std::uint64_t mixed = static_cast<std::uint64_t>(id) * 0x9E3779B97F4A7C15ULL;
-  return static_cast<int>((mixed >> 32) % static_cast<std::uint64_t>(this->ranks_.count()));
+  return static_cast<int>((mixed >> 32) % static_cast<std::uint64_t>(ranks.count()));
 }
 
 const Directory::Entry* Directory::find(std::int64_t id) const
@@ -92,63 +89,67 @@ const Directory::Entry* Directory::find(std::int64_t id) const
 
 std::vector<int> Directory::owners(const std::vector<std::int64_t>& ids) const
 {
-  std::vector<std::vector<std::int64_t>> to(this->ranks_.count());
-  for (std::int64_t id : ids)
-  {
-    to[this->place(id)].push_back(id);
-  }
-  const auto asked = this->ranks_.exchange(to);
-  std::vector<std::vector<int>> answers(this->ranks_.count());
-  for (int r = 0; r < this->ranks_.count(); ++r)
-  {
-    for (std::int64_t id : asked[r])
+  return this->ranks_.ask<int>(
+    ids, [this](std::int64_t id) { return place(this->ranks_, id); },
+    [this](const std::vector<std::vector<std::int64_t>>& asked)
     {
-      int owner = -1;
-      for (const Entry* e = this->find(id); e && e != this->end() && e->id == id; ++e)
+      std::vector<std::vector<int>> answers(asked.size());
+      for (std::size_t r = 0; r < asked.size(); ++r)
       {
-        if (e->isUsed)
+        for (const std::int64_t id : asked[r])
         {
-          owner = e->rank;
-          break;
+          const Entry* entry = this->find(id);
+          while (entry && entry != this->end() && entry->id == id && !entry->isUsed)
+          {
+            ++entry;
+          }
+          const bool isOwned = entry && entry != this->end() && entry->id == id;
+          answers[r].push_back(isOwned ? entry->rank : -1);
         }
       }
-      answers[r].push_back(owner);
-    }
-  }
-  const auto answered = this->ranks_.exchange(answers);
-  std::vector<std::size_t> next(this->ranks_.count(), 0);
-  std::vector<int> result;
-  result.reserve(ids.size());
-  for (std::int64_t id : ids)
+      return answers;
+    });
+}
+
+std::vector<std::vector<int>> Directory::holders(const std::vector<std::int64_t>& ids) const
+{
+  struct Question
   {
-    const int r = this->place(id);
-    result.push_back(answered[r][next[r]++]);
+    std::int64_t id, rank, number;
+  };
+  std::vector<Question> questions;
+  for (const std::int64_t id : ids)
+  {
+    questions.push_back({ id, this->ranks_.rank(), static_cast<Index>(questions.size()) });
+  }
+  std::vector<std::vector<std::int64_t>> known(this->ranks_.count());
+  for (const Question& question : this->route(questions))
+  {
+    known[question.rank].push_back(question.number);
+  }
+  known = this->ranks_.exchange(known);
+  std::vector<std::vector<int>> result(ids.size());
+  for (int r = 0; r < this->ranks_.count(); ++r)
+  {
+    for (const std::int64_t number : known[r])
+    {
+      result[number].push_back(r);
+    }
   }
   return result;
 }
 
 std::vector<Directory::Request> Directory::requests(const std::vector<std::int64_t>& ids) const
 {
-  std::vector<std::vector<std::int64_t>> to(this->ranks_.count());
-  for (std::int64_t id : ids)
+  std::vector<Request> asked;
+  for (const std::int64_t id : ids)
   {
-    to[this->place(id)].push_back(id);
+    asked.push_back({ id, this->ranks_.rank() });
   }
-  const auto asked = this->ranks_.exchange(to);
-  std::vector<std::vector<Request>> onward(this->ranks_.count());
-  for (int r = 0; r < this->ranks_.count(); ++r)
-  {
-    for (std::int64_t id : asked[r])
-    {
-      for (const Entry* e = this->find(id); e && e != this->end() && e->id == id; ++e)
-      {
-        if (e->isUsed && e->rank != r)
-        {
-          onward[e->rank].push_back({ id, r });
-        }
-      }
-    }
-  }
-  return join(this->ranks_.exchange(onward));
+  asked = this->route(asked);
+  asked.erase(std::remove_if(asked.begin(), asked.end(),
+                [this](const Request& request) { return request.rank == this->ranks_.rank(); }),
+    asked.end());
+  return asked;
 }
 }

@@ -19,6 +19,8 @@ struct NodeRecord
   std::int64_t isUsed; ///< by a cell of the rank that is not a ghost
 };
 
+double distance(const std::array<double, 3>& a, const std::array<double, 3>& b);
+
 /// Which ranks use which nodes, by global id. Each rank keeps the entries of a share of the ids, so
 /// none needs memory for all.
 class Directory
@@ -28,9 +30,15 @@ public:
   /// two ranks are farther apart than `tolerance`. Collective.
   Directory(const Ranks& ranks, const std::vector<NodeRecord>& nodes, double tolerance);
 
+  /// The rank whose share of the ids has this one. Not collective.
+  static int place(const Ranks& ranks, std::int64_t id);
+
   /// Returns for each of the ids the rank that owns the node: the lowest one that uses it. -1: no
   /// rank uses it. Collective, as all below.
   std::vector<int> owners(const std::vector<std::int64_t>& ids) const;
+
+  /// Returns for each of the ids the ranks that know the node, ascending.
+  std::vector<std::vector<int>> holders(const std::vector<std::int64_t>& ids) const;
 
   /// A rank that asks for all cells around a node.
   struct Request
@@ -39,40 +47,27 @@ public:
     std::int64_t rank;
   };
   /// Asks for all cells around these nodes; returns the requests of other ranks to this one, which
-  /// uses the nodes.
+  /// knows the nodes.
   std::vector<Request> requests(const std::vector<std::int64_t>& ids) const;
 
   /// Sends each item to all ranks that know its node, those that merely have it in ghost cells
-  /// included. Items have a member `id`. Returns the items for this rank; `unknown` gets those that
-  /// this rank sent and no rank knows.
+  /// included. Items have a member `id`. Returns the items for this rank.
   template <typename Item>
-  std::vector<Item> route(const std::vector<Item>& items, std::vector<Item>& unknown) const
+  std::vector<Item> route(const std::vector<Item>& items) const
   {
-    std::vector<std::vector<Item>> to(this->ranks_.count());
+    std::vector<std::vector<Item>> to(this->ranks_.count()), onward = to;
     for (const Item& item : items)
     {
-      to[this->place(item.id)].push_back(item);
+      to[place(this->ranks_, item.id)].push_back(item);
     }
-    const auto met = this->ranks_.exchange(to);
-    std::vector<std::vector<Item>> onward(this->ranks_.count()), back(this->ranks_.count());
-    for (int r = 0; r < this->ranks_.count(); ++r)
+    for (const Item& item : joined(this->ranks_.exchange(to)))
     {
-      for (const Item& item : met[r])
+      for (const Entry* e = this->find(item.id); e && e != this->end() && e->id == item.id; ++e)
       {
-        const Entry* entry = this->find(item.id);
-        if (!entry)
-        {
-          back[r].push_back(item);
-          continue;
-        }
-        for (const Entry* e = entry; e != this->end() && e->id == item.id; ++e)
-        {
-          onward[e->rank].push_back(item);
-        }
+        onward[e->rank].push_back(item);
       }
     }
-    unknown = join(this->ranks_.exchange(back));
-    return join(this->ranks_.exchange(onward));
+    return joined(this->ranks_.exchange(onward));
   }
 
 private:
@@ -83,20 +78,9 @@ private:
     bool isUsed;
   };
 
-  int place(std::int64_t id) const;
   const Entry* end() const { return this->entries_.data() + this->entries_.size(); }
   /// The first entry of an id, or null.
   const Entry* find(std::int64_t id) const;
-  template <typename Item>
-  static std::vector<Item> join(const std::vector<std::vector<Item>>& parts)
-  {
-    std::vector<Item> all;
-    for (const std::vector<Item>& part : parts)
-    {
-      all.insert(all.end(), part.begin(), part.end());
-    }
-    return all;
-  }
 
   const Ranks& ranks_;
   std::vector<Entry> entries_; ///< sorted by id, then rank

@@ -7,13 +7,11 @@
 #include "Mesh/ShapeVolumes.h"
 #include "Mesh/SharedCorners.h"
 #include "Support/Error.h"
+#include "Support/Lists.h"
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
-#include <limits>
 #include <map>
-#include <numeric>
 #include <set>
 #include <tuple>
 #include <unordered_map>
@@ -75,6 +73,8 @@ struct DistributedMesh::Builder
     std::int64_t id;
     std::array<double, 3> x;
     std::int64_t owner;
+    bool operator<(const Node& other) const { return this->id < other.id; }
+    bool operator==(const Node& other) const { return this->id == other.id; }
   };
 
   DistributedMesh& mesh;
@@ -165,49 +165,42 @@ struct DistributedMesh::Builder
     }
   }
 
-  /// Sends what is packed, and appends what comes. Returns the new nodes. Collective.
-  std::vector<Index> exchange()
-  {
-    const Ranks& ranks = *this->mesh.ranks_;
-    const auto newNodes = ranks.exchange(this->nodes);
-    const auto newCells = ranks.exchange(this->cells);
-    return this->unpack(newNodes, newCells);
-  }
-
-  /// Appends the cells that other ranks have packed. Returns their new nodes.
-  std::vector<Index> unpack(const std::vector<std::vector<Node>>& newNodes,
-    const std::vector<std::vector<std::int64_t>>& newCells)
+  /// Appends nodes that are not here yet.
+  void append(const std::vector<Node>& added)
   {
     Mesh& m = this->mesh.mesh_;
-    std::vector<Node> missing;
-    for (const auto& part : newNodes)
+    Index n = m.numberOfNodes();
+    m.points.conservativeResize(n + static_cast<Index>(added.size()), 3);
+    for (const auto& [id, x, owner] : added)
     {
-      for (const Node& node : part)
-      {
-        if (this->mesh.nodeOf(node.id) < 0)
-        {
-          missing.push_back(node);
-        }
-      }
-    }
-    std::sort(
-      missing.begin(), missing.end(), [](const Node& a, const Node& b) { return a.id < b.id; });
-    missing.erase(std::unique(missing.begin(), missing.end(),
-                    [](const Node& a, const Node& b) { return a.id == b.id; }),
-      missing.end());
-    const Index before = m.numberOfNodes();
-    m.points.conservativeResize(before + static_cast<Index>(missing.size()), 3);
-    std::vector<Index> added;
-    for (const Node& node : missing)
-    {
-      const Index n = before + static_cast<Index>(added.size());
-      m.points.row(n) << node.x[0], node.x[1], node.x[2];
-      this->mesh.nodeIds_.push_back(node.id);
-      this->mesh.owner_.push_back(static_cast<int>(node.owner));
-      this->mesh.byId_.emplace_back(node.id, n);
-      added.push_back(n);
+      m.points.row(n) << x[0], x[1], x[2];
+      this->mesh.nodeIds_.push_back(id);
+      this->mesh.owner_.push_back(static_cast<int>(owner));
+      this->mesh.byId_.emplace_back(id, n++);
     }
     std::sort(this->mesh.byId_.begin(), this->mesh.byId_.end());
+  }
+
+  /// Sends what is packed, and appends what comes. Returns the ids of the new nodes. Collective.
+  std::vector<std::int64_t> exchange()
+  {
+    const std::vector<Node> met = joined(this->mesh.ranks_->exchange(this->nodes));
+    std::vector<Node> missing;
+    std::copy_if(met.begin(), met.end(), std::back_inserter(missing),
+      [this](const Node& node) { return this->mesh.nodeOf(node.id) < 0; });
+    sortUnique(missing);
+    this->append(missing);
+    this->unpack(this->mesh.ranks_->exchange(this->cells));
+    std::vector<std::int64_t> ids;
+    std::transform(missing.begin(), missing.end(), std::back_inserter(ids),
+      [](const Node& node) { return node.id; });
+    return ids;
+  }
+
+  /// Appends the cells that other ranks have packed.
+  void unpack(const std::vector<std::vector<std::int64_t>>& newCells)
+  {
+    Mesh& m = this->mesh.mesh_;
     for (std::size_t rank = 0; rank < newCells.size(); ++rank)
     {
       const std::vector<std::int64_t>& stream = newCells[rank];
@@ -243,7 +236,6 @@ struct DistributedMesh::Builder
         }
       }
     }
-    return added;
   }
 };
 
@@ -292,8 +284,7 @@ DistributedMesh::DistributedMesh(const Ranks& ranks, Piece piece, int layers, Mo
 /// Fills byId_ and doubles_; returns what the directory is to know.
 std::vector<NodeRecord> DistributedMesh::numberNodes()
 {
-  std::vector<Index> order(this->pieceNodes_);
-  std::iota(order.begin(), order.end(), Index(0));
+  std::vector<Index> order = consecutive(this->pieceNodes_);
   // A node of own cells stands for its copies in ghost cells.
   const auto key = [this](Index n)
   { return std::tuple(this->nodeIds_[n], this->isUsed_[n] == 0, n); };
@@ -356,35 +347,30 @@ Index DistributedMesh::nodeOf(std::int64_t id) const
 /// The box of the nodes of volume cells, and their number.
 void DistributedMesh::measure()
 {
-  double least[3], most[3];
-  std::fill_n(least, 3, std::numeric_limits<double>::max());
-  std::fill_n(most, 3, std::numeric_limits<double>::lowest());
+  Eigen::AlignedBox3d box;
   Index cells = 0;
   for (Index c = 0; c < this->pieceCells_; ++c)
   {
-    if (this->isGhost_[c] != 0 || !isVolume(this->mesh_, c))
+    const bool isOwn = this->isGhost_[c] == 0 && isVolume(this->mesh_, c);
+    cells += isOwn ? 1 : 0;
+    for (Index k = 0; isOwn && k < this->mesh_.cellSize(c); ++k)
     {
-      continue;
-    }
-    ++cells;
-    for (Index k = 0; k < this->mesh_.cellSize(c); ++k)
-    {
-      for (int j = 0; j < 3; ++j)
-      {
-        const double x = this->mesh_.points(this->mesh_.cell(c)[k], j);
-        least[j] = std::min(least[j], x);
-        most[j] = std::max(most[j], x);
-      }
+      box.extend(this->mesh_.points.row(this->mesh_.cell(c)[k]).transpose());
     }
   }
   this->volumeCells_ = this->ranks_->sum(cells);
-  double squares = 0;
+  this->size_ = diagonal(*this->ranks_, box);
+}
+
+double diagonal(const Ranks& ranks, const Eigen::AlignedBox3d& box)
+{
+  Eigen::Vector3d sides;
   for (int j = 0; j < 3; ++j)
   {
-    const double low = this->ranks_->minimum(least[j]), high = this->ranks_->maximum(most[j]);
-    squares += low <= high ? (high - low) * (high - low) : 0;
+    const double low = ranks.minimum(box.min()[j]);
+    sides[j] = std::max(0., ranks.maximum(box.max()[j]) - low);
   }
-  this->size_ = std::sqrt(squares);
+  return sides.norm();
 }
 
 void DistributedMesh::addGhosts(int layers, Monitor& monitor)
@@ -404,11 +390,7 @@ void DistributedMesh::addGhosts(int layers, Monitor& monitor)
     const std::vector<Directory::Request> requests = this->directory_->requests(wanted);
     builder.open();
     builder.packAround(requests);
-    wanted.clear();
-    for (Index node : builder.exchange())
-    {
-      wanted.push_back(this->nodeIds_[node]);
-    }
+    wanted = builder.exchange();
   }
   this->findHanging(builder, monitor);
   this->cellHalo_ = Halo(builder.packed, builder.unpacked);
@@ -569,8 +551,7 @@ void DistributedMesh::findHanging(Builder& builder, Monitor& monitor)
       asked[all.ranks[c]].push_back(all.numbers[c]);
     }
   }
-  std::sort(wanted.begin(), wanted.end());
-  wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
+  sortUnique(wanted);
   builder.open();
   builder.packAround(this->directory_->requests(wanted));
   const auto requests = ranks.exchange(asked);
@@ -601,29 +582,24 @@ void DistributedMesh::findHanging(Builder& builder, Monitor& monitor)
     }
   }
   std::sort(cells.begin(), cells.end());
-  std::vector<Index> missing;
+  std::vector<Builder::Node> missing;
   std::vector<std::int64_t> ids;
   for (const Index node : hanging.reach(known, cells))
   {
     if (nodeOf[node] < 0)
     {
-      missing.push_back(node);
+      const auto x = all.mesh.points.row(node);
+      nodeOf[node] = this->mesh_.numberOfNodes() + static_cast<Index>(ids.size());
       ids.push_back(all.nodeIds[node]);
+      missing.push_back({ ids.back(), { x[0], x[1], x[2] }, -1 });
     }
   }
   const std::vector<int> owners = this->directory_->owners(ids);
-  const Index before = this->mesh_.numberOfNodes();
-  this->mesh_.points.conservativeResize(before + static_cast<Index>(missing.size()), 3);
   for (std::size_t i = 0; i < missing.size(); ++i)
   {
-    const Index node = before + static_cast<Index>(i);
-    this->mesh_.points.row(node) = all.mesh.points.row(missing[i]);
-    this->nodeIds_.push_back(ids[i]);
-    this->owner_.push_back(owners[i]);
-    this->byId_.emplace_back(ids[i], node);
-    nodeOf[missing[i]] = node;
+    missing[i].owner = owners[i];
   }
-  std::sort(this->byId_.begin(), this->byId_.end());
+  builder.append(missing);
   this->hanging_ = hanging.renumbered(nodeOf, cellOf, this->mesh_.numberOfNodes());
 }
 
@@ -657,14 +633,9 @@ Index DistributedMesh::join(std::vector<Index>& ofNode) const
     }
     this->halo_.minimum(*this->ranks_, label);
   }
-  const auto makeUnique = [](std::vector<std::int64_t>& values)
-  {
-    std::sort(values.begin(), values.end());
-    values.erase(std::unique(values.begin(), values.end()), values.end());
-  };
-  makeUnique(lowest);
+  sortUnique(lowest);
   lowest = this->ranks_->gather(lowest);
-  makeUnique(lowest);
+  sortUnique(lowest);
   if (!lowest.empty() && lowest.back() == NoBody) // of numbers that no node has
   {
     lowest.pop_back();
@@ -731,21 +702,7 @@ void DistributedMesh::findOuter(Monitor& monitor)
   std::transform(this->isGhost_.begin(), this->isGhost_.end(), isOwn.begin(),
     [](std::uint8_t ghost) { return ghost == 0; });
   this->outerFaces_ = facesOfCells(this->mesh_, all, isOwn);
-  if (!this->hanging_.empty())
-  {
-    // A surface of the piece has the nodes of the piece alone.
-    BoundaryFaces divided = this->outerFaces_;
-    this->hanging_.divideEdges(divided);
-    std::vector<Index> offsets = { 0 }, connectivity;
-    for (std::size_t f = 0; f < divided.cells.size(); ++f)
-    {
-      std::copy_if(divided.connectivity.begin() + divided.offsets[f],
-        divided.connectivity.begin() + divided.offsets[f + 1], std::back_inserter(connectivity),
-        [&](Index node) { return node < this->pieceNodes_; });
-      offsets.push_back(static_cast<Index>(connectivity.size()));
-    }
-    setCorners(std::move(offsets), std::move(connectivity), this->outerFaces_);
-  }
+  this->hanging_.divideEdges(this->outerFaces_);
   // All cells around a node of the piece's own cells are here, so that its faces are known.
   this->outerNodes_.between.offsets = { 0 };
   for (std::size_t i = 0; i < all.nodes.size(); ++i)
@@ -761,5 +718,25 @@ void DistributedMesh::findOuter(Monitor& monitor)
     between.values.insert(between.values.end(), all.between.begin(k), all.between.end(k));
     between.offsets.push_back(static_cast<Index>(between.values.size()));
   }
+}
+
+BoundaryFaces DistributedMesh::facesOfPiece() const
+{
+  const BoundaryFaces& all = this->outerFaces_;
+  BoundaryFaces faces =
+    facesOfCells(this->mesh_, all, std::vector<std::uint8_t>(this->cellIds_.size(), 1));
+  std::vector<Index> offsets = { 0 }, connectivity;
+  for (std::size_t f = 0; f < all.cells.size(); ++f)
+  {
+    std::copy_if(all.connectivity.begin() + all.offsets[f],
+      all.connectivity.begin() + all.offsets[f + 1], std::back_inserter(connectivity),
+      [this](Index node) { return node < this->pieceNodes_; });
+    offsets.push_back(static_cast<Index>(connectivity.size()));
+  }
+  if (!this->hanging_.empty())
+  {
+    setCorners(std::move(offsets), std::move(connectivity), faces);
+  }
+  return faces;
 }
 }

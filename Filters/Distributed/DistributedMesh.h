@@ -11,6 +11,8 @@
 #include "Mesh/Topology.h"
 #include "Support/Monitor.h"
 
+#include <Eigen/Geometry>
+
 #include <cstdint>
 #include <memory>
 #include <utility>
@@ -18,6 +20,9 @@
 
 namespace morph::distributed
 {
+/// Returns the diagonal of the box around those of all ranks, 0 if they are empty. Collective.
+double diagonal(const Ranks& ranks, const Eigen::AlignedBox3d& box);
+
 /// A mesh whose cells are distributed over ranks. Each rank has its piece and, behind it, copies of
 /// the other ranks' cells around the piece's nodes (ghosts). Each node that a cell uses has one
 /// owner, the lowest rank that uses it.
@@ -78,9 +83,10 @@ public:
   const std::vector<std::int8_t>& orientation() const { return this->orientation_; }
   /// The number of bodies with cells of orientation -1.
   Index mirroredBodies() const { return this->mirrored_; }
-  /// The outer faces of the whole mesh that belong to this rank's cells. Their edges are divided by
-  /// nodes of the piece alone; see hanging().
+  /// The outer faces of the whole mesh that belong to this rank's cells.
   const BoundaryFaces& outerFaces() const { return this->outerFaces_; }
+  /// Those, with edges that are divided by nodes of the piece alone; see hanging().
+  BoundaryFaces facesOfPiece() const;
   /// What hangs in the whole mesh, of the local nodes and cells. What a local node is tied to, and
   /// the nodes on faces and edges of local cells, are local nodes. Cells that a node lies on count
   /// as those around it.

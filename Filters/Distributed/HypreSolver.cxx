@@ -218,9 +218,8 @@ std::int64_t HypreSolver::countUnknowns(const Ranks& ranks, std::int64_t rows)
 void HypreSolver::prepare(LinearEquations&& equations, Monitor&)
 {
   startHypre();
-  const Ranks& ranks = this->ranks_;
   const std::vector<Index> singular = equations.singularRows();
-  if (ranks.sum(static_cast<Index>(singular.size())) > 0)
+  if (this->ranks_.sum(static_cast<Index>(singular.size())) > 0)
   {
     throw SingularRows(singular);
   }
@@ -228,28 +227,21 @@ void HypreSolver::prepare(LinearEquations&& equations, Monitor&)
   this->components_ = std::move(equations.components);
   const CsrMatrix &own = equations.matrix, &ghosts = equations.ghosts;
   const Index rows = own.rows();
-  this->rows_ = rows;
-  this->first_ = ranks.sumBefore(rows);
-  this->unknowns_ = countUnknowns(ranks, rows);
-  this->handles_ = std::make_unique<Handles>();
+  this->begin(rows);
   if (this->unknowns_ == 0)
   {
     return;
   }
-  Handles& handles = *this->handles_;
-  handles.kind = this->kind_;
-  const auto first = static_cast<HYPRE_BigInt>(this->first_);
-  const auto last = static_cast<HYPRE_BigInt>(this->first_ + rows - 1);
-  HYPRE_IJMatrixCreate(ranks.communicator(), first, last, first, last, &handles.ij);
-  HYPRE_IJMatrixSetObjectType(handles.ij, HYPRE_PARCSR);
+  HYPRE_IJMatrix matrix = this->handles_->ij;
   std::vector<HYPRE_Int> inside(rows), outside(rows);
   for (Index i = 0; i < rows; ++i)
   {
     inside[i] = own.outerIndexPtr()[i + 1] - own.outerIndexPtr()[i];
     outside[i] = ghosts.outerIndexPtr()[i + 1] - ghosts.outerIndexPtr()[i];
   }
-  HYPRE_IJMatrixSetDiagOffdSizes(handles.ij, inside.data(), outside.data());
-  HYPRE_IJMatrixInitialize(handles.ij);
+  HYPRE_IJMatrixSetDiagOffdSizes(matrix, inside.data(), outside.data());
+  HYPRE_IJMatrixInitialize(matrix);
+  const auto first = static_cast<HYPRE_BigInt>(this->first_);
   std::vector<HYPRE_BigInt> columns;
   std::vector<double> values;
   for (Index i = 0; i < rows; ++i)
@@ -268,16 +260,42 @@ void HypreSolver::prepare(LinearEquations&& equations, Monitor&)
     }
     HYPRE_Int size = static_cast<HYPRE_Int>(columns.size());
     const HYPRE_BigInt row = first + static_cast<HYPRE_BigInt>(i);
-    HYPRE_IJMatrixSetValues(handles.ij, 1, &size, &row, columns.data(), values.data());
+    HYPRE_IJMatrixSetValues(matrix, 1, &size, &row, columns.data(), values.data());
   }
+  this->end();
+}
+
+/// Numbers the rows, and creates the matrix, if there are unknowns.
+void HypreSolver::begin(std::int64_t rows)
+{
+  const Ranks& ranks = this->ranks_;
+  this->rows_ = rows;
+  this->first_ = ranks.sumBefore(rows);
+  this->unknowns_ = countUnknowns(ranks, rows);
+  this->handles_ = std::make_unique<Handles>();
+  this->handles_->kind = this->kind_;
+  if (this->unknowns_ > 0)
+  {
+    const auto first = static_cast<HYPRE_BigInt>(this->first_);
+    const auto last = static_cast<HYPRE_BigInt>(this->first_ + rows - 1);
+    HYPRE_IJMatrixCreate(ranks.communicator(), first, last, first, last, &this->handles_->ij);
+    HYPRE_IJMatrixSetObjectType(this->handles_->ij, HYPRE_PARCSR);
+  }
+}
+
+/// Sets up the preconditioner of the matrix, whose entries are set.
+void HypreSolver::end()
+{
+  Handles& handles = *this->handles_;
+  const MPI_Comm communicator = this->ranks_.communicator();
   HYPRE_IJMatrixAssemble(handles.ij);
   void* object = nullptr;
   HYPRE_IJMatrixGetObject(handles.ij, &object);
   handles.matrix = static_cast<HYPRE_ParCSRMatrix>(object);
   handles.createMultigrid();
-  handles.createKrylov(ranks.communicator());
-  Vector b(ranks.communicator(), this->first_, rows), x(ranks.communicator(), this->first_, rows);
-  const std::vector<double> zeros(rows, 0.);
+  handles.createKrylov(communicator);
+  Vector b(communicator, this->first_, this->rows_), x(communicator, this->first_, this->rows_);
+  const std::vector<double> zeros(this->rows_, 0.);
   HYPRE_ParVector pb = b.set(zeros);
   HYPRE_ParVector px = x.set(zeros);
   handles.setUp(pb, px);
@@ -362,7 +380,7 @@ SolveReport HypreSolver::solveTransposed(
   }
   if (!this->transposed_)
   {
-    this->transposed_ = this->makeTransposed(monitor);
+    this->transposed_ = this->makeTransposed();
   }
   return this->transposed_->solve(b, x, tolerance, maxIterations, monitor);
 }
@@ -408,74 +426,31 @@ void HypreSolver::precondition(const Points& from, Points& to, Monitor&) const
     });
 }
 
-std::unique_ptr<HypreSolver> HypreSolver::makeTransposed(Monitor& monitor) const
+std::unique_ptr<HypreSolver> HypreSolver::makeTransposed() const
 {
-  const Ranks& ranks = this->ranks_;
-  struct Entry
+  auto result = std::make_unique<HypreSolver>(this->ranks_, Kind::General);
+  result->components_ = this->components_;
+  result->begin(this->rows_);
+  if (this->unknowns_ == 0)
   {
-    std::int64_t row, column;
-    double value;
-  };
-  auto result = std::make_unique<HypreSolver>(ranks, Kind::General);
-  const Index rows = this->rows_;
-  // The first row of each rank, which says whose a column is.
-  const std::vector<std::int64_t> first = ranks.gather(std::vector<std::int64_t>{ this->first_ });
-  std::vector<std::vector<Entry>> to(ranks.count());
-  for (Index i = 0; i<rows&& this->unknowns_> 0; ++i)
+    return result;
+  }
+  HYPRE_IJMatrixInitialize(result->handles_->ij);
+  for (std::int64_t i = 0; i < this->rows_; ++i)
   {
     HYPRE_Int size = 0;
     HYPRE_BigInt* columns = nullptr;
     HYPRE_Complex* values = nullptr;
-    const std::int64_t row = this->first_ + i;
-    HYPRE_ParCSRMatrixGetRow(
-      this->handles_->matrix, static_cast<HYPRE_BigInt>(row), &size, &columns, &values);
-    for (HYPRE_Int k = 0; k < size; ++k)
-    {
-      // The last of the ranks that begin here has rows.
-      const auto after = std::upper_bound(first.begin(), first.end(), std::int64_t(columns[k]));
-      to[after - first.begin() - 1].push_back({ columns[k], row, values[k] });
-    }
-    HYPRE_ParCSRMatrixRestoreRow(
-      this->handles_->matrix, static_cast<HYPRE_BigInt>(row), &size, &columns, &values);
+    const auto row = static_cast<HYPRE_BigInt>(this->first_ + i);
+    HYPRE_ParCSRMatrixGetRow(this->handles_->matrix, row, &size, &columns, &values);
+    // Other ranks' rows get their entries as the matrix is assembled.
+    std::vector<HYPRE_Int> ones(size, 1);
+    const std::vector<HYPRE_BigInt> rows(size, row);
+    HYPRE_IJMatrixAddToValues(
+      result->handles_->ij, size, ones.data(), columns, rows.data(), values);
+    HYPRE_ParCSRMatrixRestoreRow(this->handles_->matrix, row, &size, &columns, &values);
   }
-  std::vector<Eigen::Triplet<double, int>> own, others;
-  std::vector<std::int64_t> ghosts;
-  const auto received = ranks.exchange(to);
-  const auto isOwn = [&](std::int64_t column)
-  { return column >= this->first_ && column < this->first_ + rows; };
-  for (const std::vector<Entry>& part : received)
-  {
-    for (const Entry& entry : part)
-    {
-      if (!isOwn(entry.column))
-      {
-        ghosts.push_back(entry.column);
-      }
-    }
-  }
-  std::sort(ghosts.begin(), ghosts.end());
-  ghosts.erase(std::unique(ghosts.begin(), ghosts.end()), ghosts.end());
-  for (const std::vector<Entry>& part : received)
-  {
-    for (const Entry& entry : part)
-    {
-      const int row = static_cast<int>(entry.row - this->first_);
-      if (isOwn(entry.column))
-      {
-        own.emplace_back(row, static_cast<int>(entry.column - this->first_), entry.value);
-      }
-      else
-      {
-        const auto found = std::lower_bound(ghosts.begin(), ghosts.end(), entry.column);
-        others.emplace_back(row, static_cast<int>(found - ghosts.begin()), entry.value);
-      }
-    }
-  }
-  LinearEquations equations = { CsrMatrix(rows, rows), {},
-    CsrMatrix(rows, static_cast<Index>(ghosts.size())), ghosts, this->components_ };
-  equations.matrix.setFromTriplets(own.begin(), own.end());
-  equations.ghosts.setFromTriplets(others.begin(), others.end());
-  result->prepare(std::move(equations), monitor);
+  result->end();
   return result;
 }
 }

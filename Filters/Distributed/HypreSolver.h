@@ -58,7 +58,9 @@ public:
 
 private:
   struct Handles;
-  std::unique_ptr<HypreSolver> makeTransposed(Monitor& monitor) const;
+  void begin(std::int64_t rows);
+  void end();
+  std::unique_ptr<HypreSolver> makeTransposed() const;
   /// Calls action(column, result), vectors of hypre, for each column.
   template <typename Action>
   void byColumns(const Points& columns, Points& results, const Action& action) const;

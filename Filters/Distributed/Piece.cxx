@@ -1,37 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Distributed/Piece.h"
 
+#include "Distributed/SharedPlaces.h"
 #include "Support/Error.h"
 
-#include <algorithm>
-#include <array>
-#include <cstring>
-#include <numeric>
-#include <sstream>
 #include <string>
-#include <tuple>
 
 namespace morph::distributed
 {
 namespace
 {
-using Position = std::array<double, 3>;
-
-/// The rank that numbers the nodes at a position.
-int placeOf(const Position& x, int ranks)
-{
-  std::uint64_t hash = 1469598103934665603ULL;
-  for (double value : x)
-  {
-    std::uint64_t bits = 0;
-    value += 0.; // -0 is 0
-    std::memcpy(&bits, &value, sizeof bits);
-    hash = (hash ^ bits) * 0x9E3779B97F4A7C15ULL;
-    hash ^= hash >> 32;
-  }
-  return static_cast<int>(hash % static_cast<std::uint64_t>(ranks));
-}
-
 /// Whether there are ids on all ranks that have `items`; throws where some have them only.
 bool haveIds(const Ranks& ranks, bool isHere, bool hasItems, const char* what)
 {
@@ -45,20 +23,6 @@ bool haveIds(const Ranks& ranks, bool isHere, bool hasItems, const char* what)
   }
   return with > 0;
 }
-
-struct Sent
-{
-  Position x;
-  std::int64_t isUsed;
-};
-
-struct Met
-{
-  Position x;
-  bool isGhost; ///< those that are not come first
-  int rank;
-  Index number; ///< in the order of what the rank sent
-};
 }
 
 std::vector<std::uint8_t> usedNodes(const Mesh& mesh, const std::vector<std::uint8_t>& isGhost)
@@ -82,88 +46,13 @@ void requireNodeIds(const Ranks& ranks, Piece& piece)
     return;
   }
   const std::vector<std::uint8_t> isUsed = usedNodes(piece.mesh, piece.isGhost);
-  std::vector<std::vector<Sent>> to(ranks.count());
-  std::vector<std::vector<Index>> senders(ranks.count());
+  std::vector<SharedPlaces::Node> places;
   for (Index n = 0; n < nodes; ++n)
   {
-    const Position x = { piece.mesh.points(n, 0), piece.mesh.points(n, 1),
-      piece.mesh.points(n, 2) };
-    const int place = placeOf(x, ranks.count());
-    to[place].push_back({ x, isUsed[n] });
-    senders[place].push_back(n);
+    const auto x = piece.mesh.points.row(n);
+    places.push_back({ { x[0], x[1], x[2] }, -1, 0, 0, isUsed[n] });
   }
-  const auto from = ranks.exchange(to);
-
-  std::vector<Met> met;
-  std::vector<std::vector<std::int64_t>> answers(ranks.count());
-  for (int r = 0; r < ranks.count(); ++r)
-  {
-    answers[r].resize(from[r].size());
-    for (std::size_t i = 0; i < from[r].size(); ++i)
-    {
-      met.push_back({ from[r][i].x, from[r][i].isUsed == 0, r, static_cast<Index>(i) });
-    }
-  }
-  std::sort(met.begin(), met.end(),
-    [](const Met& a, const Met& b)
-    {
-      return std::tie(a.x, a.isGhost, a.rank, a.number) <
-             std::tie(b.x, b.isGhost, b.rank, b.number);
-    });
-  std::int64_t ids = 0;
-  std::string problem;
-  for (std::size_t first = 0, last = 0; first < met.size(); first = last)
-  {
-    bool isTwice = false, isShared = false;
-    for (last = first; last < met.size() && met[last].x == met[first].x; ++last)
-    {
-      isTwice =
-        isTwice || (last > first && !met[last].isGhost && met[last].rank == met[last - 1].rank);
-      isShared = isShared || met[last].isGhost || met[last].rank != met[first].rank;
-    }
-    if (isTwice && isShared && problem.empty())
-    {
-      std::ostringstream text;
-      text.precision(9);
-      text << "Several nodes of one MPI rank and one of another are at the same position ("
-           << met[first].x[0] << ", " << met[first].x[1] << ", " << met[first].x[2]
-           << "), so positions do not tell which of them are one node. Give the mesh global point "
-              "ids before it is distributed.";
-      problem = text.str();
-    }
-    for (std::size_t k = first; k < last; ++k)
-    {
-      // Nodes of one rank stay apart, as the two sides of a crack.
-      ids += isTwice && k > first ? 1 : 0;
-      answers[met[k].rank][met[k].number] = ids;
-    }
-    ++ids;
-  }
-  ranks.together(
-    [&]
-    {
-      if (!problem.empty())
-      {
-        throw Error(problem);
-      }
-    });
-  const std::int64_t offset = ranks.sumBefore(ids);
-  for (auto& answer : answers)
-  {
-    for (std::int64_t& id : answer)
-    {
-      id += offset;
-    }
-  }
-  const auto answered = ranks.exchange(answers);
-  piece.nodeIds.resize(nodes);
-  for (int r = 0; r < ranks.count(); ++r)
-  {
-    for (std::size_t i = 0; i < senders[r].size(); ++i)
-    {
-      piece.nodeIds[senders[r][i]] = answered[r][i];
-    }
-  }
+  piece.nodeIds = SharedPlaces(ranks, places).ids();
 }
 
 void requireCellIds(const Ranks& ranks, Piece& piece)

@@ -25,8 +25,7 @@ std::vector<std::uint8_t> usedNodes(const Mesh& mesh, const std::vector<std::uin
 /// Gives each node a global id where no rank has ids: nodes of different ranks at the same position
 /// are one node. Throws Error on all ranks if some ranks with nodes have ids and others have none.
 /// Throws too if the own cells of a rank have several nodes at a position that another rank has
-/// too: ids alone tell which of them are one. Collective. Cost: 32 bytes a node through a
-/// directory.
+/// too: ids alone tell which of them are one. Collective. Cost: that of SharedPlaces.
 void requireNodeIds(const Ranks& ranks, Piece& piece);
 
 /// Gives each cell that is not a ghost a global id where no rank has ids, rank by rank; ghosts get

@@ -3,12 +3,12 @@
 
 #include "Distributed/CutMesh.h"
 #include "Distributed/HypreSolver.h"
+#include "Support/Lists.h"
 #include "Support/ReproducibleSum.h"
 
 #include <algorithm>
 #include <cstdint>
 #include <iterator>
-#include <numeric>
 #include <unordered_map>
 #include <utility>
 
@@ -27,49 +27,50 @@ public:
     const Ranks& ranks = this->ranks_;
     std::vector<std::int64_t> ids;
     std::vector<int> owners;
-    std::vector<std::vector<std::int64_t>> asked(ranks.count());
+    std::vector<Row> elsewhere;
     std::unordered_map<std::int64_t, Index> rowOf;
     for (const Index node : nodes)
     {
+      const auto row = static_cast<Index>(ids.size());
       const int owner = mesh.owner(node);
       if (owner == ranks.rank())
       {
-        rowOf[mesh.nodeId(node)] = static_cast<Index>(ids.size());
+        rowOf[mesh.nodeId(node)] = row;
       }
       else if (owner >= 0)
       {
-        asked[owner].push_back(mesh.nodeId(node));
+        elsewhere.push_back({ mesh.nodeId(node), row, owner });
       }
       ids.push_back(mesh.nodeId(node));
       owners.push_back(owner);
     }
     // A row counts on its owner. If that has none, it gets one, and the first that asks counts.
-    std::vector<std::vector<char>> counts(ranks.count());
-    const auto received = ranks.exchange(asked);
-    for (int r = 0; r < ranks.count(); ++r)
+    const auto count = [&](const std::vector<std::vector<Row>>& asked)
     {
-      for (const std::int64_t id : received[r])
+      std::vector<std::vector<char>> counts(asked.size());
+      for (std::size_t r = 0; r < asked.size(); ++r)
       {
-        const bool isNew = rowOf.emplace(id, static_cast<Index>(ids.size())).second;
-        counts[r].push_back(isNew);
-        if (isNew)
+        for (const Row& row : asked[r])
         {
-          ids.push_back(id);
-          owners.push_back(ranks.rank());
+          const bool isNew = rowOf.emplace(row.id, static_cast<Index>(ids.size())).second;
+          counts[r].push_back(isNew);
+          if (isNew)
+          {
+            ids.push_back(row.id);
+            owners.push_back(ranks.rank());
+          }
         }
       }
-    }
-    const auto mine = ranks.exchange(counts);
-    std::vector<std::size_t> next(ranks.count(), 0);
-    for (std::size_t i = 0; i < nodes.size(); ++i)
+      return counts;
+    };
+    const std::vector<char> counts = ranks.ask<char>(
+      elsewhere, [](const Row& row) { return row.owner; }, count);
+    for (std::size_t i = 0; i < elsewhere.size(); ++i)
     {
-      if (owners[i] >= 0 && owners[i] != ranks.rank())
+      this->counts_[elsewhere[i].row] = counts[i];
+      if (counts[i] == 0)
       {
-        this->counts_[i] = mine[owners[i]][next[owners[i]]++];
-      }
-      if (this->counts_[i] == 0)
-      {
-        this->countedElsewhere_.push_back(static_cast<Index>(i));
+        this->countedElsewhere_.push_back(elsewhere[i].row);
       }
     }
     this->rows_ = static_cast<Index>(ids.size());
@@ -95,6 +96,13 @@ public:
   const std::vector<Index>& countedElsewhere() const override { return this->countedElsewhere_; }
 
 private:
+  struct Row
+  {
+    std::int64_t id;
+    Index row;
+    int owner;
+  };
+
   const Ranks& ranks_;
   std::vector<char> counts_;            ///< #rows: whether it counts in dot()
   std::vector<Index> countedElsewhere_; ///< the rows that do not
@@ -104,9 +112,8 @@ private:
 }
 
 RankCommunicator::RankCommunicator(const DistributedMesh& mesh)
-  : RankCommunicator(mesh, std::vector<Index>(mesh.mesh().numberOfNodes()))
+  : RankCommunicator(mesh, consecutive(mesh.mesh().numberOfNodes()))
 {
-  std::iota(this->nodes_.begin(), this->nodes_.end(), Index(0));
 }
 
 RankCommunicator::RankCommunicator(const DistributedMesh& mesh, std::vector<Index> nodes)
@@ -220,8 +227,7 @@ std::vector<Index> RankCommunicator::nodesOf(const std::vector<Index>& ids) cons
   {
     nodes.push_back(this->mesh_.nodeOf(id));
   }
-  std::sort(nodes.begin(), nodes.end());
-  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  sortUnique(nodes);
   nodes.erase(nodes.begin(), std::lower_bound(nodes.begin(), nodes.end(), 0)); // -1: not here
   return nodes;
 }

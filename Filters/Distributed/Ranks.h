@@ -14,6 +14,18 @@
 
 namespace morph::distributed
 {
+/// Lists one after the other.
+template <typename List>
+List joined(const std::vector<List>& lists)
+{
+  List all;
+  for (const List& list : lists)
+  {
+    all.insert(all.end(), list.begin(), list.end());
+  }
+  return all;
+}
+
 /// The MPI ranks of a computation. Every function but rank() and count() is collective: all ranks
 /// call it, in the same order.
 class Ranks
@@ -74,17 +86,33 @@ public:
     return result;
   }
 
+  /// Sends each item to the rank that `rankOf` gives it, and returns for each what that rank
+  /// answers. `answersTo`: makes a list of answers for each rank of the list of its items.
+  template <typename Answer, typename Item, typename RankOf, typename AnswersTo>
+  std::vector<Answer> ask(
+    const std::vector<Item>& items, const RankOf& rankOf, const AnswersTo& answersTo) const
+  {
+    std::vector<std::vector<Item>> to(this->count_);
+    for (const Item& item : items)
+    {
+      to[rankOf(item)].push_back(item);
+    }
+    const std::vector<std::vector<Answer>> answers = this->exchange(answersTo(this->exchange(to)));
+    std::vector<std::size_t> next(this->count_, 0);
+    std::vector<Answer> result;
+    for (const Item& item : items)
+    {
+      const int rank = rankOf(item);
+      result.push_back(answers[rank][next[rank]++]);
+    }
+    return result;
+  }
+
   /// Returns the items of all ranks, rank by rank.
   template <typename Item>
   std::vector<Item> gather(const std::vector<Item>& mine) const
   {
-    std::vector<Item> all;
-    for (const std::vector<Item>& part :
-      this->exchange(std::vector<std::vector<Item>>(this->count_, mine)))
-    {
-      all.insert(all.end(), part.begin(), part.end());
-    }
-    return all;
+    return joined(this->exchange(std::vector<std::vector<Item>>(this->count_, mine)));
   }
 
   /// gather(), ascending.

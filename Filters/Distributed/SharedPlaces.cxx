@@ -2,6 +2,7 @@
 #include "Distributed/SharedPlaces.h"
 
 #include "Support/Error.h"
+#include "Support/Lists.h"
 
 #include <algorithm>
 #include <cmath>
@@ -35,41 +36,6 @@ int rankOfPlace(const SharedPlaces::Position& x, int ranks)
   }
   return static_cast<int>(hash % static_cast<std::uint64_t>(ranks));
 }
-
-/// The rank whose share of the ids has this one.
-int rankOfId(std::int64_t id, int ranks)
-{
-  const std::uint64_t mixed = static_cast<std::uint64_t>(id) * 0x9E3779B97F4A7C15ULL;
-  return static_cast<int>((mixed >> 32) % static_cast<std::uint64_t>(ranks));
-}
-
-double distance(const SharedPlaces::Position& a, const SharedPlaces::Position& b)
-{
-  return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
-}
-
-/// Sends each item to its rank, and returns there what `answer` makes of all items that came:
-/// an answer for each, in the order of the items.
-template <typename Answer, typename Item, typename RankOf, typename Make>
-std::vector<Answer> ask(
-  const Ranks& ranks, const std::vector<Item>& items, const RankOf& rankOf, const Make& make)
-{
-  std::vector<std::vector<Item>> to(ranks.count());
-  std::vector<int> place;
-  for (const Item& item : items)
-  {
-    place.push_back(rankOf(item));
-    to[place.back()].push_back(item);
-  }
-  const std::vector<std::vector<Answer>> answered = ranks.exchange(make(ranks.exchange(to)));
-  std::vector<std::size_t> next(ranks.count(), 0);
-  std::vector<Answer> result;
-  for (const int rank : place)
-  {
-    result.push_back(answered[rank][next[rank]++]);
-  }
-  return result;
-}
 }
 
 std::int64_t SharedPlaces::contradiction(
@@ -80,14 +46,10 @@ std::int64_t SharedPlaces::contradiction(
   {
     if (node.id >= 0)
     {
-      to[rankOfId(node.id, ranks.count())].push_back({ node.x, node.id });
+      to[Directory::place(ranks, node.id)].push_back({ node.x, node.id });
     }
   }
-  std::vector<Place> all;
-  for (const std::vector<Place>& part : ranks.exchange(to))
-  {
-    all.insert(all.end(), part.begin(), part.end());
-  }
+  std::vector<Place> all = joined(ranks.exchange(to));
   std::stable_sort(
     all.begin(), all.end(), [](const Place& a, const Place& b) { return a.id < b.id; });
   Index found = -1;
@@ -106,7 +68,6 @@ SharedPlaces::SharedPlaces(const Ranks& ranks, const std::vector<Node>& nodes)
   : ranks_(ranks)
 {
   this->meetPlaces(nodes);
-  this->meetIds();
 }
 
 void SharedPlaces::meetPlaces(const std::vector<Node>& nodes)
@@ -119,12 +80,19 @@ void SharedPlaces::meetPlaces(const std::vector<Node>& nodes)
   }
   const std::int64_t firstNew = ranks.maximum(highest) + 1;
   std::vector<Node> sent = nodes;
+  // A point of no cell may have no place, and is then apart from all others.
+  std::int64_t apart = -2 - ranks.sumBefore(static_cast<Index>(nodes.size()));
   for (Node& node : sent)
   {
+    if (!std::isfinite(node.x[0] + node.x[1] + node.x[2]))
+    {
+      node.x.fill(HUGE_VAL);
+      node.group = apart--;
+    }
     node.x = plain(node.x);
   }
-  this->ids_ = ask<std::int64_t>(
-    ranks, sent, [&](const Node& node) { return rankOfPlace(node.x, ranks.count()); },
+  this->ids_ = ranks.ask<std::int64_t>(
+    sent, [&](const Node& node) { return rankOfPlace(node.x, ranks.count()); },
     [&](const std::vector<std::vector<Node>>& parts)
     {
       std::vector<std::vector<std::int64_t>> answers(ranks.count());
@@ -227,55 +195,6 @@ std::string SharedPlaces::numberPlaces(std::int64_t firstNew, std::int64_t& news
   return problem;
 }
 
-void SharedPlaces::meetIds()
-{
-  const Ranks& ranks = this->ranks_;
-  this->isShared_ = ask<std::uint8_t>(
-    ranks, this->ids_, [&](std::int64_t id) { return rankOfId(id, ranks.count()); },
-    [&](const std::vector<std::vector<std::int64_t>>& parts)
-    {
-      for (int r = 0; r < ranks.count(); ++r)
-      {
-        for (std::size_t i = 0; i < parts[r].size(); ++i)
-        {
-          this->holders_.push_back({ parts[r][i], r, static_cast<Index>(i) });
-        }
-      }
-      std::sort(this->holders_.begin(), this->holders_.end(),
-        [](const Holder& a, const Holder& b)
-        { return std::tie(a.id, a.rank, a.node) < std::tie(b.id, b.rank, b.node); });
-      std::vector<std::vector<std::uint8_t>> answers(ranks.count());
-      for (int r = 0; r < ranks.count(); ++r)
-      {
-        answers[r].resize(parts[r].size(), 0);
-      }
-      const std::vector<Holder>& all = this->holders_;
-      for (std::size_t first = 0, last = 0; first < all.size(); first = last)
-      {
-        while (last < all.size() && all[last].id == all[first].id)
-        {
-          ++last;
-        }
-        for (std::size_t k = first; k < last; ++k)
-        {
-          answers[all[k].rank][all[k].node] = all[last - 1].rank != all[first].rank;
-        }
-      }
-      return answers;
-    });
-  // From the order of what a rank sent here to its nodes.
-  std::vector<std::vector<Index>> numbers(ranks.count());
-  for (std::size_t n = 0; n < this->ids_.size(); ++n)
-  {
-    numbers[rankOfId(this->ids_[n], ranks.count())].push_back(static_cast<Index>(n));
-  }
-  const auto nodes = ranks.exchange(numbers);
-  for (Holder& holder : this->holders_)
-  {
-    holder.node = nodes[holder.rank][holder.node];
-  }
-}
-
 std::vector<std::int64_t> SharedPlaces::find(const std::vector<Place>& places) const
 {
   const Ranks& ranks = this->ranks_;
@@ -304,8 +223,8 @@ std::vector<std::int64_t> SharedPlaces::find(const std::vector<Place>& places) c
     }
     return found;
   };
-  return ask<std::int64_t>(
-    ranks, sent, [&](const Place& place) { return rankOfPlace(place.x, ranks.count()); },
+  return ranks.ask<std::int64_t>(
+    sent, [&](const Place& place) { return rankOfPlace(place.x, ranks.count()); },
     [&](const std::vector<std::vector<Place>>& parts)
     {
       std::vector<std::vector<std::int64_t>> answers(ranks.count());
@@ -317,86 +236,34 @@ std::vector<std::int64_t> SharedPlaces::find(const std::vector<Place>& places) c
     });
 }
 
-std::vector<std::vector<int>> SharedPlaces::holders(const std::vector<std::int64_t>& ids) const
+const Directory& SharedPlaces::directory() const
 {
-  struct Question
+  if (!this->directory_)
   {
-    std::int64_t id;
-    Index number;
-  };
-  struct Answer
-  {
-    Index number;
-    int rank;
-  };
-  const Ranks& ranks = this->ranks_;
-  std::vector<std::vector<Question>> to(ranks.count());
-  for (std::size_t i = 0; i < ids.size(); ++i)
-  {
-    to[rankOfId(ids[i], ranks.count())].push_back({ ids[i], static_cast<Index>(i) });
-  }
-  const auto asked = ranks.exchange(to);
-  std::vector<std::vector<Answer>> answers(ranks.count());
-  for (int r = 0; r < ranks.count(); ++r)
-  {
-    for (const Question& question : asked[r])
+    std::vector<std::int64_t> ids = this->ids_; // copies in ghost cells may have that of a node
+    sortUnique(ids);
+    std::vector<NodeRecord> nodes;
+    for (const std::int64_t id : ids)
     {
-      for (auto holder = this->firstHolder(question.id);
-           holder != this->holders_.end() && holder->id == question.id; ++holder)
-      {
-        answers[r].push_back({ question.number, holder->rank });
-      }
+      nodes.push_back({ id, {}, 1 });
     }
+    this->directory_ = std::make_unique<const Directory>(this->ranks_, nodes, 0);
   }
-  std::vector<std::vector<int>> result(ids.size());
-  for (const std::vector<Answer>& part : ranks.exchange(answers))
-  {
-    for (const Answer& answer : part)
-    {
-      result[answer.number].push_back(answer.rank);
-    }
-  }
-  return result;
+  return *this->directory_;
 }
 
-std::vector<SharedPlaces::Holder>::const_iterator SharedPlaces::firstHolder(std::int64_t id) const
+std::vector<std::uint8_t> SharedPlaces::isShared() const
 {
-  return std::lower_bound(this->holders_.begin(), this->holders_.end(), id,
-    [](const Holder& known, std::int64_t wanted) { return known.id < wanted; });
-}
-
-std::vector<std::pair<Index, std::int64_t>> SharedPlaces::mark(const std::vector<Mark>& marks) const
-{
-  struct Marked
+  std::vector<std::int64_t> shared;
+  for (const Directory::Request& request : this->directory().requests(this->ids_))
   {
-    Index node;
-    std::int64_t name;
-  };
-  const Ranks& ranks = this->ranks_;
-  std::vector<std::vector<Mark>> to(ranks.count());
-  for (const Mark& mark : marks)
-  {
-    to[rankOfId(mark.id, ranks.count())].push_back(mark);
+    shared.push_back(request.id);
   }
-  std::vector<std::vector<Marked>> onward(ranks.count());
-  for (const std::vector<Mark>& part : ranks.exchange(to))
+  sortUnique(shared);
+  std::vector<std::uint8_t> result;
+  for (const std::int64_t id : this->ids_)
   {
-    for (const Mark& mark : part)
-    {
-      for (auto holder = this->firstHolder(mark.id);
-           holder != this->holders_.end() && holder->id == mark.id; ++holder)
-      {
-        onward[holder->rank].push_back({ holder->node, mark.name });
-      }
-    }
-  }
-  std::vector<std::pair<Index, std::int64_t>> result;
-  for (const std::vector<Marked>& part : ranks.exchange(onward))
-  {
-    for (const Marked& marked : part)
-    {
-      result.emplace_back(marked.node, marked.name);
-    }
+    result.push_back(std::binary_search(shared.begin(), shared.end(), id));
   }
   return result;
 }

@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Distributed/Directory.h"
 #include "Distributed/Ranks.h"
 
 #include <array>
 #include <cstdint>
-#include <utility>
+#include <memory>
 #include <vector>
 
 namespace morph::distributed
 {
 /// Which nodes of different ranks are one: those with equal ids, and nodes without ids where their
 /// coordinates are equal, bit by bit. Nodes of one rank stay apart. Each rank keeps the entries of
-/// a share of the ids and of the positions. All functions but the getters are collective.
+/// a share of the positions. All functions but the getters are collective.
 class SharedPlaces
 {
 public:
@@ -36,8 +37,6 @@ public:
 
   /// #nodes: the given ids and, for nodes without, new ones beyond these.
   const std::vector<std::int64_t>& ids() const { return this->ids_; }
-  /// #nodes: whether another rank has the node.
-  const std::vector<std::uint8_t>& isShared() const { return this->isShared_; }
   /// How many nodes of the whole mesh are at the place of another block's node.
   Index coinciding() const { return this->coinciding_; }
 
@@ -50,16 +49,10 @@ public:
   /// -1 where no rank has one.
   std::vector<std::int64_t> find(const std::vector<Place>& places) const;
 
-  /// The ranks that have the node of each id, ascending.
-  std::vector<std::vector<int>> holders(const std::vector<std::int64_t>& ids) const;
-
-  struct Mark
-  {
-    std::int64_t id;
-    std::int64_t name;
-  };
-  /// Returns the nodes of this rank that any rank marks, and their marks' names.
-  std::vector<std::pair<Index, std::int64_t>> mark(const std::vector<Mark>& marks) const;
+  /// The ranks that have the nodes. Made at the first call, 40 bytes a node.
+  const Directory& directory() const;
+  /// #nodes: whether another rank has the node.
+  std::vector<std::uint8_t> isShared() const;
 
 private:
   struct Met
@@ -70,23 +63,13 @@ private:
     int rank;
     Index number; ///< in the order of what the rank sent
   };
-  struct Holder
-  {
-    std::int64_t id;
-    int rank;
-    Index node;
-  };
-
   void meetPlaces(const std::vector<Node>& nodes);
   std::string numberPlaces(std::int64_t firstNew, std::int64_t& news);
-  void meetIds();
-  std::vector<Holder>::const_iterator firstHolder(std::int64_t id) const;
 
   const Ranks& ranks_;
   std::vector<std::int64_t> ids_;
-  std::vector<std::uint8_t> isShared_;
   Index coinciding_ = 0;
-  std::vector<Met> met_;        ///< at this rank's share of the places, sorted
-  std::vector<Holder> holders_; ///< of this rank's share of the ids, sorted
+  std::vector<Met> met_; ///< at this rank's share of the places, sorted
+  mutable std::unique_ptr<const Directory> directory_;
 };
 }

@@ -198,21 +198,22 @@ void vtkClassifyBoundary::vtkInternals::ClassifyOnRanks(vtkClassifyBoundary* fil
   }
   filters::WholeSurface& whole = *this->Whole;
   whole.Take(piece, monitor);
+  const filters::GatheredSurface& all = whole.Boundary();
   whole.Together(
     [&]
     {
-      filters::Surface::WarnOfNone(whole.Faces(), monitor);
+      filters::Surface::WarnOfNone(all.Faces, monitor);
       morph::ProgressRange classifying(monitor, 0.3, 0.8);
-      morph::Classification geometry = filters::Geometry::Classify(
-        whole.Grid(), whole.Mesh(), whole.Faces(), Options(filter), classifying);
+      morph::Classification geometry =
+        filters::Geometry::Classify(all.Grid, all.Shell, all.Faces, Options(filter), classifying);
       monitor.check();
-      Write(filter, whole.Grid(), whole.Mesh(), whole.Faces(), geometry, outputVector,
-        &whole.Orientation());
+      Write(filter, all.Grid, all.Shell, all.Faces, geometry, outputVector, &all.Orientation);
       whole.KeepOwn(vtkPolyData::GetData(outputVector, 1));
       whole.KeepOwn(vtkPolyData::GetData(outputVector, 2));
       vtkUnstructuredGrid* classified = this->Blocks.Output(outputVector);
       classified->ShallowCopy(piece);
-      filters::Geometry::AddPointArrays(withBodies(std::move(geometry), whole.NumberOfBodies()),
+      filters::Geometry::AddPointArrays(
+        withBodies(std::move(geometry), static_cast<morph::Index>(all.NumberOfBody.size())),
         whole.Places(), classified->GetPointData());
     });
 }

@@ -305,8 +305,9 @@ void vtkMorphBoundary::vtkInternals::MorphOnRanks(vtkUnstructuredGrid* piece,
   whole.Together(
     [&]
     {
-      this->Run({ whole.Grid(), whole.Mesh(), whole.Faces(), whole.BodyOfNode(),
-                  &whole.Orientation(), whole.Size(), [&match] { return match; }, surface },
+      const filters::GatheredSurface& all = whole.Boundary();
+      this->Run({ all.Grid, all.Shell, all.Faces, all.BodyOfNode, &all.Orientation, whole.Size(),
+                  [&match] { return match; }, surface },
         output, monitor);
       whole.KeepOwn(output);
     });

@@ -625,7 +625,6 @@ void vtkMorphMesh::vtkMorphing::SummarizeOnRanks(const std::vector<morph::Index>
   vtkUnstructuredGrid* output, filters::TargetDistance::Summary& distance) const
 {
   const filters::WholeSurface& whole = *this->Mover().Whole;
-  const std::vector<std::int64_t> ids = whole.IdsOfPiece(nodes);
   const auto summarize = [&](const char* name)
   {
     vtkDataArray* array = output->GetPointData()->GetArray(name);
@@ -634,7 +633,7 @@ void vtkMorphMesh::vtkMorphing::SummarizeOnRanks(const std::vector<morph::Index>
     {
       values.push_back(array->GetComponent(static_cast<vtkIdType>(node), 0));
     }
-    return whole.MaximumAndMean(ids, values);
+    return whole.MaximumAndMean(nodes, values);
   };
   std::tie(distance.MaxBefore, distance.MeanBefore) = summarize("TargetDistanceBefore");
   std::tie(distance.Max, distance.Mean) = summarize("TargetDistance");

@@ -569,7 +569,7 @@ TEST(RankBoundary, GathersTheSurfaceAndNotTheVolume)
     const auto surface = morph::filters::WholeSurface::Make();
     surface->Take(grid, monitor);
     const int boundary = (n + 1) * (n + 1) * (n + 1) - (n - 1) * (n - 1) * (n - 1);
-    return static_cast<double>(surface->Bytes()) / boundary;
+    return static_cast<double>(surface->Boundary().Bytes) / boundary;
   };
   const double small = bytes(8), large = bytes(16);
   if (ranks.rank() == 0)

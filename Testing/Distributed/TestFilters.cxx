@@ -7,15 +7,21 @@
 #include "TestGrids.h"
 
 #include <vtkAlgorithm.h>
+#include <vtkCellData.h>
 #include <vtkCellType.h>
+#include <vtkExtractMorphBoundary.h>
 #include <vtkFEMWarpMorph.h>
 #include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
 #include <vtkSmoothingMorph.h>
 #include <vtkUnstructuredGrid.h>
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <string>
 
 namespace
@@ -222,5 +228,27 @@ TEST(DistributedFilters, BadCoordinatesOfOneRankAreOneErrorThatNamesTheRank)
   {
     EXPECT_NE(error.find("node ids 3. "), std::string::npos) << error;
     EXPECT_NE(error.find(whose), std::string::npos) << error;
+  }
+}
+
+TEST(DistributedFilters, APointOfNoCellNeedsNoPlace)
+{
+  const auto grid = piece(pieces::world());
+  grid->GetPointData()->Initialize(); // without ids, places tell which nodes are one
+  grid->GetCellData()->RemoveArray("GlobalIds");
+  const auto facesOf = [&]
+  {
+    vtkNew<vtkExtractMorphBoundary> filter;
+    filter->SetInputData(grid);
+    const grids::Listener listener(filter);
+    filter->Update();
+    EXPECT_TRUE(listener.Errors.empty()) << listener.Errors.front();
+    return filter->GetOutput()->GetNumberOfCells();
+  };
+  const vtkIdType faces = facesOf();
+  for (const double x : { std::nan(""), std::numeric_limits<double>::infinity() })
+  {
+    grid->GetPoints()->InsertNextPoint(x, 0, 0);
+    EXPECT_EQ(facesOf(), faces);
   }
 }

@@ -90,7 +90,8 @@ TEST_P(RankHangingNodes, AreThoseOfOneRank)
     EXPECT_EQ(own, whole.nodes());
     EXPECT_EQ(this->Processes.sum(static_cast<Index>(mesh.outerFaces().cells.size())),
       static_cast<Index>(outer.cells.size()));
-    EXPECT_TRUE(std::all_of(mesh.outerFaces().nodes.begin(), mesh.outerFaces().nodes.end(),
+    const morph::BoundaryFaces ofPiece = mesh.facesOfPiece();
+    EXPECT_TRUE(std::all_of(ofPiece.nodes.begin(), ofPiece.nodes.end(),
       [&](Index node) { return node < mesh.pieceNodes(); }));
     EXPECT_TRUE(mesh.touchingNodes().empty());
   }

@@ -7,6 +7,7 @@
 #include "Morpher/SiteMethod.h"
 #include "Motions.h"
 #include "Pieces.h"
+#include "Quality/BoundaryDetermined.h"
 #include "Quality/Certificate.h"
 #include "Quality/ScaledJacobian.h"
 #include "Support/Error.h"
@@ -16,6 +17,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <iostream>
@@ -307,5 +309,40 @@ TEST(RankInversionFree, FoldsOfTheBoundaryAreThoseOfOneProcess)
   const auto mesh = pieces::distribute(ranks, whole, 1, meshes::seed());
   EXPECT_EQ(mesh.gatherCells(check(mesh.mesh(), pieces::localNodes(mesh, outer), mesh.orientation(),
               mesh.outerFaces(), morph::distributed::RankCommunicator(mesh))),
+    serial);
+}
+
+TEST(RankInversionFree, NodesWithoutAPlaceHaveTheCellsOfOneProcess)
+{
+  const Ranks ranks = pieces::world();
+  Mesh whole = meshes::tets(5, 5, 5);
+  meshes::jitterInterior(whole, 0.1, meshes::seed());
+  const motions::Map map = [](const motions::Row& x) -> motions::Row
+  { return x + 0.9 * Eigen::sin(17 * x.array() + 5 * x.sum()).matrix(); };
+  const auto cellsOf = [&](const Mesh& mesh, const std::vector<Index>& prescribed,
+                         const std::vector<std::int8_t>& signs,
+                         const morph::Communicator& processes)
+  {
+    morph::Monitor monitor;
+    const morph::NodePartition partition = morph::partitionNodes(mesh, prescribed);
+    Points points = mesh.points;
+    points(partition.prescribed, morph::allColumns) = motions::targets(mesh, partition, map);
+    std::vector<Index> cells;
+    for (const morph::NodeWithoutPlace& node :
+      morph::nodesWithoutPlace(mesh, partition, signs, points, monitor, processes))
+    {
+      const std::vector<Index> ids = processes.idsOfCells(node.cells);
+      cells.insert(cells.end(), ids.begin(), ids.end());
+    }
+    return cells;
+  };
+  const std::vector<Index> outer = motions::outerPartition(whole).prescribed;
+  std::vector<Index> serial = cellsOf(whole, outer,
+    morph::cellSigns(whole, morph::connectedComponents(whole)), morph::Communicator::alone());
+  std::sort(serial.begin(), serial.end());
+  ASSERT_GT(serial.size(), 20u);
+  const auto mesh = pieces::distribute(ranks, whole, 1, meshes::seed());
+  EXPECT_EQ(ranks.gatherSorted(cellsOf(mesh.mesh(), pieces::localNodes(mesh, outer),
+              mesh.orientation(), morph::distributed::RankCommunicator(mesh))),
     serial);
 }

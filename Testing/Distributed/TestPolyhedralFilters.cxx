@@ -129,7 +129,8 @@ TEST(RankPolyhedra, LinearMethodsMoveThemAsOnOneRank)
     rank_grids::alone([&] { serial->Update(); });
     mine->SetInputData(part);
     mine->Update();
-    EXPECT_EQ(mine->GetMinScaledJacobian(), serial->GetMinScaledJacobian());
+    // A cell's center is summed in the order of its nodes here.
+    EXPECT_NEAR(mine->GetMinScaledJacobian(), serial->GetMinScaledJacobian(), 1e-14);
     EXPECT_EQ(mine->GetMeasuredCells(), serial->GetMeasuredCells());
     for (const char* column : { "CriterionWorst", "CriterionCellsBeyond" })
     {

@@ -248,11 +248,7 @@ TEST(RankZones, AndLayersOfPolyhedraAgreeWithTheSerialOnes)
   unsigned seed = meshes::seed();
   for (const auto& [what, configure] : zones())
   {
-    // A rigid zone takes FEMWARP's rim where its boundary does not tell its motion.
-    if (what.find("rigid") != 0 && what.find("a rigid region") != 0 && what != "one of each")
-    {
-      compare(ranks, what, mesh, configure, ++seed);
-    }
+    compare(ranks, what, mesh, configure, ++seed);
   }
   compare(
     ranks, "two layers", mesh, [](vtkMorphMesh* filter) { filter->SetKeepLayers(2); }, ++seed);
@@ -455,10 +451,7 @@ TEST(RankZones, OneErrorEndsAllRanks)
         filter->SetKeepLayers(2);
         filter->SetLayersArray("Nowhere");
       } },
-    { "whose motion its boundary does not tell of a mesh with polyhedra needs one MPI rank",
-      &polyhedra, [](vtkMorphMesh* filter) { filter->AddRigidZone("Blade"); } },
-    { "`SlideRounds` of vtkBoundaryDisplacement of a mesh with polyhedra needs one MPI rank",
-      &polyhedra,
+    { "`SlideRounds` does not know polyhedra", &polyhedra,
       [](vtkMorphMesh* filter)
       {
         filter->AddSlidingSurface("Surface 1");

@@ -46,37 +46,41 @@ LayerCells::LayerCells(
   }
 }
 
-bool LayerCells::makeFront(Index cell, const Index* nodes, Index size, LayerFront& front) const
+int LayerCells::sideOf(Index cell, const Index* nodes, Index size) const
 {
   const CellShape& shape = *cellShape(this->mesh_, cell);
   const bool isHex = shape.shape == Shape::Hex && size == 4;
   const bool isWedge = shape.shape == Shape::Wedge && size == 3;
   if ((!isHex && !isWedge) || (!this->isLayer_.empty() && !this->isLayer_[cell]))
   {
-    return false;
+    return -1;
   }
   const Index* ids = this->mesh_.cell(cell);
   for (int f = 0; f < shape.numberOfFaces; ++f)
   {
     const FaceShape& face = shape.faces[f];
-    const auto isOne = [&](int k) {
-      return std::find(nodes, nodes + size, ids[shape.cornerNode[face.corner[k]]]) != nodes + size;
-    };
-    if (face.size != size || !isOne(0) || !isOne(1) || !isOne(2) || !isOne(size - 1))
+    const auto isOne = [&](int corner)
+    { return std::find(nodes, nodes + size, ids[shape.cornerNode[corner]]) != nodes + size; };
+    if (face.size == size && std::all_of(face.corner, face.corner + face.size, isOne))
     {
-      continue;
+      return f;
     }
-    front.cell = cell;
-    front.size = static_cast<int>(size);
-    for (int k = 0; k < size; ++k)
-    {
-      const int above = cornerAbove(shape, face, face.corner[k]);
-      front.nodes[k] = ids[shape.cornerNode[face.corner[k]]];
-      front.opposite[k] = ids[shape.cornerNode[above]];
-    }
-    return true;
   }
-  return false;
+  return -1;
+}
+
+LayerFront LayerCells::front(Index cell, int side) const
+{
+  const CellShape& shape = *cellShape(this->mesh_, cell);
+  const FaceShape& face = shape.faces[side];
+  const Index* ids = this->mesh_.cell(cell);
+  LayerFront front = { cell, face.size, {}, {} };
+  for (int k = 0; k < face.size; ++k)
+  {
+    front.nodes[k] = ids[shape.cornerNode[face.corner[k]]];
+    front.opposite[k] = ids[shape.cornerNode[cornerAbove(shape, face, face.corner[k])]];
+  }
+  return front;
 }
 
 Index LayerCells::beyond(const LayerFront& front) const

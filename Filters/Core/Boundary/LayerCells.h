@@ -28,9 +28,11 @@ public:
   LayerCells(const Mesh& mesh, const std::vector<Index>& outerNodes,
     const std::vector<std::uint8_t>& isLayer);
 
-  /// Makes the front on the face of `cell` with these nodes. Returns false where the cell has no
-  /// layer there.
-  bool makeFront(Index cell, const Index* nodes, Index size, LayerFront& front) const;
+  /// The side of `cell` (CellShape::faces) with these nodes, from which a layer grows into it. -1
+  /// where the cell has no layer there.
+  int sideOf(Index cell, const Index* nodes, Index size) const;
+  /// `side`: one that sideOf() tells.
+  LayerFront front(Index cell, int side) const;
   /// The cell beyond the opposite face, or -1 at the boundary.
   Index beyond(const LayerFront& front) const;
   bool isOuter(Index node) const { return this->isOuter_[node] != 0; }

@@ -6,115 +6,205 @@
 
 #include <algorithm>
 #include <iterator>
+#include <memory>
 #include <unordered_map>
+#include <utility>
 
 namespace morph
 {
 namespace
 {
-constexpr Index Conflict = -2;
+std::vector<Index> onAll(std::vector<Index> nodes, const Communicator& processes)
+{
+  processes.spread(nodes);
+  sortUnique(nodes);
+  return nodes;
+}
+
+/// Goes outwards, layer by layer. Every process knows the cells of a layer around all nodes of its
+/// own cells, so that it decides about these nodes as one process would.
+class Search
+{
+public:
+  Search(const Mesh& mesh, const BoundaryFaces& faces, const std::vector<std::uint8_t>& isLayer,
+    const Communicator& processes)
+    : processes_(processes)
+    , cells_(mesh, onAll(faces.nodes, processes), isLayer)
+    , rows_(processes.rows())
+    , place_(Points::Constant(mesh.numberOfNodes(), 3, -1))
+    , sides_(mesh.numberOfCells(), 0)
+  {
+    for (Index c = 0; c < mesh.numberOfCells(); ++c)
+    {
+      if (processes.isCopy(c))
+      {
+        this->copies_.push_back(c);
+      }
+    }
+  }
+
+  void begin(const BoundaryFaces& faces, const std::vector<std::uint8_t>& isWall)
+  {
+    std::vector<Index> walls;
+    for (std::size_t f = 0; f < isWall.size(); ++f)
+    {
+      if (isWall[f])
+      {
+        const Index first = faces.offsets[f], size = faces.offsets[f + 1] - first;
+        const Index* nodes = faces.connectivity.data() + first;
+        walls.insert(walls.end(), nodes, nodes + size);
+        this->enter(faces.cells[f], nodes, size);
+      }
+    }
+    walls = onAll(std::move(walls), this->processes_);
+    const std::vector<Index> ids = this->processes_.idsOf(walls);
+    for (std::size_t i = 0; i < walls.size(); ++i)
+    {
+      this->place_.row(walls[i]) << static_cast<double>(ids[i]), 0, 0;
+      this->columns_[ids[i]];
+    }
+  }
+
+  bool isAtEnd() const
+  {
+    return this->processes_.sum(static_cast<Index>(this->entered_.size())) == 0;
+  }
+
+  void addLayer(Index layer)
+  {
+    std::unordered_map<Index, Index> above; // of each node at the front
+    const std::vector<LayerFront> fronts = this->leave(above);
+    std::unordered_map<Index, Index> below; // how many columns lead to a node
+    for (const auto& entry : above)
+    {
+      ++below[entry.second];
+    }
+    std::vector<Index> added;
+    for (const auto& [node, to] : above)
+    {
+      // A node of two columns is in neither, and one on the boundary only above one of it.
+      if (below[to] == 1 && this->place_(to, 0) < 0 &&
+          (!this->cells_.isOuter(to) || this->cells_.isOuter(node)))
+      {
+        this->place_.row(to) << this->place_(node, 0), static_cast<double>(layer), 0;
+        added.push_back(to);
+      }
+    }
+    this->rows_->update(this->place_);
+    const std::vector<Index>& elsewhere = this->rows_->countedElsewhere();
+    for (const Index node : added)
+    {
+      if (!std::binary_search(elsewhere.begin(), elsewhere.end(), node))
+      {
+        this->columns_[static_cast<Index>(this->place_(node, 0))].push_back(node);
+      }
+    }
+    const auto isNew = [&](Index node)
+    { return this->place_(node, 1) == static_cast<double>(layer); };
+    for (const LayerFront& front : fronts)
+    {
+      const Index next = this->cells_.beyond(front);
+      if (next >= 0 && !this->processes_.isCopy(next) &&
+          std::all_of(front.opposite, front.opposite + front.size, isNew))
+      {
+        this->enter(next, front.opposite, front.size);
+      }
+    }
+  }
+
+  const std::map<Index, std::vector<Index>>& columns() const { return this->columns_; }
+
+private:
+  /// A layer goes through this process's cell from a face, or the columns of its nodes end.
+  void enter(Index cell, const Index* nodes, Index size)
+  {
+    const int side = this->cells_.sideOf(cell, nodes, size);
+    if (side < 0 || this->cells_.beyond(this->cells_.front(cell, side)) < 0)
+    {
+      this->ended_.insert(this->ended_.end(), nodes, nodes + size);
+      return;
+    }
+    if (this->sides_[cell] == 0)
+    {
+      this->entered_.push_back(cell);
+    }
+    this->sides_[cell] = static_cast<double>(this->sidesOf(cell) | 1U << side);
+  }
+
+  unsigned sidesOf(Index cell) const { return static_cast<unsigned>(this->sides_[cell]); }
+
+  /// Returns where layers go through cells here, of all processes, and the node `above` each one
+  /// whose column does not end.
+  std::vector<LayerFront> leave(std::unordered_map<Index, Index>& above)
+  {
+    this->processes_.completeCells(this->sides_);
+    std::copy_if(this->copies_.begin(), this->copies_.end(), std::back_inserter(this->entered_),
+      [this](Index cell) { return this->sides_[cell] != 0; });
+    std::vector<LayerFront> fronts;
+    for (const Index cell : this->entered_)
+    {
+      for (int side = 0; this->sidesOf(cell) >> side != 0; ++side)
+      {
+        if ((this->sidesOf(cell) >> side & 1U) == 0)
+        {
+          continue;
+        }
+        const LayerFront& front = fronts.emplace_back(this->cells_.front(cell, side));
+        for (int k = 0; k < front.size; ++k)
+        {
+          const auto found = above.emplace(front.nodes[k], front.opposite[k]).first;
+          if (found->second != front.opposite[k])
+          {
+            this->ended_.push_back(front.nodes[k]);
+          }
+        }
+      }
+      this->sides_[cell] = 0;
+    }
+    this->entered_.clear();
+    this->processes_.spread(this->ended_);
+    for (const Index node : this->ended_)
+    {
+      above.erase(node);
+    }
+    this->ended_.clear();
+    return fronts;
+  }
+
+  const Communicator& processes_;
+  const LayerCells cells_;
+  const std::unique_ptr<CopiedRows> rows_;
+  Points place_;              ///< #nodes: the number of the wall node and the layer, or -1
+  std::vector<double> sides_; ///< #cells: a bit for each side from which a layer goes through it
+  std::vector<Index> copies_; ///< cells
+  std::vector<Index> entered_, ended_; ///< cells with sides_, nodes
+  std::map<Index, std::vector<Index>> columns_;
+};
+}
+
+WallLayers wallLayers(const std::map<Index, std::vector<Index>>& columns)
+{
+  WallLayers layers;
+  layers.columns.offsets = { 0 };
+  for (const auto& [wall, column] : columns)
+  {
+    layers.walls.push_back(wall);
+    layers.columns.values.insert(layers.columns.values.end(), column.begin(), column.end());
+    layers.columns.offsets.push_back(static_cast<Index>(layers.columns.values.size()));
+  }
+  return layers;
 }
 
 WallLayers findWallLayers(const Mesh& mesh, const BoundaryFaces& faces,
-  const std::vector<std::uint8_t>& isWall, Index most, const std::vector<std::uint8_t>& isLayer)
+  const std::vector<std::uint8_t>& isWall, Index most, const std::vector<std::uint8_t>& isLayer,
+  const Communicator& processes)
 {
-  const LayerCells search(mesh, faces.nodes, isLayer);
-  WallLayers result;
-  struct Face
+  Search search(mesh, faces, isLayer, processes);
+  search.begin(faces, isWall);
+  for (Index layer = 1; layer <= most && !search.isAtEnd(); ++layer)
   {
-    Index cell;
-    int size;
-    Index nodes[4];
-  };
-  std::vector<Face> faceFront;
-  for (std::size_t f = 0; f < isWall.size(); ++f)
-  {
-    if (isWall[f])
-    {
-      const Index first = faces.offsets[f], size = faces.offsets[f + 1] - first;
-      Face face = { faces.cells[f], static_cast<int>(size), {} };
-      const Index* nodes = faces.connectivity.data() + first;
-      result.walls.insert(result.walls.end(), nodes, nodes + size);
-      std::copy_n(nodes, std::min<Index>(size, 4), face.nodes);
-      faceFront.push_back(face);
-    }
+    search.addLayer(layer);
   }
-  sortUnique(result.walls);
-
-  // Where the column of each node at the front begins, and which nodes some column has.
-  std::unordered_map<Index, Index> columnOf;
-  std::vector<std::uint8_t> isTaken(mesh.numberOfNodes(), 0);
-  for (std::size_t i = 0; i < result.walls.size(); ++i)
-  {
-    columnOf[result.walls[i]] = static_cast<Index>(i);
-    isTaken[result.walls[i]] = 1;
-  }
-  std::vector<std::vector<Index>> columns(result.walls.size());
-  for (Index layer = 0; layer < most && !faceFront.empty(); ++layer)
-  {
-    std::unordered_map<Index, Index> above; // of each node at the front, or Conflict
-    std::vector<std::pair<LayerFront, Index>> fronts;
-    for (const Face& face : faceFront)
-    {
-      LayerFront front{};
-      Index next = -1;
-      const bool grows = search.makeFront(face.cell, face.nodes, face.size, front) &&
-                         (next = search.beyond(front)) >= 0;
-      for (int k = 0; k < std::min(face.size, 4); ++k)
-      {
-        const Index node = grows ? front.nodes[k] : face.nodes[k];
-        const Index to = grows ? front.opposite[k] : Conflict;
-        const auto [found, isNew] = above.emplace(node, to);
-        if (!isNew && found->second != to)
-        {
-          found->second = Conflict;
-        }
-      }
-      if (grows)
-      {
-        fronts.emplace_back(front, next);
-      }
-    }
-    // A node of two columns is in neither, and one on the boundary only above one of it.
-    std::unordered_map<Index, Index> count;
-    for (const auto& [node, to] : above)
-    {
-      ++count[to];
-    }
-    std::unordered_map<Index, Index> nextColumn;
-    for (const auto& [node, to] : above)
-    {
-      const auto column = columnOf.find(node);
-      if (to != Conflict && column != columnOf.end() && count[to] == 1 && !isTaken[to] &&
-          (!search.isOuter(to) || search.isOuter(node)))
-      {
-        columns[column->second].push_back(to);
-        nextColumn[to] = column->second;
-      }
-    }
-    for (const auto& entry : nextColumn)
-    {
-      isTaken[entry.first] = 1;
-    }
-    columnOf.swap(nextColumn);
-    faceFront.clear();
-    for (const auto& [front, next] : fronts)
-    {
-      if (std::all_of(front.opposite, front.opposite + front.size,
-            [&](Index node) { return columnOf.count(node) > 0; }))
-      {
-        Face face = { next, front.size, {} };
-        std::copy_n(front.opposite, front.size, face.nodes);
-        faceFront.push_back(face);
-      }
-    }
-  }
-  result.columns.offsets = { 0 };
-  for (const std::vector<Index>& column : columns)
-  {
-    result.columns.values.insert(result.columns.values.end(), column.begin(), column.end());
-    result.columns.offsets.push_back(static_cast<Index>(result.columns.values.size()));
-  }
-  return result;
+  return wallLayers(search.columns());
 }
 }

@@ -364,15 +364,7 @@ WallLayers InnerNodes::layersOnRanks(
   {
     columnOf[wall].push_back(this->addPoints(model, { point }).front());
   }
-  WallLayers layers;
-  layers.columns.offsets = { 0 };
-  for (const auto& [wall, column] : columnOf)
-  {
-    layers.walls.push_back(wall);
-    layers.columns.values.insert(layers.columns.values.end(), column.begin(), column.end());
-    layers.columns.offsets.push_back(static_cast<Index>(layers.columns.values.size()));
-  }
-  return layers;
+  return wallLayers(columnOf);
 }
 
 void InnerNodes::extend(const BoundaryModel& model, Surroundings::Result& result) const
@@ -473,7 +465,6 @@ InnerPieces::Moved InnerNodes::guess(const Rigid& zone, const BoundaryModel& mod
 {
   if (this->pieces_)
   {
-    this->pieces_->requireNoPolyhedra("A rigid zone whose motion its boundary does not tell");
     const bool hasEdge =
       this->pieces_->anywhere(std::count(zone.isEdge.begin(), zone.isEdge.end(), 1) > 0);
     return this->pieces_->warp(

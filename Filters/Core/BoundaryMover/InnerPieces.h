@@ -33,8 +33,6 @@ public:
   virtual Flags anyFlags(const Flags& ofPiece) const = 0;
   /// The flagged points of the piece inside the mesh that this process owns, ascending.
   virtual std::vector<Index> ownInner(const Flags& ofPiece) const = 0;
-  /// Throws Error on all processes where the mesh has polyhedra. `what` needs one process.
-  virtual void requireNoPolyhedra(const char* what) const = 0;
 
   struct Columns
   {

@@ -95,6 +95,14 @@ void moveBetween(const BoundaryModel& model, const std::map<Index, Surfaces>& sl
     }
   }
 }
+
+void requireKnownCells(bool hasPolyhedra)
+{
+  if (hasPolyhedra)
+  {
+    throw Error("`SlideRounds` does not know polyhedra, and the mesh has some. Set it to 0.");
+  }
+}
 }
 
 void SlideRounds::prepare(const BoundaryModel& model, const std::vector<Index>& nodes,
@@ -106,10 +114,7 @@ void SlideRounds::prepare(const BoundaryModel& model, const std::vector<Index>& 
     throw Error("`SlideRounds` needs the mesh's cells, and the input is a surface. Give the "
                 "volume mesh to this filter, or set `SlideRounds` to 0.");
   }
-  if (hasPolyhedra(mesh))
-  {
-    throw Error("`SlideRounds` does not know polyhedra, and the mesh has some. Set it to 0.");
-  }
+  requireKnownCells(hasPolyhedra(mesh));
   std::vector<Index> prescribed;
   for (const Index node : InnerNodes::prescribed(model, result))
   {
@@ -160,7 +165,7 @@ void SlideRounds::run(const BoundaryModel& model, const std::vector<Index>& held
   const Points before = result.moved;
   if (pieces)
   {
-    pieces->requireNoPolyhedra("`SlideRounds` of vtkBoundaryDisplacement");
+    requireKnownCells(pieces->anywhere(hasPolyhedra(pieces->piece())));
     Points places = before(nodes, allColumns);
     this->rounds_ = pieces->slide(
       inner.prescribedOnRanks(model, result, nodes), nodes, along(nodes), limits, places, monitor);

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <map>
 #include <utility>
 
 namespace morph
@@ -146,12 +147,14 @@ std::vector<Index> inversionsByBoundaryMotion(const Mesh& mesh, const NodePartit
 }
 
 std::vector<NodeWithoutPlace> nodesWithoutPlace(const Mesh& mesh, const NodePartition& partition,
-  const std::vector<std::int8_t>& orientation, const Points& points, Monitor& monitor)
+  const std::vector<std::int8_t>& orientation, const Points& points, Monitor& monitor,
+  const Communicator& processes)
 {
   if (mesh.layer.isCurved())
   {
     return {};
   }
+  const std::vector<Index> elsewhere = processes.rows()->countedElsewhere();
   const std::vector<char> prescribed = isPrescribed(mesh, partition);
   const Adjacency around = nodeToCells(mesh);
   std::vector<NodeWithoutPlace> result;
@@ -174,11 +177,18 @@ std::vector<NodeWithoutPlace> nodesWithoutPlace(const Mesh& mesh, const NodePart
     std::vector<Index> cells;
     std::copy_if(around.begin(node), around.end(node), std::back_inserter(cells),
       [&](Index c) { return isHeld(mesh, c, prescribed); });
-    if (!leaveNone(cells))
+    if (std::binary_search(elsewhere.begin(), elsewhere.end(), node) || !leaveNone(cells))
     {
       continue;
     }
-    // Reduces the cells to a minimal set that cannot all be valid.
+    // Reduces the cells to a minimal set that cannot all be valid. Which one, their order decides:
+    // that of the whole mesh.
+    const std::vector<Index> ids = processes.idsOfCells(cells);
+    std::map<Index, Index> byId;
+    std::transform(ids.begin(), ids.end(), cells.begin(), std::inserter(byId, byId.end()),
+      [](Index id, Index cell) { return std::pair(id, cell); });
+    std::transform(
+      byId.begin(), byId.end(), cells.begin(), [](const auto& entry) { return entry.second; });
     for (std::size_t k = cells.size(); k-- > 0;)
     {
       std::vector<Index> others = cells;
@@ -190,6 +200,7 @@ std::vector<NodeWithoutPlace> nodesWithoutPlace(const Mesh& mesh, const NodePart
     }
     if (cells.size() > 1)
     {
+      std::sort(cells.begin(), cells.end());
       result.push_back({ node, cells });
     }
   }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "Mesh/NodePartition.h"
+#include "Support/Communicator.h"
 #include "Support/Monitor.h"
 
 #include <cstdint>
@@ -34,7 +35,9 @@ struct NodeWithoutPlace
 };
 
 /// Returns such nodes, ascending; arguments as above. Cost: a pass over the cells, and 10
-/// microseconds a free node next to prescribed ones.
+/// microseconds a free node next to prescribed ones. On several `processes` each gets those of the
+/// nodes that count here. Collective.
 std::vector<NodeWithoutPlace> nodesWithoutPlace(const Mesh& mesh, const NodePartition& partition,
-  const std::vector<std::int8_t>& orientation, const Points& points, Monitor& monitor);
+  const std::vector<std::int8_t>& orientation, const Points& points, Monitor& monitor,
+  const Communicator& processes = Communicator::alone());
 }

@@ -88,8 +88,8 @@ ForbiddenCells BoundaryCheck::at(const Points& boundary) const
       this->monitor_.check();
       result.determined =
         boundaryDeterminedInversions(this->mesh_, this->partition_, this->orientation_, points);
-      result.withoutPlace = nodesWithoutPlace(
-        this->mesh_, this->partition_, this->orientation_, points, this->monitor_);
+      result.withoutPlace = nodesWithoutPlace(this->mesh_, this->partition_, this->orientation_,
+        points, this->monitor_, this->processes_);
       for (const Index f : foldedFaces(this->whole_.rest(), moved, this->whole_.faces(),
              this->geometry_, this->isPrescribed_))
       {

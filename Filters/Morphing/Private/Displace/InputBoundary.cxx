@@ -258,13 +258,13 @@ void InputBoundary::TakeFaces(const WholeSurface& whole)
   this->asked.clear();
   this->Listed.clear();
   this->Sets.clear();
-  this->mesh = whole.Mesh();
-  this->bodyOfNode = whole.BodyOfNode();
-  this->faces = whole.Faces();
+  this->mesh = whole.Boundary().Shell;
+  this->bodyOfNode = whole.Boundary().BodyOfNode;
+  this->faces = whole.Boundary().Faces;
   this->orientation.clear();
   for (const Index cell : this->faces.cells)
   {
-    this->orientation.push_back(whole.Orientation()[cell]);
+    this->orientation.push_back(whole.Boundary().Orientation[cell]);
   }
 }
 
@@ -274,7 +274,7 @@ void InputBoundary::TakeGrid(vtkUnstructuredGrid* grid, const Options& options,
   const WholeSurface* whole = options.Whole;
   const bool sameMesh = this->mesh.numberOfCells() > 0 && GridMesh::SameCells(grid, this->mesh) &&
                         GridMesh::SamePoints(grid, this->mesh);
-  bool sameBoundary = sameMesh && whole && sameFaces(this->faces, whole->Faces());
+  bool sameBoundary = sameMesh && whole && sameFaces(this->faces, whole->Boundary().Faces);
   if (!sameBoundary && whole)
   {
     this->TakeFaces(*whole);
@@ -307,7 +307,7 @@ void InputBoundary::TakeGrid(vtkUnstructuredGrid* grid, const Options& options,
   }
   this->Written = vtkSmartPointer<vtkPolyData>::New();
   this->Polygons = Surface::Write(
-    grid, this->mesh, this->faces, this->Written, whole ? &whole->Orientation() : nullptr);
+    grid, this->mesh, this->faces, this->Written, whole ? &whole->Boundary().Orientation : nullptr);
   this->Nodes = this->faces.nodes;
   if (this->inner.size() > 0)
   {

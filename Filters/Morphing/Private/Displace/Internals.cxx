@@ -647,6 +647,6 @@ void vtkDisplacementAlgorithm::vtkInternals::DisplaceOnRanks(const Options& opti
       });
     control = this->Whole->Gather(control);
   }
-  this->Displace(options, this->Whole->Grid(), piece,
+  this->Displace(options, this->Whole->Boundary().Grid, piece,
     { inputs.Selection, nullptr, inputs.Zone, control, inputs.Field }, whole, output, monitor);
 }

@@ -4,35 +4,41 @@
 #include "Distributed/Ranks.h"
 #include "Support/Error.h"
 
-#include <vtkCharArray.h>
-#include <vtkCommunicator.h>
 #include <vtkNew.h>
 #include <vtkSmartPointer.h>
 
 #include <algorithm>
 #include <cstddef>
+#include <string>
 #include <vector>
 
 namespace morph::filters
 {
-/// All processes' data objects, by rank; `bytes` grows by what this process received.
-/// `onlyDistinct`: without those that are equal to an earlier one. Throws morph::Error on all
-/// processes where one cannot be sent. Collective.
-template <typename Data>
+/// All processes' data objects, by rank, which `Writer` writes and `Reader` reads; `bytes` grows by
+/// what this process received. `onlyDistinct`: without those that are equal to an earlier one.
+/// Throws morph::Error on all processes where one cannot be sent. Collective.
+template <typename Writer, typename Reader, typename Data>
 std::vector<vtkSmartPointer<Data>> gatherData(
   const morph::distributed::Ranks& ranks, Data* mine, bool onlyDistinct, std::size_t& bytes)
 {
-  vtkNew<vtkCharArray> buffer;
+  std::vector<char> packed;
   ranks.together(
     [&]
     {
-      if (!vtkCommunicator::MarshalDataObject(mine, buffer))
+      vtkNew<Writer> writer;
+      writer->SetInputData(mine);
+      writer->WriteToOutputStringOn();
+      writer->SetDataModeToAppended();
+      writer->EncodeAppendedDataOff();
+      writer->SetCompressorTypeToNone();
+      writer->SetHeaderTypeToUInt64();
+      if (!writer->Write())
       {
         throw morph::Error("The boundary cannot be sent to the other MPI ranks.");
       }
+      const std::string text = writer->GetOutputString();
+      packed.assign(text.begin(), text.end());
     });
-  const std::vector<char> packed(
-    buffer->GetPointer(0), buffer->GetPointer(0) + buffer->GetNumberOfValues());
   const auto messages =
     ranks.exchange(std::vector<std::vector<char>>(static_cast<std::size_t>(ranks.count()), packed));
   std::vector<vtkSmartPointer<Data>> result;
@@ -41,15 +47,15 @@ std::vector<vtkSmartPointer<Data>> gatherData(
     {
       for (auto message = messages.begin(); message != messages.end(); ++message)
       {
-        const std::vector<char>& one = *message;
-        bytes += one.size();
-        if (onlyDistinct && std::find(messages.begin(), message, one) != message)
+        bytes += message->size();
+        if (!onlyDistinct || std::find(messages.begin(), message, *message) == message)
         {
-          continue;
+          vtkNew<Reader> reader;
+          reader->ReadFromInputStringOn();
+          reader->SetInputString(std::string(message->begin(), message->end()));
+          reader->Update();
+          result.emplace_back(reader->GetOutput());
         }
-        buffer->SetNumberOfValues(static_cast<vtkIdType>(one.size()));
-        std::copy(one.begin(), one.end(), buffer->GetPointer(0));
-        result.emplace_back(Data::SafeDownCast(vtkCommunicator::UnMarshalDataObject(buffer.Get())));
       }
     });
   return result;

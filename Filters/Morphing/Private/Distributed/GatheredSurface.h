@@ -3,49 +3,65 @@
 
 #include "Mesh/Mesh.h"
 #include "Mesh/Topology.h"
-#include "Private/Distributed/RankMesh.h"
 
 #include <vtkIdList.h>
 #include <vtkSmartPointer.h>
 #include <vtkType.h>
 #include <vtkUnstructuredGrid.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
+namespace morph
+{
+class WholeBoundary;
+}
+namespace morph::distributed
+{
+class DistributedMesh;
+}
+
 namespace morph::filters
 {
+class RankMesh;
+
 /// The cells with an outer face and the two-dimensional cells of all processes as one grid, the
-/// same on each process. See WholeSurface, which answers what filters ask of it.
+/// same on each process; see WholeSurface.
 class GatheredSurface
 {
 public:
   static constexpr const char* CellName = "MorphCellId";
 
-  vtkSmartPointer<vtkUnstructuredGrid> Grid; ///< null before Gather()
-  morph::Mesh Shell;                         ///< Grid as a mesh
-  morph::BoundaryFaces Faces;
-  std::vector<morph::Index> BodyOfNode;
-  std::vector<std::int8_t> Orientation;
-  std::vector<std::int64_t> NodeIds, CellIds; ///< of Grid, ascending
-  std::vector<int> RankOfNode, RankOfCell;    ///< of Grid: the lowest one
-  std::vector<morph::Index> NumberOfBody;     ///< by the number that the distributed mesh has
-  std::size_t Bytes = 0;                      ///< that this process received
+  /// Those cells, with the arrays that all pieces have; null before Gather().
+  vtkSmartPointer<vtkUnstructuredGrid> Grid;
+  morph::Mesh Shell;                      ///< Grid as a mesh
+  morph::BoundaryFaces Faces;             ///< of the whole mesh; partition interfaces are none
+  std::vector<morph::Index> BodyOfNode;   ///< of the whole mesh, or -1; see bodyOfNodes()
+  std::vector<std::int8_t> Orientation;   ///< #cells, cellSigns() of the whole mesh
+  std::vector<std::int64_t> NodeIds;      ///< of Grid, global, ascending
+  std::vector<std::int64_t> CellIds;      ///< the same
+  std::vector<int> RankOfNode;            ///< of Grid: the lowest one
+  std::vector<int> RankOfCell;            ///< of Grid
+  std::vector<morph::Index> NumberOfBody; ///< in the order of their lowest cells; by the mesh's one
+  std::size_t Bytes = 0;                  ///< that this process received
+
+  /// The node of Grid with a global id, or -1.
+  morph::Index NodeOf(std::int64_t id) const
+  {
+    const auto found = std::lower_bound(this->NodeIds.begin(), this->NodeIds.end(), id);
+    return found != this->NodeIds.end() && *found == id ? found - this->NodeIds.begin() : -1;
+  }
 
   /// Gathers the surface of the mesh that `piece` is a part of. Throws morph::Error on all
   /// processes. Collective.
   void Gather(const RankMesh& mesh, vtkUnstructuredGrid* piece);
 
 private:
-  struct CellRecord;
   void NumberBodies(const morph::distributed::DistributedMesh& whole);
-  void Assemble(const std::vector<vtkSmartPointer<vtkUnstructuredGrid>>& parts,
-    const std::vector<std::vector<std::int64_t>>& nodes,
-    const std::vector<std::vector<CellRecord>>& cells);
+  void Assemble(const std::vector<vtkSmartPointer<vtkUnstructuredGrid>>& parts);
   void DescribeFaces(const morph::WholeBoundary& boundary, bool divided);
-  void DescribeCells(const std::vector<std::vector<CellRecord>>& cells,
-    const std::vector<vtkSmartPointer<vtkIdList>>& numbers);
 };
 
 /// 0, 1, ..., count - 1.

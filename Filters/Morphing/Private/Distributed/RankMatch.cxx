@@ -5,6 +5,7 @@
 #include "Private/Data/Gradient.h"
 #include "Private/Data/Surface.h"
 #include "Support/Error.h"
+#include "Support/Lists.h"
 
 #include <vtkDataArray.h>
 #include <vtkPointData.h>
@@ -14,7 +15,6 @@
 #include <array>
 #include <limits>
 #include <map>
-#include <numeric>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -116,66 +116,6 @@ std::vector<Traveller> travellers(const morph::NamedPoints& named,
       rowOf(named.positions, point), rowOf(named.rest, point), rowOf(named.displacements, point) });
   }
   return result;
-}
-
-/// Sends each point to the ranks whose nodes' box, made larger by `tolerance`, holds it.
-std::vector<Traveller> toBoxes(
-  const DistributedMesh& mesh, const std::vector<Traveller>& mine, double tolerance)
-{
-  const Ranks& ranks = mesh.ranks();
-  const morph::Points& points = mesh.mesh().points;
-  std::vector<double> box(6, std::numeric_limits<double>::quiet_NaN());
-  if (points.rows() > 0)
-  {
-    for (int j = 0; j < 3; ++j)
-    {
-      box[j] = points.col(j).minCoeff() - tolerance;
-      box[3 + j] = points.col(j).maxCoeff() + tolerance;
-    }
-  }
-  box = ranks.gather(box);
-  std::vector<std::vector<Traveller>> to(ranks.count());
-  for (const Traveller& point : mine)
-  {
-    for (int r = 0; r < ranks.count(); ++r)
-    {
-      bool inside = true;
-      for (int j = 0; j < 3; ++j)
-      {
-        inside =
-          inside && point.position[j] >= box[6 * r + j] && point.position[j] <= box[6 * r + 3 + j];
-      }
-      if (inside)
-      {
-        to[r].push_back(point);
-      }
-    }
-  }
-  std::vector<Traveller> received;
-  for (const auto& part : ranks.exchange(to))
-  {
-    received.insert(received.end(), part.begin(), part.end());
-  }
-  return received;
-}
-
-/// How many of a boundary's points no rank has found a node for; all ranks get the number.
-Index countUnmatched(const Ranks& ranks, Index sent, const std::vector<Traveller>& received,
-  const std::vector<std::pair<Index, Index>>& pairs)
-{
-  std::vector<std::vector<std::int64_t>> back(ranks.count());
-  for (const auto& pair : pairs)
-  {
-    back[received[pair.first].rank].push_back(received[pair.first].point);
-  }
-  std::vector<std::int64_t> matched;
-  for (const auto& part : ranks.exchange(back))
-  {
-    matched.insert(matched.end(), part.begin(), part.end());
-  }
-  std::sort(matched.begin(), matched.end());
-  matched.erase(std::unique(matched.begin(), matched.end()), matched.end());
-  return ranks.sum(sent - static_cast<Index>(matched.size()));
 }
 
 /// The points that the nodes of this process follow. `points`: of all processes, in their order;
@@ -302,21 +242,6 @@ Given read(
     ranks.sum(named.valueless) };
 }
 
-/// Throws on all ranks where one has points of nodes that the mesh does not have.
-void requireKnown(const Ranks& ranks, const std::vector<Index>& unknown)
-{
-  ranks.together(
-    [&]
-    {
-      if (!unknown.empty())
-      {
-        throw Error("The boundary names nodes that the grid does not have: global ids " +
-                    morph::listIds(unknown) +
-                    ". Make the boundary from this grid, with Extract Morph Boundary.");
-      }
-    });
-}
-
 /// All of NamedPoints but pairs; sorts `points` by where they come from.
 morph::NamedPoints named(
   std::vector<Traveller>& points, const Given& given, const BoundaryMatch::Options& options)
@@ -348,6 +273,57 @@ morph::NamedPoints named(
   }
   return here;
 }
+
+/// How many ranks say so of each point of the boundary.
+std::vector<Index> countRanks(
+  const Ranks& ranks, std::size_t points, const std::vector<std::pair<Index, Index>>& pairs)
+{
+  std::vector<Index> count(points, 0);
+  for (const auto& pair : pairs)
+  {
+    count[pair.first] = 1;
+  }
+  ranks.sum(count.data(), count.size());
+  return count;
+}
+
+/// RankMatch::Gather(), with all points as they came.
+RankMatch::Gathered gather(vtkPointSet* boundary, const DistributedMesh& mesh,
+  const BoundaryMatch::Options& options, std::vector<Traveller>& points)
+{
+  const Given given = read(boundary, mesh, options);
+  points = mesh.ranks().gather(given.Mine);
+  RankMatch::Gathered result;
+  result.ByPosition = given.How == Way::Positions;
+  result.PointPrecision = given.PointPrecision;
+  result.Points = named(points, given, options);
+  std::vector<std::pair<Index, Index>> here;
+  for (std::size_t i = 0; !result.ByPosition && i < points.size(); ++i)
+  {
+    result.Points.pairs.emplace_back(static_cast<Index>(i), points[i].id);
+    if (mesh.nodeOf(points[i].id) >= 0)
+    {
+      here.push_back(result.Points.pairs.back());
+    }
+  }
+  const std::vector<Index> known = countRanks(mesh.ranks(), points.size(), here);
+  std::vector<Index> unknown;
+  for (const auto& [point, id] : result.Points.pairs)
+  {
+    if (known[point] == 0)
+    {
+      unknown.push_back(id);
+    }
+  }
+  if (!unknown.empty())
+  {
+    sortUnique(unknown);
+    throw Error("The boundary names nodes that the grid does not have: global ids " +
+                morph::listIds(unknown) +
+                ". Make the boundary from this grid, with Extract Morph Boundary.");
+  }
+  return result;
+}
 }
 
 namespace RankMatch
@@ -356,54 +332,27 @@ morph::BoundaryTargets Match(vtkPointSet* boundary, const DistributedMesh& mesh,
   const BoundaryMatch::Options& options, std::vector<BoundaryMatch::Follower>* followers)
 {
   const Ranks& ranks = mesh.ranks();
-  const double tolerance = options.matchTolerance * mesh.size();
-  const Given given = read(boundary, mesh, options);
-  const bool byPosition = given.How == Way::Positions;
-  std::vector<Traveller> points, unknown;
-  if (byPosition)
+  std::vector<Traveller> points;
+  Gathered all = gather(boundary, mesh, options, points);
+  const auto nodeOf = [&mesh](std::int64_t id)
   {
-    points = toBoxes(mesh, given.Mine, tolerance);
-  }
-  else
-  {
-    points = mesh.directory().route(given.Mine, unknown);
-  }
-  std::vector<Index> ids;
-  for (const Traveller& point : unknown)
-  {
-    ids.push_back(point.id);
-  }
-  requireKnown(ranks, ids);
-  morph::NamedPoints here = named(points, given, options);
-  for (std::size_t i = 0; !byPosition && i < points.size(); ++i)
-  {
-    here.pairs.emplace_back(static_cast<Index>(i), mesh.nodeOf(points[i].id));
-  }
-  Index unmatched = 0;
-  if (byPosition)
-  {
-    Index ignored = 0;
-    ranks.together(
-      [&]
-      {
-        if (!points.empty())
-        {
-          here.pairs = BoundaryMatch::FindByPosition(
-            here.positions, mesh.mesh(), mesh.outerNodes().nodes, tolerance, ignored);
-        }
-      });
-    unmatched = countUnmatched(ranks, static_cast<Index>(given.Mine.size()), points, here.pairs);
-  }
-  const std::vector<std::pair<Index, Index>> found = here.pairs;
+    const Index node = mesh.nodeOf(id);
+    return node < mesh.pieceNodes() ? node : -1;
+  };
   morph::BoundaryTargets result;
   Index rounded = 0;
   ranks.together(
     [&]
     {
-      rounded = BoundaryMatch::TakeBackRounding(given.PointPrecision, mesh.mesh(), here);
-      result = morph::findTargets(
-        std::move(here), mesh.mesh(), mesh.outerNodes(), mesh.size(), options, &mesh.nodeIds());
+      result = TargetsOf(all,
+        { mesh.mesh(), mesh.outerNodes(), mesh.size(), mesh.nodeIds(), nodeOf }, options, rounded);
     });
+  const std::vector<std::pair<Index, Index>>& found = all.Points.pairs;
+  if (all.ByPosition)
+  {
+    const std::vector<Index> count = countRanks(ranks, points.size(), found);
+    result.unmatched = std::count(count.begin(), count.end(), 0);
+  }
   if (followers)
   {
     *followers = followersOf(mesh, result, points, found);
@@ -411,13 +360,12 @@ morph::BoundaryTargets Match(vtkPointSet* boundary, const DistributedMesh& mesh,
   takeOwners(mesh, result);
   morph::countStaying(
     mesh.mesh(), mesh.outerNodes(), [&](Index node) { return mesh.owns(node); }, result);
-  result.points = ranks.sum(static_cast<Index>(given.Mine.size()));
-  result.unmatched = unmatched;
+  result.points = static_cast<Index>(points.size());
   for (Index* count : { &result.freed, &result.following, &result.staying, &result.open, &rounded })
   {
     *count = ranks.sum(*count);
   }
-  BoundaryMatch::Conclude(mesh.size(), options, given.PointPrecision, rounded, result);
+  BoundaryMatch::Conclude(mesh.size(), options, all.PointPrecision, rounded, result);
   return result;
 }
 
@@ -444,43 +392,40 @@ void SendBack(const Ranks& ranks, const std::vector<Index>& ids, const morph::Po
       sums.row(row.point) += Eigen::RowVector3d(row.value[0], row.value[1], row.value[2]);
     }
   }
-  std::vector<Index> sources(points);
-  std::iota(sources.begin(), sources.end(), Index(0));
+  const std::vector<Index> sources = morph::consecutive(static_cast<std::size_t>(points));
   ranks.together([&] { Gradient::Gather(sums, sources, points, result); });
+}
+
+morph::BoundaryTargets TargetsOf(
+  Gathered& all, const Nodes& nodes, const BoundaryMatch::Options& options, Index& rounded)
+{
+  morph::NamedPoints& named = all.Points;
+  std::vector<std::pair<Index, Index>> pairs;
+  for (const auto& [point, id] : named.pairs)
+  {
+    if (const Index node = nodes.NodeOf(id); node >= 0)
+    {
+      pairs.emplace_back(point, node);
+    }
+  }
+  if (all.ByPosition && nodes.Rest.numberOfNodes() > 0)
+  {
+    pairs = BoundaryMatch::FindByPosition(named.positions, nodes.Rest, nodes.Outer.nodes,
+      options.matchTolerance * nodes.Size, named.unmatched);
+  }
+  named.pairs = pairs;
+  rounded = BoundaryMatch::TakeBackRounding(all.PointPrecision, nodes.Rest, named);
+  morph::BoundaryTargets result =
+    morph::findTargets(std::move(named), nodes.Rest, nodes.Outer, nodes.Size, options, &nodes.Ids);
+  named.pairs = std::move(pairs);
+  return result;
 }
 
 Gathered Gather(
   vtkPointSet* boundary, const DistributedMesh& mesh, const BoundaryMatch::Options& options)
 {
-  const Ranks& ranks = mesh.ranks();
-  const Given given = read(boundary, mesh, options);
-  Gathered result;
-  result.ByPosition = given.How == Way::Positions;
-  std::vector<Index> ids, unknown;
-  for (const Traveller& point : given.Mine)
-  {
-    ids.push_back(point.id);
-  }
-  if (!result.ByPosition)
-  {
-    const std::vector<int> owners = mesh.directory().owners(ids);
-    for (std::size_t i = 0; i < ids.size(); ++i)
-    {
-      if (owners[i] < 0)
-      {
-        unknown.push_back(ids[i]);
-      }
-    }
-  }
-  requireKnown(ranks, unknown);
-  std::vector<Traveller> points = ranks.gather(given.Mine);
-  result.Points = named(points, given, options);
-  result.PointPrecision = given.PointPrecision;
-  for (std::size_t i = 0; !result.ByPosition && i < points.size(); ++i)
-  {
-    result.Points.pairs.emplace_back(static_cast<Index>(i), points[i].id);
-  }
-  return result;
+  std::vector<Traveller> points;
+  return gather(boundary, mesh, options, points);
 }
 }
 }

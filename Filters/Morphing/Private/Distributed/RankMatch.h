@@ -5,6 +5,8 @@
 
 #include <vtkType.h>
 
+#include <cstdint>
+#include <functional>
 #include <vector>
 
 class vtkDoubleArray;
@@ -20,7 +22,7 @@ class Ranks;
 namespace morph::filters::RankMatch
 {
 /// BoundaryMatch::Match() on all MPI processes. `boundary`: the points on this process, perhaps
-/// none. The points go to the processes that have their nodes; ids are global. Of
+/// none. All processes get all of them, 120 bytes a point, and find their nodes; ids are global. Of
 /// BoundaryMatch::Match()'s ways to find nodes it has BoundaryIdArray, MorphPointId, a moved copy
 /// of each process's piece, and positions. Returns the prescribed nodes of the local mesh, as their
 /// owners have them; Sources has 0 for a node that a point names, -1 for one that is held.
@@ -45,6 +47,19 @@ struct Gathered
   Precision PointPrecision; ///< of all processes' points, as ReadPoints() gives it
   bool ByPosition = false;
 };
+/// Where points may find their nodes.
+struct Nodes
+{
+  const morph::Mesh& Rest;
+  const morph::BoundaryFaces& Outer;                   ///< nodes and what is between them alone
+  double Size;                                         ///< of the whole mesh
+  const std::vector<std::int64_t>& Ids;                ///< #nodes, global
+  std::function<morph::Index(std::int64_t id)> NodeOf; ///< or -1
+};
+/// findTargets() of the points that find one of these nodes, whose pairs `all` has then. `rounded`:
+/// becomes the number that TakeBackRounding() gives.
+morph::BoundaryTargets TargetsOf(
+  Gathered& all, const Nodes& nodes, const BoundaryMatch::Options& options, morph::Index& rounded);
 /// Gathers the boundary. It finds ids as Match() does, and throws as that does. 120 bytes a point.
 /// Collective.
 Gathered Gather(vtkPointSet* boundary, const morph::distributed::DistributedMesh& mesh,

@@ -152,7 +152,7 @@ bool RankMesh::Take(
   }
   this->Polygons = {};
   ranks.together(
-    [&] { this->Polygons.Make(grid, this->Copy, whole->outerFaces(), &whole->orientation()); });
+    [&] { this->Polygons.Make(grid, this->Copy, whole->facesOfPiece(), &whole->orientation()); });
   this->NodeIds = std::move(nodeIds);
   this->CellIds = std::move(cellIds);
   this->Ghosts = std::move(ghosts);
@@ -201,16 +201,6 @@ const std::shared_ptr<const morph::UndeformedMesh>& RankMesh::Rest() const
   morph::UndeformedMesh::Part part;
   part.mesh = std::shared_ptr<const morph::Mesh>(this->Distributed, &whole.mesh());
   part.outer = whole.outerFaces();
-  if (whole.hasHanging()) // nodes of other pieces divide its edges, too
-  {
-    std::vector<std::pair<morph::Index, int>> places;
-    for (std::size_t f = 0; f < part.outer.cells.size(); ++f)
-    {
-      places.emplace_back(part.outer.cells[f], part.outer.sides[f]);
-    }
-    part.outer = morph::facesAt(whole.mesh(), places);
-    whole.hanging().divideEdges(part.outer);
-  }
   part.hanging = whole.hanging();
   part.needsPieces = this->Polyhedral || whole.hasHanging();
   part.size = whole.size();

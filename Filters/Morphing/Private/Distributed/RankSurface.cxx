@@ -16,7 +16,7 @@ void ExtractBoundary(vtkUnstructuredGrid* grid, vtkPolyData* output, morph::Moni
   mesh.Take(grid, 1, GridMesh::UnknownCells::Refuse, monitor);
   mesh.RequireVolumeCells();
   const morph::distributed::Ranks& ranks = mesh.Ranks();
-  const morph::BoundaryFaces& faces = mesh.Whole().outerFaces();
+  const morph::BoundaryFaces faces = mesh.Whole().facesOfPiece();
   if (ranks.sum(static_cast<morph::Index>(faces.cells.size())) == 0 && ranks.rank() == 0)
   {
     Surface::WarnOfNone(faces, monitor);

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Private/Distributed/WholeVolume.h"
 
+#include "Boundary/WallLayers.h"
 #include "Distributed/RankCommunicator.h"
-#include "Distributed/WallLayers.h"
 #include "LinearMethods/SlidingWarp.h"
 #include "Mesh/NodePartition.h"
 #include "Mesh/Polyhedra.h"
+#include "Morpher/PolyhedralMorpher.h"
 #include "Private/Distributed/RankMesh.h"
-#include "Support/Error.h"
 
 #include <algorithm>
-#include <string>
+#include <memory>
+#include <utility>
 
 namespace morph::filters
 {
@@ -19,13 +20,6 @@ using morph::distributed::DistributedMesh;
 
 namespace
 {
-/// A row of positions by the global id of its node.
-struct Record
-{
-  std::int64_t id;
-  double from[3], to[3];
-};
-
 morph::NodePartition partitionOf(const DistributedMesh& mesh, const std::vector<Index>& prescribed)
 {
   morph::NodePartition partition;
@@ -97,61 +91,44 @@ std::vector<Index> WholeVolume::ownInner(const Flags& ofPiece) const
   return points;
 }
 
-void WholeVolume::requireNoPolyhedra(const char* what) const
-{
-  if (this->Surface.Pieces().Ranks().sum(Index(morph::hasPolyhedra(this->piece()))) > 0)
-  {
-    throw morph::Error(std::string(what) +
-                       " of a mesh with polyhedra needs one MPI rank, and the mesh is distributed "
-                       "over several. Run on one.");
-  }
-}
-
 InnerPieces::Columns WholeVolume::findLayers(
   const Flags& isWall, Index most, const Flags& isLayer) const
 {
   const DistributedMesh& mesh = this->Surface.Pieces().Whole();
-  const morph::BoundaryFaces &all = this->Surface.Faces(), &own = mesh.outerFaces();
-  using Side = std::pair<std::int64_t, int>;
-  std::vector<Side> sides; // ascending, as cells are in the order of their ids
-  for (std::size_t f = 0; f < all.cells.size(); ++f)
-  {
-    sides.emplace_back(this->Surface.CellIds()[all.cells[f]], all.sides[f]);
-  }
+  const morph::UndeformedMesh& rest = *this->Surface.Pieces().Rest();
   Flags isOwnWall;
-  for (std::size_t f = 0; f < own.cells.size(); ++f)
+  for (const Index face : rest.boundary().numberOfOwn())
   {
-    const Side side(mesh.cellId(own.cells[f]), own.sides[f]);
-    isOwnWall.push_back(isWall[std::lower_bound(sides.begin(), sides.end(), side) - sides.begin()]);
+    isOwnWall.push_back(isWall[face]);
   }
-  const std::vector<std::int64_t> wallOf =
-    morph::distributed::findWallLayers(mesh, isOwnWall, most, isLayer);
-
+  const morph::WallLayers layers =
+    morph::findWallLayers(rest.mesh(), rest.outerFaces(), isOwnWall, most, isLayer, rest.all());
   struct Pair
   {
     std::int64_t node, wall;
   };
   Columns columns;
   std::vector<Pair> outer;
-  for (const Index n : mesh.outerNodes().nodes)
+  const std::vector<Index>& nodes = mesh.outerNodes().nodes;
+  for (std::size_t i = 0; i < layers.walls.size(); ++i)
   {
-    if (wallOf[n] >= 0 && mesh.owns(n))
+    const auto column = static_cast<Index>(i);
+    for (const Index* n = layers.columns.begin(column); n != layers.columns.end(column); ++n)
     {
-      outer.push_back({ mesh.nodeId(n), wallOf[n] });
+      if (std::binary_search(nodes.begin(), nodes.end(), *n))
+      {
+        outer.push_back({ mesh.nodeId(*n), layers.walls[i] });
+      }
+      else
+      {
+        columns.points.emplace_back(*n, this->Surface.Boundary().NodeOf(layers.walls[i]));
+      }
     }
   }
   for (const Pair& pair : mesh.ranks().gather(outer))
   {
-    columns.nodes.emplace_back(this->Surface.NodeOf(pair.node), this->Surface.NodeOf(pair.wall));
-  }
-  Flags isInColumn(mesh.pieceNodes(), 0);
-  for (std::size_t n = 0; n < isInColumn.size(); ++n)
-  {
-    isInColumn[n] = wallOf[n] >= 0;
-  }
-  for (const Index n : this->ownInner(isInColumn))
-  {
-    columns.points.emplace_back(n, this->Surface.NodeOf(wallOf[n]));
+    columns.nodes.emplace_back(
+      this->Surface.Boundary().NodeOf(pair.node), this->Surface.Boundary().NodeOf(pair.wall));
   }
   return columns;
 }
@@ -159,32 +136,20 @@ InnerPieces::Columns WholeVolume::findLayers(
 std::vector<Index> WholeVolume::Place(const Prescribed& given, morph::Points& places) const
 {
   const DistributedMesh& mesh = this->Surface.Pieces().Whole();
-  std::vector<std::int64_t> isFree(mesh.mesh().numberOfNodes(), 1);
+  std::vector<Index> prescribed = given.points;
   places = mesh.mesh().points;
+  places(prescribed, morph::allColumns) = given.pointPlaces;
   for (std::size_t i = 0; i < given.nodes.size(); ++i)
   {
-    const Index node = mesh.nodeOf(this->Surface.NodeIds()[given.nodes[i]]);
+    const Index node = mesh.nodeOf(this->Surface.Boundary().NodeIds[given.nodes[i]]);
     if (node >= 0)
     {
-      isFree[node] = 0;
+      prescribed.push_back(node);
       places.row(node) = given.nodePlaces.row(static_cast<Index>(i));
     }
   }
-  for (std::size_t i = 0; i < given.points.size(); ++i)
-  {
-    isFree[given.points[i]] = 0;
-    places.row(given.points[i]) = given.pointPlaces.row(static_cast<Index>(i));
-  }
-  mesh.halo().minimum(mesh.ranks(), isFree);
+  morph::distributed::RankCommunicator(mesh).spread(prescribed);
   mesh.halo().update(mesh.ranks(), places);
-  std::vector<Index> prescribed;
-  for (std::size_t n = 0; n < isFree.size(); ++n)
-  {
-    if (isFree[n] == 0)
-    {
-      prescribed.push_back(static_cast<Index>(n));
-    }
-  }
   return prescribed;
 }
 
@@ -194,33 +159,24 @@ InnerPieces::Moved WholeVolume::warp(
   const DistributedMesh& mesh = this->Surface.Pieces().Whole();
   morph::Points places;
   const std::vector<Index> prescribed = this->Place(given, places);
-  morph::FemWarp method;
-  method.prepare(mesh.mesh(), partitionOf(mesh, prescribed), monitor,
-    std::make_shared<morph::distributed::RankCommunicator>(mesh));
+  const auto processes = std::make_shared<morph::distributed::RankCommunicator>(mesh);
+  std::unique_ptr<morph::Morpher> method = std::make_unique<morph::FemWarp>();
+  if (this->anywhere(morph::hasPolyhedra(this->piece())))
+  {
+    method = morph::morpherForPolyhedra(std::move(method));
+  }
+  method->prepare(mesh.mesh(), partitionOf(mesh, prescribed), monitor, processes);
   morph::Points moved;
-  method.evaluate(places(prescribed, morph::allColumns), moved, monitor);
-  std::vector<Record> records;
+  method->evaluate(places(prescribed, morph::allColumns), moved, monitor);
+  std::vector<Index> flagged;
   for (Index n = 0; n < static_cast<Index>(ofPiece.size()); ++n)
   {
-    if (ofPiece[n] != 0 && mesh.owns(n))
+    if (ofPiece[n] != 0)
     {
-      const Eigen::RowVector3d from = mesh.mesh().points.row(n), to = moved.row(n);
-      records.push_back({ mesh.nodeId(n), { from[0], from[1], from[2] }, { to[0], to[1], to[2] } });
+      flagged.push_back(n);
     }
   }
-  records = mesh.ranks().gather(records);
-  std::sort(
-    records.begin(), records.end(), [](const Record& a, const Record& b) { return a.id < b.id; });
-  Moved result;
-  result.from.resize(static_cast<Index>(records.size()), 3);
-  result.to.resize(result.from.rows(), 3);
-  for (std::size_t i = 0; i < records.size(); ++i)
-  {
-    const auto row = static_cast<Index>(i);
-    result.from.row(row) = Eigen::Map<const Eigen::RowVector3d>(records[i].from);
-    result.to.row(row) = Eigen::Map<const Eigen::RowVector3d>(records[i].to);
-  }
-  return result;
+  return { processes->gather(mesh.mesh().points, flagged), processes->gather(moved, flagged) };
 }
 
 std::vector<morph::NodeSliding::Round> WholeVolume::slide(const Prescribed& given,
@@ -233,7 +189,7 @@ std::vector<morph::NodeSliding::Round> WholeVolume::slide(const Prescribed& give
   std::vector<std::pair<Index, Index>> local; // node of the distributed mesh, index
   for (std::size_t i = 0; i < sliding.size(); ++i)
   {
-    const Index node = mesh.nodeOf(this->Surface.NodeIds()[sliding[i]]);
+    const Index node = mesh.nodeOf(this->Surface.Boundary().NodeIds[sliding[i]]);
     if (node >= 0)
     {
       local.emplace_back(node, static_cast<Index>(i));
@@ -246,31 +202,15 @@ std::vector<morph::NodeSliding::Round> WholeVolume::slide(const Prescribed& give
   {
     nodes.push_back(node);
   }
+  const auto processes = std::make_shared<morph::distributed::RankCommunicator>(mesh);
   morph::SlidingWarp method;
-  method.prepare(mesh.mesh(), partitionOf(mesh, prescribed), monitor,
-    std::make_shared<morph::distributed::RankCommunicator>(mesh));
+  method.prepare(mesh.mesh(), partitionOf(mesh, prescribed), monitor, processes);
   const morph::NodeSliding::Surfaces ofLocal = { [&](Index i, const morph::NodeSliding::Row& x)
     { return surfaces.directions(local[i].second, x); },
     [&](Index i, const morph::NodeSliding::Row& x)
     { return surfaces.closest(local[i].second, x); } };
   const auto done = method.slide(nodes, ofLocal, limits, moved, monitor);
-  struct Place
-  {
-    Index index;
-    double x[3];
-  };
-  std::vector<Place> own;
-  for (const auto& [node, index] : local)
-  {
-    if (mesh.owns(node))
-    {
-      own.push_back({ index, { moved(node, 0), moved(node, 1), moved(node, 2) } });
-    }
-  }
-  for (const Place& place : mesh.ranks().gather(own))
-  {
-    places.row(place.index) = Eigen::Map<const Eigen::RowVector3d>(place.x);
-  }
+  places = processes->gather(moved, nodes); // in the order of the nodes' ids, as `sliding` is
   return done;
 }
 }

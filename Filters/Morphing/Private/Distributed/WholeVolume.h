@@ -8,7 +8,7 @@
 
 namespace morph::filters
 {
-/// Of the mesh whose boundary a WholeSurface is: the nodes are those of its Grid().
+/// Of the mesh whose boundary a WholeSurface is: the nodes are those of its Boundary().
 class WholeVolume : public morph::InnerPieces
 {
 public:
@@ -21,7 +21,6 @@ public:
   Flags nodeFlags(const Flags& ofPiece) const override;
   Flags anyFlags(const Flags& ofPiece) const override;
   std::vector<morph::Index> ownInner(const Flags& ofPiece) const override;
-  void requireNoPolyhedra(const char* what) const override;
   Columns findLayers(const Flags& isWall, morph::Index most, const Flags& isLayer) const override;
   Moved warp(const Prescribed& given, const Flags& ofPiece, morph::Monitor& monitor) const override;
   std::vector<morph::NodeSliding::Round> slide(const Prescribed& given,

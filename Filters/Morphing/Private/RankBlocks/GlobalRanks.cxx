@@ -2,6 +2,7 @@
 #include "Private/RankBlocks/GlobalRanks.h"
 
 #include "Support/Error.h"
+#include "Support/Lists.h"
 
 #include <vtkMPI.h>
 #include <vtkMPICommunicator.h>
@@ -40,8 +41,7 @@ std::vector<std::string> GatherTexts(
     all.emplace_back(first, last);
     first = last + 1;
   }
-  std::sort(all.begin(), all.end());
-  all.erase(std::unique(all.begin(), all.end()), all.end());
+  morph::sortUnique(all);
   return all;
 }
 }

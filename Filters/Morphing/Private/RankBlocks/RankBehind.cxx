@@ -67,7 +67,7 @@ RankBehind::RankBehind(const morph::distributed::Ranks& ranks,
       }
     }
   }
-  const std::vector<std::vector<int>> holders = places.holders(first);
+  const std::vector<std::vector<int>> holders = places.directory().holders(first);
   std::vector<std::vector<std::int64_t>> to(ranks.count());
   for (std::size_t k = 0; k < asked.size(); ++k)
   {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Private/RankBlocks/RankBlocks.h"
 
+#include "Distributed/DistributedMesh.h"
 #include "Distributed/SharedPlaces.h"
 #include "Private/Blocks/BlockCells.h"
 #include "Private/Blocks/BlockWarnings.h"
@@ -21,7 +22,6 @@
 #include <vtkUnstructuredGrid.h>
 
 #include <algorithm>
-#include <cmath>
 #include <memory>
 #include <string>
 #include <utility>
@@ -69,20 +69,14 @@ int dimensionOf(const Ranks& ranks, const std::vector<Leaves::Leaf>& leaves)
 /// The diagonal of the box around all processes' nodes.
 double sizeOf(const Ranks& ranks, vtkUnstructuredGrid* grid)
 {
-  double squares = 0;
-  double box[6] = { 1, -1, 1, -1, 1, -1 };
-  const bool isAny = grid->GetNumberOfPoints() > 0;
-  if (isAny)
+  Eigen::AlignedBox3d box;
+  if (grid->GetNumberOfPoints() > 0)
   {
-    grid->GetBounds(box);
+    double at[6];
+    grid->GetBounds(at);
+    box = { Eigen::Vector3d(at[0], at[2], at[4]), Eigen::Vector3d(at[1], at[3], at[5]) };
   }
-  for (int j = 0; j < 3; ++j)
-  {
-    const double low = ranks.minimum(isAny ? box[2 * j] : HUGE_VAL);
-    const double high = ranks.maximum(isAny ? box[2 * j + 1] : -HUGE_VAL);
-    squares += high > low ? (high - low) * (high - low) : 0;
-  }
-  return std::sqrt(squares);
+  return morph::distributed::diagonal(ranks, box);
 }
 
 std::vector<std::uint8_t> usedNodes(vtkUnstructuredGrid* grid)

@@ -199,6 +199,10 @@ void RankSets::Warn(
 
 void RankSets::Name(MergedBlocks& merged) const
 {
+  struct Mark
+  {
+    std::int64_t id, name;
+  };
   std::vector<std::string> mine;
   for (std::size_t i = 0; i < this->Mine.size(); ++i)
   {
@@ -214,7 +218,7 @@ void RankSets::Name(MergedBlocks& merged) const
     isArray[k] = merged.Grid->GetPointData()->HasArray(labels[k].c_str());
   }
   this->Ranks.sum(isArray.data(), isArray.size());
-  std::vector<SharedPlaces::Mark> marks;
+  std::vector<Mark> marks;
   std::vector<std::pair<Index, Index>> marked; // nodes and labels
   for (std::size_t i = 0; i < this->Mine.size(); ++i)
   {
@@ -234,9 +238,16 @@ void RankSets::Name(MergedBlocks& merged) const
       }
     }
   }
-  for (const auto& [node, name] : this->Places.mark(marks))
+  std::multimap<Index, Index> nodesOf;
+  for (std::size_t n = 0; n < merged.NodeIds.size(); ++n)
   {
-    marked.emplace_back(node, name);
+    nodesOf.emplace(merged.NodeIds[n], static_cast<Index>(n));
+  }
+  for (const Mark& mark : this->Places.directory().route(marks))
+  {
+    const auto [first, last] = nodesOf.equal_range(mark.id);
+    std::for_each(
+      first, last, [&](const auto& node) { marked.emplace_back(node.second, mark.name); });
   }
   BlockSets::Marks all;
   for (std::size_t k = 0; k < labels.size(); ++k)

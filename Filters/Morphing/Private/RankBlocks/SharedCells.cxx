@@ -58,11 +58,7 @@ bool areDifferent(const Ranks& ranks, const std::vector<Index>& ids)
   {
     to[rankOf(id, ranks)].push_back(id);
   }
-  std::vector<Index> met;
-  for (const std::vector<Index>& part : ranks.exchange(to))
-  {
-    met.insert(met.end(), part.begin(), part.end());
-  }
+  std::vector<Index> met = morph::distributed::joined(ranks.exchange(to));
   std::sort(met.begin(), met.end());
   const bool isTwice = std::adjacent_find(met.begin(), met.end()) != met.end();
   return ranks.sum(Index(isTwice)) == 0;
@@ -113,10 +109,7 @@ void MarkGhosts(const Ranks& ranks, const std::vector<std::int64_t>& ids,
       at = end;
     }
   }
-  for (const std::vector<Index>& part : ranks.exchange(back))
-  {
-    makeGhosts(part, grid);
-  }
+  makeGhosts(morph::distributed::joined(ranks.exchange(back)), grid);
 }
 
 std::vector<Index> Ids(const Ranks& ranks, vtkUnstructuredGrid* grid)
