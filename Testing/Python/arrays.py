@@ -175,8 +175,12 @@ class Meshes(unittest.TestCase):
                 "outside 0 to 26: cell ids 1, 3": (points, [("hexahedron", strayed)]),
                 "cube with 8 nodes": (points, [("cube", cells)]),
                 "tetra with 8 nodes": (points, [("tetra", cells)]),
-                "filters of `meshmorphing.vtk`": (points, [("quad", cells[:, :4])]),
+                "is a volume cell": (points, [("line", cells[:, :2])]),
                 "need celltypes": (points, flat),
+                "no pair of type": (points, [8, 0, 1]),
+                "points has complex or masked": (points + 1j, block),
+                "hexahedron has complex or masked": (
+                    points, [("hexahedron", numpy.ma.masked_equal(cells, 3))]),
                 "pair of type and array": (points, [cells]),
                 "at nodes 0, 1": (points + 1e60, block),
                 "cell 8 of 9": (points, flat, numpy.full(9, HEXAHEDRON)),
@@ -188,6 +192,81 @@ class Meshes(unittest.TestCase):
                 "closed": (points, [("polyhedron8", [faces_of(cells[0])[:5]])])}.items():
             with self.subTest(text), self.assertRaisesRegex(ValueError, text):
                 mm.Mesh(*arguments)
+
+
+class PointsOfNoCell(unittest.TestCase):
+    def test_may_be_nan_and_stay(self):
+        points, cells = cube(3)
+        blocks = [("hexahedron", cells + 1)]
+        mesh = mm.Mesh(numpy.vstack([[numpy.nan] * 3, points]), blocks)
+        prepared = mm.FEMWARP().prepare(mesh, mesh.boundary.nodes)
+        moved = prepared.evaluate(targets=mesh.points[prepared.nodes] @ AFFINE)
+        self.assertTrue(numpy.isnan(moved[0]).all())
+        self.assertLess(abs(moved[1:] - points @ AFFINE).max(), 1e-10)
+        self.assertEqual(mm.quality(mesh, moved).inverted, 0)
+        self.assertTrue((mm.repair(mesh, moved, prepared.nodes)[1:] == moved[1:]).all())
+        self.assertTrue(numpy.isfinite(prepared.adjoint(moved - mesh.points)).all())
+
+
+class Faces(unittest.TestCase):
+    """Plane meshes and shells."""
+    TYPES = {"triangle": lambda quads: numpy.vstack([quads[:, :3], quads[:, [0, 2, 3]]]),
+             "quad": lambda quads: quads}
+
+    def square(self, kind, shape=lambda x, y: 0 * x):
+        points, cells = cube()
+        front = points[:, 2] == 0
+        points = points[front]
+        quads = (numpy.cumsum(front) - 1)[cells[front[cells[:, 0]]][:, :4]]
+        points[:, 2] = shape(*points[:, :2].T)
+        return mm.Mesh(points, [(kind, self.TYPES[kind](quads))])
+
+    def test_edges_are_the_boundary(self):
+        mesh = self.square("quad")
+        self.assertEqual(mesh.points.shape, (49, 3))
+        self.assertTrue((numpy.diff(mesh.boundary.offsets) == 2).all())
+        self.assertEqual((len(mesh.boundary.cells), mesh.boundary.nodes.max()), (24, 48))
+        surfaces = mesh.surfaces()
+        self.assertEqual([len(s.faces) for s in surfaces], [6] * 4)
+        self.assertTrue(numpy.allclose([s.area for s in surfaces], 1))
+        self.assertEqual([len(s.nodes) for s in surfaces], [7] * 4)
+
+    def test_linear_methods_are_exact_and_have_an_adjoint(self):
+        for shape in (lambda x, y: 0 * x, lambda x, y: x**2 - y**2 + x * y):
+            for kind in self.TYPES:
+                mesh = self.square(kind, shape)
+                nodes = mesh.boundary.nodes[::-1]
+                is_plane = mesh.points[:, 2].any() == 0
+                for method in LINEAR if is_plane else (mm.FEMWARP, mm.LBWARP, mm.RadialBasis):
+                    with self.subTest(method.__name__, kind=kind, plane=is_plane):
+                        prepared = method().prepare(mesh, nodes)
+                        moved = prepared.evaluate(targets=mesh.points[nodes] @ AFFINE)
+                        self.assertLess(abs(moved - mesh.points @ AFFINE).max(), 1e-9)
+                        motion, gradient = bend(mesh.points[nodes]), bend(mesh.points, 1)
+                        motion[:, 2] *= not is_plane
+                        gradient[:, 2] *= not is_plane
+                        change = prepared.evaluate(motion) - mesh.points
+                        self.assertAlmostEqual((prepared.adjoint(gradient) * motion).sum(),
+                                               (gradient * change).sum(), delta=1e-7)
+
+    def test_a_fold_is_inverted_and_repaired(self):
+        mesh = self.square("quad")
+        moved = mesh.points.copy()
+        inside = numpy.setdiff1d(numpy.arange(49), mesh.boundary.nodes)[0]
+        moved[inside] += [0.4, 0.3, 0]
+        self.assertGreater(mm.quality(mesh, moved).inverted, 0)
+        repaired = mm.repair(mesh, moved, mesh.boundary.nodes)
+        self.assertEqual(mm.quality(mesh, repaired).inverted, 0)
+        self.assertLess(abs(repaired[:, 2]).max(), 1e-12)
+
+    def test_a_lid_leaves_its_plane(self):
+        mesh = self.square("triangle")
+        side = mesh.surfaces()[0].nodes
+        moved = mm.morph(mesh, side, numpy.full((len(side), 3), [0, 0, 0.3]))
+        self.assertTrue((moved[side, 2] == 0.3).all())
+        self.assertTrue(0.01 < moved[24, 2] < 0.29)
+        with self.assertRaisesRegex(ValueError, r"no nodes 49: ids go from 0 to 48"):
+            mm.morph(mesh, [49], [[0, 0, 0]])
 
 
 class Methods(unittest.TestCase):
