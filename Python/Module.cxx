@@ -30,6 +30,7 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cmath>
 #include <exception>
 #include <functional>
 #include <memory>
@@ -346,7 +347,7 @@ morph::CellStiffness stiffnessOf(const py::dict& options, const Mesh& mesh)
   }
   if (!options["wall_array"].is_none())
   {
-    const auto marks = options["wall_array"].cast<py::array_t<bool>>();
+    const auto marks = options["wall_array"].cast<py::array_t<double>>();
     if (marks.size() != nodes)
     {
       throw morph::Error("wall_array has " + std::to_string(marks.size()) +
@@ -354,7 +355,12 @@ morph::CellStiffness stiffnessOf(const py::dict& options, const Mesh& mesh)
     }
     for (Index node = 0; node < nodes; ++node)
     {
-      if (marks.at(node))
+      if (std::isnan(marks.at(node)))
+      {
+        throw morph::Error("wall_array is NaN at node " + std::to_string(node) +
+                           ". Give 0, or another number for a wall.");
+      }
+      if (marks.at(node) != 0)
       {
         stiffness.walls.push_back(node);
       }

@@ -32,6 +32,9 @@ class MorphError(RuntimeError):
         self.points = points
         self.cells = cells
 
+    def __reduce__(self) -> tuple[type, tuple[str, Floats, Ids]]:
+        return type(self), (str(self), self.points, self.cells)  # from another process
+
 
 class MorphWarning(UserWarning):
     """What is odd about a mesh, a motion or a result."""
@@ -206,7 +209,7 @@ def _from_flat(cells: Ids, types: Ids) -> _Cells:
         place += row[place] + 1
     if place != len(row):
         raise ValueError(f"cells has {len(row)} numbers; {len(types)} cells have {place}.")
-    ends = [*(start - 1 for start in starts[1:]), place]
+    ends = [start - 1 for start in starts[1:]] + [place] * bool(starts)
     if not (types == _POLYHEDRON).any():
         offsets = numpy.array([0, *ends]) - numpy.arange(len(types) + 1)
         return _Cells(offsets, numpy.delete(cells, numpy.array(starts, int) - 1), types)
@@ -301,6 +304,11 @@ class Mesh(_core.Mesh):
         return f"<Mesh of {len(self.points)} nodes and {len(self.types)} cells>"
 
 
+def _require(value: Any, kind: type, what: str) -> None:
+    if not isinstance(value, kind):
+        raise TypeError(f"{what} is a {type(value).__name__}; a {kind.__name__} is needed.")
+
+
 class Prepared:
     """A method prepared for a mesh and the nodes that move it, by Method.prepare().
 
@@ -366,11 +374,12 @@ class Method:
         elif kind == "array":
             value = None if value is None else numpy.array(value, dtype=numpy.float64).ravel()
         else:
-            number = int(value) if kind == "integer" else float(value)
-            if not low <= number <= high or number != value:
-                raise ValueError(f"{name} is {value}; a {'whole ' if kind == 'integer' else ''}"
-                                 f"number from {low} to {high} is needed.")
-            value = number
+            number = float(value)
+            is_whole = kind == "integer"
+            if not low <= number <= high or number != value or (is_whole and number % 1):
+                raise ValueError(f"{name} is {value}; a {'whole ' if is_whole else ''}"
+                                 f"number from {low:.10g} to {high:.10g} is needed.")
+            value = int(number) if is_whole else number
         object.__setattr__(self, name, value)
 
     def __repr__(self) -> str:
@@ -388,6 +397,7 @@ class Method:
         Raises ValueError for ids that do not exist or occur twice, and RuntimeError for nodes that
         do not determine a motion, such as none on one of several bodies.
         """
+        _require(mesh, Mesh, "mesh")
         options = {name: [_plain(choice) for choice in low].index(_plain(getattr(self, name)))
                    if kind == "choice" else getattr(self, name)
                    for name, (kind, low, _) in self._OPTIONS.items()}
@@ -405,6 +415,7 @@ def quality(mesh: Mesh, points: Optional[ArrayLike] = None) -> Quality:
     A body whose cells are all in the mirrored order counts as valid. Cost: 0.1 microseconds a cell,
     5 for a quadratic one.
     """
+    _require(mesh, Mesh, "mesh")
     return Quality(*mesh._quality(
         mesh.points if points is None else _points(points, "points", mesh.points)))
 
@@ -419,6 +430,7 @@ def repair(mesh: Mesh, points: ArrayLike, nodes: ArrayLike, *,
     points found and the ids. Cost: that of quality() if none is inverted; at most some minutes a
     million cells.
     """
+    _require(mesh, Mesh, "mesh")
     start = _points(points, "points", mesh.points)
     repaired, inverted, determined = mesh._repair(start, _ids(nodes, "nodes"),
                                                   fix_unnamed_boundary)
@@ -448,8 +460,9 @@ def morph(mesh: Mesh, nodes: ArrayLike, displacements: Optional[ArrayLike] = Non
     repair: repairs inverted cells. Off: raises MorphError if there are some.
     """
     from ._methods import FEMWARP
-    prepared = (method or FEMWARP()).prepare(mesh, nodes,
-                                             fix_unnamed_boundary=fix_unnamed_boundary)
+    method = FEMWARP() if method is None else method
+    _require(method, Method, "method")
+    prepared = method.prepare(mesh, nodes, fix_unnamed_boundary=fix_unnamed_boundary)
     moved = prepared.evaluate(displacements, targets=targets)
     if repair:
         return _repair(mesh, moved, prepared.nodes, fix_unnamed_boundary=fix_unnamed_boundary)

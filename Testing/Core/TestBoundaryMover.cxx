@@ -169,7 +169,7 @@ TEST(BoundaryMover, NodesBetweenCornersStayOnEdgesOfLinearCells)
   for (Index c = 0; c < all.numberOfCells(); ++c)
   {
     const bool isLinear = all.points(all.cell(c)[1], 0) <= 2;
-    meshes::add(mesh, isLinear ? morph::Hexahedron : all.types[c],
+    meshes::add(mesh, isLinear ? std::uint8_t(morph::Hexahedron) : all.types[c],
       { all.cell(c), all.cell(c) + (isLinear ? 8 : 20) });
   }
   const BoundaryModel model = modelOf(mesh);

@@ -4,6 +4,7 @@
 Run: PYTHONPATH=<folder of meshmorphing> MESHMORPHING_MODELS=<small models> python3 arrays.py
 """
 import os
+import pickle
 import re
 import shutil
 import signal
@@ -177,7 +178,7 @@ class Meshes(unittest.TestCase):
                 "tetra with 8 nodes": (points, [("tetra", cells)]),
                 "is a volume cell": (points, [("line", cells[:, :2])]),
                 "need celltypes": (points, flat),
-                "no pair of type": (points, [8, 0, 1]),
+                "offsets has the shape": (points, [8, 0, 1]),
                 "points has complex or masked": (points + 1j, block),
                 "hexahedron has complex or masked": (
                     points, [("hexahedron", numpy.ma.masked_equal(cells, 3))]),
@@ -185,6 +186,7 @@ class Meshes(unittest.TestCase):
                 "at nodes 0, 1": (points + 1e60, block),
                 "cell 8 of 9": (points, flat, numpy.full(9, HEXAHEDRON)),
                 "7 cells have 63": (points, flat, types[:7]),
+                "has no cells": (points, [], []),
                 "whole numbers": (points, flat.astype(float), types),
                 "polyhedron 0 is no stream": (points, flat, numpy.full(8, 42)),
                 "faces of polyhedra are missing: cells 0, 1": (
@@ -236,12 +238,13 @@ class Faces(unittest.TestCase):
             for kind in self.TYPES:
                 mesh = self.square(kind, shape)
                 nodes = mesh.boundary.nodes[::-1]
-                is_plane = mesh.points[:, 2].any() == 0
+                is_plane = not mesh.points[:, 2].any()
+                affine = AFFINE * [1, 1, not is_plane]
                 for method in LINEAR if is_plane else (mm.FEMWARP, mm.LBWARP, mm.RadialBasis):
                     with self.subTest(method.__name__, kind=kind, plane=is_plane):
                         prepared = method().prepare(mesh, nodes)
-                        moved = prepared.evaluate(targets=mesh.points[nodes] @ AFFINE)
-                        self.assertLess(abs(moved - mesh.points @ AFFINE).max(), 1e-9)
+                        moved = prepared.evaluate(targets=mesh.points[nodes] @ affine)
+                        self.assertLess(abs(moved - mesh.points @ affine).max(), 1e-9)
                         motion, gradient = bend(mesh.points[nodes]), bend(mesh.points, 1)
                         motion[:, 2] *= not is_plane
                         gradient[:, 2] *= not is_plane
@@ -369,7 +372,10 @@ class Methods(unittest.TestCase):
         for text, make in {
                 "no value 'soft'; there are Uniform": lambda: mm.FEMWARP(stiffness="soft"),
                 "from 0 to 4": lambda: mm.FEMWARP(stiffness_exponent=5),
-                "whole number": lambda: mm.WeightedResidual(number_of_neighbors=2.5),
+                "whole number from 1 to": lambda: mm.WeightedResidual(number_of_neighbors=2.5),
+                "is inf; a whole": lambda: mm.WeightedResidual(number_of_neighbors=numpy.inf),
+                "wall_array is NaN at node 0": lambda: mm.FEMWARP(
+                    wall_array=numpy.full(343, numpy.nan)).prepare(mesh, nodes),
                 "wall_array has 3": lambda: mm.FEMWARP(
                     stiffness="Wall distance", wall_array=[1, 0, 0]).prepare(mesh, nodes)}.items():
             with self.subTest(text), self.assertRaisesRegex(ValueError, text):
@@ -397,6 +403,15 @@ class Methods(unittest.TestCase):
                 call()
         with self.assertRaises(TypeError):
             prepared.evaluate()
+        for text, call in {
+                "mesh is a NoneType": lambda: mm.FEMWARP().prepare(None, nodes),
+                "mesh is a ndarray": lambda: mm.quality(mesh.points),
+                "mesh is a tuple": lambda: mm.repair((), mesh.points, nodes),
+                "method is a str": lambda: mm.morph(mesh, nodes, motion, method="FEMWARP"),
+                "method is a type": lambda: mm.morph(mesh, nodes, motion,
+                                                     method=mm.FEMWARP)}.items():
+            with self.subTest(text), self.assertRaisesRegex(TypeError, text):
+                call()
         with self.assertRaises((ValueError, RuntimeError)):
             mm.FEMWARP().prepare(mesh, [], fix_unnamed_boundary=False)
 
@@ -454,6 +469,9 @@ class Validity(unittest.TestCase):
         with self.assertRaisesRegex(mm.MorphError, "repair=True") as caught:
             mm.morph(mesh, nodes, motion, method=mm.WeightedResidual(), repair=False)
         self.assertGreater(len(caught.exception.cells), 0)
+        again = pickle.loads(pickle.dumps(caught.exception))
+        self.assertEqual((str(again), len(again.cells)),
+                         (str(caught.exception), len(caught.exception.cells)))
         moved = caught.exception.points
         self.assertEqual(moved.shape, mesh.points.shape)
         everything = numpy.arange(len(moved))
