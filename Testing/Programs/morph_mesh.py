@@ -519,6 +519,14 @@ class MorphMesh(unittest.TestCase):
         self.assertGreater(report["after"]["Skewness"]["worst"], 0)
         self.fails(2, "--report is of a morph", "check", "--report", "x.json", BORE)
 
+    def test_what_morphs_nothing_takes_no_motion(self):
+        for command in ("list", "check", "extract"):
+            files = [BORE] + ([self.folder / "out.vtp"] if command == "extract" else [])
+            self.fails(2, "no effect: --move=Surface 1 --translate=0,0,0.2.", command, "--move",
+                       "Surface 1", "--translate", "0,0,0.2", *files)
+            self.fails(2, "no effect", command, "--target", self.boundary, *files)
+        self.assertFalse((self.folder / "out.vtp").exists())
+
     def test_no_file_of_a_run_takes_the_place_of_another(self):
         grid, out = self.folder / "part.vtu", self.folder / "out.vtu"
         original = Path(BORE).read_bytes()
