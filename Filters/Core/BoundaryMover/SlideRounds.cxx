@@ -108,7 +108,8 @@ void SlideRounds::prepare(const BoundaryModel& model, const std::vector<Index>& 
   }
   if (hasPolyhedra(mesh))
   {
-    throw Error("`SlideRounds` does not know polyhedra, and the mesh has some. Set it to 0.");
+    throw Error("`SlideRounds` does not know polyhedra, and the mesh has some, or hexahedra that "
+                "name a node more than once. Set it to 0.");
   }
   std::vector<Index> prescribed;
   for (const Index node : InnerNodes::prescribed(model, result))
