@@ -12,6 +12,7 @@
 #include "Mesh/CellShape.h"
 #include "Mesh/CollapsedCells.h"
 #include "Mesh/NodePartition.h"
+#include "Mesh/ShellLayer.h"
 #include "Quality/BoundaryDetermined.h"
 #include "Quality/ScaledJacobian.h"
 #include "Session/Session.h"
@@ -29,6 +30,7 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cmath>
 #include <exception>
 #include <functional>
 #include <memory>
@@ -159,15 +161,52 @@ py::array_t<Value> arrayOf(const std::vector<Value>& values)
 
 using Mesh = morph::UndeformedMesh;
 
+/// The nodes that the caller knows: those of the front of a layer, which faces are made into.
+Index nodesOf(const Mesh& mesh)
+{
+  const morph::ShellLayer& layer = mesh.mesh().layer;
+  return layer.nodes > 0 ? layer.nodes : mesh.mesh().numberOfNodes();
+}
+
+/// The others left out.
+Ids knownOf(const Mesh& mesh, Ids nodes)
+{
+  const Index count = nodesOf(mesh);
+  nodes.erase(
+    std::remove_if(nodes.begin(), nodes.end(), [count](Index node) { return node >= count; }),
+    nodes.end());
+  return nodes;
+}
+
+/// Calls use(all points) where those that the caller knows are `points`.
+template <typename Use>
+auto withAll(const Mesh& mesh, const ConstPoints& points, const Use& use)
+{
+  return mesh.mesh().layer.nodes > 0 ? use(morph::layerBehind(mesh.mesh(), points)) : use(points);
+}
+
 void requireNodes(const Mesh& mesh, const Ids& nodes)
 {
   Ids wrong;
   std::copy_if(nodes.begin(), nodes.end(), std::back_inserter(wrong),
-    [&](Index node) { return node < 0 || node >= mesh.mesh().numberOfNodes(); });
+    [&](Index node) { return node < 0 || node >= nodesOf(mesh); });
   if (!wrong.empty())
   {
     throw morph::Error("The mesh has no nodes " + morph::listIds(wrong) + ": ids go from 0 to " +
-                       std::to_string(mesh.mesh().numberOfNodes() - 1) + ".");
+                       std::to_string(nodesOf(mesh) - 1) + ".");
+  }
+  Ids sorted = nodes, twice;
+  std::sort(sorted.begin(), sorted.end());
+  for (std::size_t i = 1; i < sorted.size(); ++i)
+  {
+    if (sorted[i] == sorted[i - 1])
+    {
+      twice.push_back(sorted[i]);
+    }
+  }
+  if (!twice.empty())
+  {
+    throw morph::Error("Nodes are named more than once: " + morph::listIds(twice) + ".");
   }
 }
 
@@ -194,8 +233,7 @@ std::shared_ptr<Mesh> makeMesh(const ConstPoints& points, const py::array_t<std:
       };
       if (has(2) && !has(3))
       {
-        throw morph::Error("The mesh has faces alone. Plane meshes and shells are morphed by the "
-                           "filters of `meshmorphing.vtk`, and not as arrays.");
+        mesh = morph::thicken(mesh);
       }
       morph::recognizeCells(mesh, monitor);
       auto made = std::make_shared<Mesh>(std::move(mesh), nullptr, monitor);
@@ -203,17 +241,50 @@ std::shared_ptr<Mesh> makeMesh(const ConstPoints& points, const py::array_t<std:
       morph::Session session;
       session.setMesh(made);
       morph::Session::Options options;
-      options.measureAll = false; // quality() is for that
+      options.validity = morph::Validity::Mode::None; // quality() is for that
       session.reportMesh(options, monitor);
       return made;
     });
+}
+
+/// The faces of the boundary; of a plane mesh or shell its edges. Offsets, and the nodes.
+std::pair<Ids, Ids> facesOf(const Mesh& mesh)
+{
+  const morph::BoundaryFaces& faces = mesh.outerFaces();
+  std::pair<Ids, Ids> result{ { 0 }, {} };
+  for (std::size_t f = 0; f < faces.cells.size(); ++f)
+  {
+    const Ids known = knownOf(mesh, Ids(faces.connectivity.begin() + faces.offsets[f],
+                                      faces.connectivity.begin() + faces.offsets[f + 1]));
+    result.second.insert(result.second.end(), known.begin(), known.end());
+    result.first.push_back(static_cast<Index>(result.second.size()));
+  }
+  return result;
+}
+
+/// Their areas, or lengths.
+Eigen::VectorXd sizesOf(const Mesh& mesh)
+{
+  const Points& points = mesh.mesh().points;
+  if (mesh.mesh().layer.nodes == 0)
+  {
+    return morph::faceAreas(points, mesh.outerFaces()).rowwise().norm();
+  }
+  const auto [offsets, ends] = facesOf(mesh);
+  Eigen::VectorXd lengths(offsets.size() - 1);
+  for (Index edge = 0; edge < lengths.size(); ++edge)
+  {
+    lengths[edge] =
+      (points.row(ends[offsets[edge]]) - points.row(ends[offsets[edge + 1] - 1])).norm();
+  }
+  return lengths;
 }
 
 /// Of each surface: its id, faces, nodes and area.
 py::list surfacesOf(const Mesh& mesh, double featureAngle, double cornerAngle)
 {
   morph::Classification geometry;
-  Eigen::VectorXd areas;
+  Eigen::VectorXd sizes;
   unlocked(
     [&](Monitor& monitor)
     {
@@ -221,7 +292,7 @@ py::list surfacesOf(const Mesh& mesh, double featureAngle, double cornerAngle)
       options.featureAngle = featureAngle;
       options.cornerAngle = cornerAngle;
       geometry = morph::classify(mesh.mesh(), mesh.outerFaces(), options, monitor);
-      areas = morph::faceAreas(mesh.mesh().points, mesh.outerFaces()).rowwise().norm();
+      sizes = sizesOf(mesh);
     });
   py::list result;
   for (const morph::GeometrySurface& surface : geometry.surfaces)
@@ -229,17 +300,23 @@ py::list surfacesOf(const Mesh& mesh, double featureAngle, double cornerAngle)
     double area = 0;
     for (const Index face : surface.faces)
     {
-      area += areas[face];
+      area += sizes[face];
     }
-    result.append(py::make_tuple(surface.id, arrayOf(surface.faces), arrayOf(surface.nodes), area));
+    result.append(py::make_tuple(
+      surface.id, arrayOf(surface.faces), arrayOf(knownOf(mesh, surface.nodes)), area));
   }
   return result;
 }
 
 morph::Quality measure(const Mesh& mesh, const ConstPoints& points)
 {
-  return unlocked([&](Monitor& monitor)
-    { return morph::measureQuality(mesh.mesh(), points, mesh.orientation(), {}, monitor); });
+  return unlocked(
+    [&](Monitor& monitor)
+    {
+      return withAll(mesh, points,
+        [&](const ConstPoints& all)
+        { return morph::measureQuality(mesh.mesh(), all, mesh.orientation(), {}, monitor); });
+    });
 }
 
 // ----------------------------------------------------------------------------------- methods
@@ -258,8 +335,9 @@ MakeMethod maker(const SetUp& setUp)
 }
 
 /// FEMWARP's stiffness, by the options' names.
-morph::CellStiffness stiffnessOf(const py::dict& options, Index nodes)
+morph::CellStiffness stiffnessOf(const py::dict& options, const Mesh& mesh)
 {
+  const Index nodes = nodesOf(mesh);
   morph::CellStiffness stiffness;
   stiffness.kind = static_cast<morph::CellStiffness::Kind>(options["stiffness"].cast<int>());
   stiffness.exponent = options["stiffness_exponent"].cast<double>();
@@ -269,7 +347,7 @@ morph::CellStiffness stiffnessOf(const py::dict& options, Index nodes)
   }
   if (!options["wall_array"].is_none())
   {
-    const auto marks = options["wall_array"].cast<py::array_t<bool>>();
+    const auto marks = options["wall_array"].cast<py::array_t<double>>();
     if (marks.size() != nodes)
     {
       throw morph::Error("wall_array has " + std::to_string(marks.size()) +
@@ -277,10 +355,20 @@ morph::CellStiffness stiffnessOf(const py::dict& options, Index nodes)
     }
     for (Index node = 0; node < nodes; ++node)
     {
-      if (marks.at(node))
+      if (std::isnan(marks.at(node)))
+      {
+        throw morph::Error("wall_array is NaN at node " + std::to_string(node) +
+                           ". Give 0, or another number for a wall.");
+      }
+      if (marks.at(node) != 0)
       {
         stiffness.walls.push_back(node);
       }
+    }
+    const std::size_t known = mesh.mesh().layer.nodes > 0 ? stiffness.walls.size() : 0;
+    for (std::size_t k = 0; k < known; ++k)
+    {
+      stiffness.walls.push_back(stiffness.walls[k] + nodes);
     }
     stiffness.areWallsGlobal = false;
     stiffness.noWalls = "wall_array is zero at all nodes.";
@@ -290,14 +378,14 @@ morph::CellStiffness stiffnessOf(const py::dict& options, Index nodes)
 
 /// Makes the method of this name, with options by the names of the properties; choices are numbers.
 /// As the filters make it.
-MakeMethod makerOf(const std::string& name, const py::dict& options, Index nodes)
+MakeMethod makerOf(const std::string& name, const py::dict& options, const Mesh& mesh)
 {
   const auto number = [&](const char* option) { return options[option].cast<double>(); };
   const auto integer = [&](const char* option) { return options[option].cast<int>(); };
   if (name == "FEMWARP")
   {
     return maker<morph::FemWarp>(
-      [stiffness = stiffnessOf(options, nodes), tolerance = number("tolerance")](auto& method)
+      [stiffness = stiffnessOf(options, mesh), tolerance = number("tolerance")](auto& method)
       {
         method.setStiffness(stiffness);
         method.setTolerance(tolerance);
@@ -364,14 +452,17 @@ MakeMethod makerOf(const std::string& name, const py::dict& options, Index nodes
 
 /// The nodes of the boundary that stay beside `named` ones. A node between corners follows its
 /// cell if one of them is named: edges would bend where corners alone are.
-Ids heldNodes(const morph::BoundaryFaces& faces, const std::vector<bool>& isNamed)
+Ids heldNodes(const Mesh& mesh, const std::vector<std::uint8_t>& isNamed)
 {
+  const morph::BoundaryFaces& faces = mesh.outerFaces();
   Ids held;
   for (std::size_t i = 0; i < faces.nodes.size(); ++i)
   {
     const auto k = static_cast<Index>(i);
-    if (!isNamed[faces.nodes[i]] && std::none_of(faces.between.begin(k), faces.between.end(k),
-                                      [&](Index corner) { return isNamed[corner]; }))
+    const bool isAcross = mesh.mesh().layer.nodes > 0 && faces.nodes[i] >= 2 * nodesOf(mesh);
+    if (isNamed[faces.nodes[i]] == 0 && !isAcross &&
+        std::none_of(faces.between.begin(k), faces.between.end(k),
+          [&](Index corner) { return isNamed[corner] != 0; }))
     {
       held.push_back(faces.nodes[i]);
     }
@@ -379,34 +470,35 @@ Ids heldNodes(const morph::BoundaryFaces& faces, const std::vector<bool>& isName
   return held;
 }
 
-/// The nodes that the caller names and, with `fixesOthers`, the rest of the boundary.
+/// The nodes that the caller names and, with `fixesOthers`, the rest of the boundary. In a layer
+/// their images, too.
 struct Prescribed
 {
   Ids named;
-  Ids all;  ///< ascending
-  Ids rows; ///< #named, its row in `all`
+  Ids all; ///< ascending
 
   Prescribed(const Mesh& mesh, Ids ids, bool fixesOthers)
     : named(std::move(ids))
     , all(named)
   {
     requireNodes(mesh, this->named);
-    std::vector<bool> isNamed(mesh.mesh().numberOfNodes());
+    std::vector<std::uint8_t> isNamed(mesh.mesh().numberOfNodes());
     for (const Index node : this->named)
     {
-      isNamed[node] = true;
+      isNamed[node] = 1;
+    }
+    if (mesh.mesh().layer.nodes > 0)
+    {
+      morph::markImages(mesh.mesh().layer, isNamed);
+      std::transform(this->named.begin(), this->named.end(), std::back_inserter(this->all),
+        [&](Index node) { return node + nodesOf(mesh); });
     }
     if (fixesOthers)
     {
-      const Ids held = heldNodes(mesh.outerFaces(), isNamed);
+      const Ids held = heldNodes(mesh, isNamed);
       this->all.insert(this->all.end(), held.begin(), held.end());
     }
     std::sort(this->all.begin(), this->all.end());
-    for (const Index node : this->named)
-    {
-      const auto row = std::lower_bound(this->all.begin(), this->all.end(), node);
-      this->rows.push_back(row - this->all.begin());
-    }
   }
 };
 
@@ -430,27 +522,47 @@ public:
   /// `positions`: of the nodes, #named x 3; displacements if `isRelative`.
   Points evaluate(const ConstPoints& positions, bool isRelative, Monitor& monitor)
   {
-    morph::BoundaryTargets boundary;
-    boundary.ids = this->prescribed_.all;
-    boundary.targets = this->session_.mesh().mesh().points(boundary.ids, morph::allColumns);
-    const Ids& rows = this->prescribed_.rows;
-    for (std::size_t i = 0; i < rows.size(); ++i)
+    const Mesh& mesh = this->session_.mesh();
+    morph::NamedPoints named;
+    for (std::size_t i = 0; i < this->prescribed_.named.size(); ++i)
     {
-      auto target = boundary.targets.row(rows[i]);
-      const auto given = positions.row(static_cast<Index>(i));
-      target = isRelative ? Eigen::RowVector3d(target + given) : Eigen::RowVector3d(given);
+      named.pairs.emplace_back(static_cast<Index>(i), this->prescribed_.named[i]);
     }
+    named.positions = positions;
+    if (isRelative)
+    {
+      named.displacements = positions;
+    }
+    morph::TargetOptions options;
+    options.fixUnnamedBoundary = false; // they are in prescribed_.all
+    morph::BoundaryTargets boundary =
+      morph::findTargets(std::move(named), mesh.mesh(), mesh.outerFaces(), mesh.size(), options);
+    Points places = mesh.mesh().points;
+    places(boundary.ids, morph::allColumns) = boundary.targets;
+    boundary.ids = this->prescribed_.all;
+    boundary.targets = places(boundary.ids, morph::allColumns);
     const std::lock_guard<std::mutex> turn(this->mutex_);
     const auto step = this->session_.morph(boundary, this->options_, monitor);
     morph::warnOfLoose(step->loose, monitor);
+    step->moved.conservativeResize(nodesOf(mesh), 3);
     return std::move(step->moved);
   }
 
   Points adjoint(const ConstPoints& gradient, Monitor& monitor)
   {
+    const Mesh& mesh = this->session_.mesh();
+    const Index count = nodesOf(mesh);
+    Points own = Points::Zero(mesh.mesh().numberOfNodes(), 3), all = own;
+    own.topRows(count) = gradient;
+    const Ids &ids = this->prescribed_.all, &named = this->prescribed_.named;
     const std::lock_guard<std::mutex> turn(this->mutex_);
-    return this->session_.transpose(this->prescribed_.all, gradient, this->options_, monitor)(
-      this->prescribed_.rows, morph::allColumns);
+    all(ids, morph::allColumns) =
+      this->session_.transpose(ids, std::move(own), this->options_, monitor);
+    if (mesh.mesh().layer.nodes > 0) // both images of a node move alike
+    {
+      all.topRows(count) += all.middleRows(count, count).eval();
+    }
+    return all(named, morph::allColumns);
   }
 
   py::array_t<Index> nodes() const { return arrayOf(this->prescribed_.named); }
@@ -464,7 +576,7 @@ private:
 
 // ------------------------------------------------------------------------------------ repair
 
-/// The cells that a motion inverts, ascending.
+/// The cells that a motion inverts, ascending. `points`: of all nodes.
 Ids invertedBy(const Mesh& mesh, const ConstPoints& points, Monitor& monitor)
 {
   return mesh.before(monitor).added(
@@ -482,19 +594,24 @@ Repaired repair(
   const Mesh& mesh, const ConstPoints& points, const Ids& nodes, bool fixesOthers, Monitor& monitor)
 {
   const Ids ids = mesh.hanging().without(Prescribed(mesh, nodes, fixesOthers).all);
-  const morph::NodePartition partition = morph::partitionNodes(mesh.mesh(), mesh.hanging(), ids);
-  const Points targets = points(ids, morph::allColumns);
-  const morph::Validity validity{ morph::Validity::Mode::Repair, 0, mesh.mesh(), mesh.mesh().points,
+  const bool leaves = morph::leavesPlane(mesh.mesh(), points);
+  const morph::Mesh curved = leaves ? morph::bent(mesh.mesh()) : morph::Mesh();
+  const morph::Mesh& rest = leaves ? curved : mesh.mesh();
+  const morph::NodePartition partition = morph::partitionNodes(rest, mesh.hanging(), ids);
+  Repaired result;
+  result.points = withAll(mesh, points, [](const ConstPoints& all) { return Points(all); });
+  const Points targets = result.points(ids, morph::allColumns);
+  const morph::Validity validity{ morph::Validity::Mode::Repair, 0, rest, rest.points,
     mesh.before(monitor), partition, mesh.orientation(), targets, mesh.outerFaces(), mesh.hanging(),
     false, {} };
-  Repaired result;
-  result.points = points;
   if (!validity.repair(result.points, monitor))
   {
     result.inverted = invertedBy(mesh, result.points, monitor);
-    result.determined = validity.before.without(morph::boundaryDeterminedInversions(
-      mesh.mesh(), partition, mesh.orientation(), result.points));
+    result.determined = validity.before.without(
+      morph::boundaryDeterminedInversions(rest, partition, mesh.orientation(), result.points));
   }
+  morph::keepInPlane(rest, partition.free, result.points);
+  result.points.conservativeResize(nodesOf(mesh), 3);
   return result;
 }
 
@@ -531,15 +648,15 @@ PYBIND11_MODULE(_core, module)
   py::class_<Mesh, std::shared_ptr<Mesh>>(module, "Mesh")
     .def(py::init(&makeMesh))
     .def_property_readonly(
-      "points", [](const Mesh& mesh) -> const Points& { return mesh.mesh().points; },
+      "points",
+      [](const Mesh& mesh) { return ConstPoints(mesh.mesh().points.topRows(nodesOf(mesh))); },
       py::return_value_policy::reference_internal)
-    .def_property_readonly("types", [](const Mesh& mesh) { return arrayOf(mesh.mesh().types); })
     .def("_boundary",
       [](const Mesh& mesh)
       {
-        const morph::BoundaryFaces& faces = mesh.outerFaces();
-        return py::make_tuple(arrayOf(faces.offsets), arrayOf(faces.connectivity),
-          arrayOf(faces.cells), arrayOf(faces.nodes));
+        const auto [offsets, connectivity] = facesOf(mesh);
+        return py::make_tuple(arrayOf(offsets), arrayOf(connectivity),
+          arrayOf(mesh.outerFaces().cells), arrayOf(knownOf(mesh, mesh.outerFaces().nodes)));
       })
     .def("_surfaces", &surfacesOf)
     .def("_quality",
@@ -550,9 +667,14 @@ PYBIND11_MODULE(_core, module)
           quality.inverted, quality.degenerate, quality.worstCell);
       })
     .def("_inverted",
-      [](const Mesh& mesh, const ConstPoints& points) {
-        return arrayOf(
-          unlocked([&](Monitor& monitor) { return invertedBy(mesh, points, monitor); }));
+      [](const Mesh& mesh, const ConstPoints& points)
+      {
+        return arrayOf(unlocked(
+          [&](Monitor& monitor)
+          {
+            return withAll(
+              mesh, points, [&](const ConstPoints& all) { return invertedBy(mesh, all, monitor); });
+          }));
       })
     .def("_repair",
       [](const Mesh& mesh, const ConstPoints& points, const IdArray& nodes, bool fixesOthers)
@@ -569,7 +691,7 @@ PYBIND11_MODULE(_core, module)
       [](const std::shared_ptr<Mesh>& mesh, const std::string& name, const py::dict& options,
         const IdArray& nodes, bool fixesOthers)
       {
-        MakeMethod make = makerOf(name, options, mesh->mesh().numberOfNodes());
+        MakeMethod make = makerOf(name, options, *mesh);
         const Ids ids = idsOf(nodes);
         return unlocked(
           [&](Monitor& monitor) {

@@ -32,13 +32,19 @@ class MorphError(RuntimeError):
         self.points = points
         self.cells = cells
 
+    def __reduce__(self) -> tuple[type, tuple[str, Floats, Ids]]:
+        return type(self), (str(self), self.points, self.cells)  # from another process
+
 
 class MorphWarning(UserWarning):
     """What is odd about a mesh, a motion or a result."""
 
 
 class Boundary(NamedTuple):
-    """The outer faces of a mesh: face i has the corners connectivity[offsets[i]:offsets[i + 1]]."""
+    """The outer faces of a mesh: face i has the corners connectivity[offsets[i]:offsets[i + 1]].
+
+    Of a plane mesh or a shell its edges take the part of faces.
+    """
 
     offsets: Ids  #: (faces + 1,)
     connectivity: Ids  #: node ids, outward by the right-hand rule
@@ -53,13 +59,13 @@ class Surface(NamedTuple):
     id: int
     faces: Ids  #: numbers of faces in Mesh.boundary, ascending
     nodes: Ids  #: node ids, those on its edges too, ascending
-    area: float  #: in the unit of the points, squared
+    area: float  #: in the unit of the points, squared; of edges their length
 
 
 class Quality(NamedTuple):
     """The scaled Jacobian of a mesh: 1 for the ideal cell, 0 or less for an inverted one."""
 
-    scaled_jacobian: Floats  #: (cells,), NaN for cells that are no volume
+    scaled_jacobian: Floats  #: (cells,), NaN for cells of a lower dimension than others
     minimum: float
     mean: float
     inverted: int  #: the number of cells of 0 or less, without the degenerate ones
@@ -74,23 +80,43 @@ def set_threads(count: int) -> None:
     _core.set_threads(count)
 
 
-def _points(values: ArrayLike, what: str, rows: Optional[int] = None,
-            nodes: Optional[Ids] = None) -> Floats:
-    """The same array if it is float64 and contiguous, else a copy. `nodes`: the id of each row."""
-    array = numpy.ascontiguousarray(values, dtype=numpy.float64)
-    if array.ndim != 2 or array.shape[1] != 3 or rows not in (None, len(array)):
-        raise ValueError(f"{what} has the shape {array.shape}; "
-                         f"({'n' if rows is None else rows}, 3) is needed.")
-    wrong = numpy.flatnonzero(~(abs(array) <= 1e50).all(axis=1))  # so that NaN is wrong, too
-    if wrong.size:
-        raise ValueError(f"{what} has NaN, infinity or numbers beyond 1e50 at nodes "
-                         f"{_listed(wrong if nodes is None else nodes[wrong])}. Use another unit, "
-                         "or correct it.")
+def _whole(values: ArrayLike, what: str) -> NDArray[Any]:
+    """As an array. NumPy would drop what is imaginary or masked."""
+    array = numpy.asanyarray(values)
+    if numpy.iscomplexobj(array) or numpy.ma.is_masked(array):
+        raise ValueError(f"{what} has complex or masked values; plain numbers are needed.")
+    return numpy.asarray(array)
+
+
+def _shaped(values: ArrayLike, what: str, rows: Union[int, str]) -> Floats:
+    """The same array if it is float64 and contiguous, else a copy."""
+    array = numpy.ascontiguousarray(_whole(values, what), dtype=numpy.float64)
+    if array.ndim != 2 or array.shape[1] != 3 or rows not in ("n", len(array)):
+        raise ValueError(f"{what} has the shape {array.shape}; ({rows}, 3) is needed.")
     return array
 
 
+def _points(values: ArrayLike, what: str, rest: Floats, nodes: Optional[Ids] = None) -> Floats:
+    """As _shaped(). `rest`: the mesh's points; those that are not finite are of no cell, and may
+    be anything. `nodes`: the ids of the rows, None: of all."""
+    array = _shaped(values, what, len(rest) if nodes is None else len(nodes))
+    if abs(array).max(initial=0) <= 1e50:
+        return array
+    wrong = ~(abs(array) <= 1e50).all(axis=1)  # so that NaN is wrong, too
+    if nodes is None:
+        wrong &= numpy.isfinite(rest).all(axis=1)
+    _refuse(numpy.flatnonzero(wrong) if nodes is None else nodes[wrong], what)
+    return array
+
+
+def _refuse(wrong: Ids, what: str) -> None:
+    if wrong.size:
+        raise ValueError(f"{what} has NaN, infinity or numbers beyond 1e50 at nodes "
+                         f"{_listed(wrong)}. Use another unit, or correct it.")
+
+
 def _ids(values: ArrayLike, what: str) -> Ids:
-    array = numpy.asarray(values)
+    array = _whole(values, what)
     if array.ndim != 1 or not (numpy.issubdtype(array.dtype, numpy.integer) or array.size == 0):
         raise ValueError(f"{what} has the shape {array.shape} and type {array.dtype}; "
                          "whole numbers (n,) are needed.")
@@ -107,7 +133,8 @@ def _type_number(name: str, nodes: int) -> int:
 
 def _is_block(part: Any) -> bool:
     """Whether it is a block of meshio, or a pair of type and array."""
-    return hasattr(part, "type") or (len(part) == 2 and isinstance(part[0], str))
+    return hasattr(part, "type") or (
+        isinstance(part, (list, tuple)) and len(part) == 2 and isinstance(part[0], str))
 
 
 class _Cells(NamedTuple):
@@ -160,7 +187,7 @@ def _from_blocks(blocks: Sequence[Any]) -> _Cells:
                 faces.append(stream)
             types.append(numpy.full(len(data), _POLYHEDRON))
             continue
-        data = numpy.asarray(data)
+        data = _whole(data, f"The block {name}")
         if data.ndim != 2:
             raise ValueError(f"The cells of type {name} have the shape {data.shape}; (cells, nodes "
                              "of a cell) is needed. Polygons are not taken.")
@@ -182,7 +209,7 @@ def _from_flat(cells: Ids, types: Ids) -> _Cells:
         place += row[place] + 1
     if place != len(row):
         raise ValueError(f"cells has {len(row)} numbers; {len(types)} cells have {place}.")
-    ends = [*(start - 1 for start in starts[1:]), place]
+    ends = [start - 1 for start in starts[1:]] + [place] * bool(starts)
     if not (types == _POLYHEDRON).any():
         offsets = numpy.array([0, *ends]) - numpy.arange(len(types) + 1)
         return _Cells(offsets, numpy.delete(cells, numpy.array(starts, int) - 1), types)
@@ -210,11 +237,12 @@ def _split(cell: int, stream: Sequence[int]) -> list[Sequence[int]]:
 
 
 class Mesh(_core.Mesh):
-    """An undeformed volume mesh, which is copied once: 24 bytes a node, and 8 a node of each cell.
+    """An undeformed mesh, which is copied once: 24 bytes a node, and 8 a node of each cell.
 
-    points: (n, 3), coordinates in any unit of length.
+    points: (n, 3), coordinates in any unit of length. Points of no cell may be NaN, and stay.
     cells: tetrahedra, hexahedra, wedges and pyramids, linear or quadratic, and polyhedra, among
-        others that move with them; one of
+        others that move with them; or triangles and quadrilaterals alone, linear or quadratic: a
+        plane mesh or a shell, whose edges are its boundary; one of
         - meshio's blocks: [("hexahedron", array (cells, 8)), ...], or meshio.Mesh.cells; of
           polyhedra a list of faces for each, of which each is a list of nodes;
         - (offsets, connectivity, celltypes): cell i has the type celltypes[i], VTK's number, and
@@ -224,15 +252,17 @@ class Mesh(_core.Mesh):
     celltypes: VTK's numbers of the types, (cells,), for that last form.
 
     points, of the mesh, is a view of its coordinates, which cannot be written. Raises ValueError
-    for coordinates that are not finite, ids that do not exist, unknown types, and a mesh without
-    volume cells; it names the ids. Warns of what is odd about it. Cost: that of quality(), and a
+    for cells with coordinates that are not finite, ids that do not exist, unknown types, and a mesh
+    of lines alone; it names the ids. Warns of what is odd about it. Cost: that of quality(), and a
     sort of all faces.
     """
 
     def __init__(self, points: ArrayLike,
                  cells: Union[Sequence[Any], ArrayLike],
                  celltypes: Optional[ArrayLike] = None) -> None:
-        coordinates = _points(points, "points")
+        coordinates = _shaped(points, "points", "n")
+        far = numpy.isfinite(coordinates) & (abs(coordinates) > 1e50)  # the core finds NaN
+        _refuse(numpy.flatnonzero(far.any(axis=1)), "points")
         if celltypes is not None:
             types = _ids(celltypes, "celltypes")
             found = _from_flat(_ids(cells, "cells"), types)
@@ -251,11 +281,13 @@ class Mesh(_core.Mesh):
         if polyhedra.size and not found.face_offsets.size:
             raise ValueError(f"The faces of polyhedra are missing: cells {_listed(polyhedra)}. "
                              "Give blocks, or cells in one row.")
-        super().__init__(coordinates, types.astype(numpy.uint8), *found[:2], *found[3:])
+        self.types = types.astype(numpy.uint8)
+        self.types.flags.writeable = False
+        super().__init__(coordinates, self.types, *found[:2], *found[3:])
 
     @property
     def boundary(self) -> Boundary:
-        """The outer faces: those that one volume cell alone has."""
+        """The outer faces: those that one cell alone has."""
         return Boundary(*self._boundary())
 
     def surfaces(self, feature_angle: float = 25, corner_angle: float = 45) -> list[Surface]:
@@ -270,6 +302,11 @@ class Mesh(_core.Mesh):
 
     def __repr__(self) -> str:
         return f"<Mesh of {len(self.points)} nodes and {len(self.types)} cells>"
+
+
+def _require(value: Any, kind: type, what: str) -> None:
+    if not isinstance(value, kind):
+        raise TypeError(f"{what} is a {type(value).__name__}; a {kind.__name__} is needed.")
 
 
 class Prepared:
@@ -300,7 +337,7 @@ class Prepared:
         is_relative = targets is None
         nodes = self.nodes
         values = _points(displacements if is_relative else targets,
-                         "displacements" if is_relative else "targets", len(nodes), nodes)
+                         "displacements" if is_relative else "targets", self._mesh.points, nodes)
         return self._core._evaluate(values, is_relative)
 
     def adjoint(self, gradient: ArrayLike) -> Floats:
@@ -310,7 +347,9 @@ class Prepared:
         Raises ValueError for Smoothing and InversionFree, which are not linear. Cost: that of
         evaluate().
         """
-        return self._core._adjoint(_points(gradient, "gradient", len(self._mesh.points)))
+        rest = self._mesh.points
+        values = _points(gradient, "gradient", rest)
+        return self._core._adjoint(numpy.where(numpy.isfinite(rest), values, 0))
 
 
 class Method:
@@ -335,11 +374,12 @@ class Method:
         elif kind == "array":
             value = None if value is None else numpy.array(value, dtype=numpy.float64).ravel()
         else:
-            number = int(value) if kind == "integer" else float(value)
-            if not low <= number <= high or number != value:
-                raise ValueError(f"{name} is {value}; a {'whole ' if kind == 'integer' else ''}"
-                                 f"number from {low} to {high} is needed.")
-            value = number
+            number = float(value)
+            is_whole = kind == "integer"
+            if not low <= number <= high or number != value or (is_whole and number % 1):
+                raise ValueError(f"{name} is {value}; a {'whole ' if is_whole else ''}"
+                                 f"number from {low:.10g} to {high:.10g} is needed.")
+            value = int(number) if is_whole else number
         object.__setattr__(self, name, value)
 
     def __repr__(self) -> str:
@@ -357,6 +397,7 @@ class Method:
         Raises ValueError for ids that do not exist or occur twice, and RuntimeError for nodes that
         do not determine a motion, such as none on one of several bodies.
         """
+        _require(mesh, Mesh, "mesh")
         options = {name: [_plain(choice) for choice in low].index(_plain(getattr(self, name)))
                    if kind == "choice" else getattr(self, name)
                    for name, (kind, low, _) in self._OPTIONS.items()}
@@ -374,8 +415,9 @@ def quality(mesh: Mesh, points: Optional[ArrayLike] = None) -> Quality:
     A body whose cells are all in the mirrored order counts as valid. Cost: 0.1 microseconds a cell,
     5 for a quadratic one.
     """
+    _require(mesh, Mesh, "mesh")
     return Quality(*mesh._quality(
-        mesh.points if points is None else _points(points, "points", len(mesh.points))))
+        mesh.points if points is None else _points(points, "points", mesh.points)))
 
 
 def repair(mesh: Mesh, points: ArrayLike, nodes: ArrayLike, *,
@@ -388,7 +430,8 @@ def repair(mesh: Mesh, points: ArrayLike, nodes: ArrayLike, *,
     points found and the ids. Cost: that of quality() if none is inverted; at most some minutes a
     million cells.
     """
-    start = _points(points, "points", len(mesh.points))
+    _require(mesh, Mesh, "mesh")
+    start = _points(points, "points", mesh.points)
     repaired, inverted, determined = mesh._repair(start, _ids(nodes, "nodes"),
                                                   fix_unnamed_boundary)
     if len(inverted) == 0:
@@ -417,8 +460,9 @@ def morph(mesh: Mesh, nodes: ArrayLike, displacements: Optional[ArrayLike] = Non
     repair: repairs inverted cells. Off: raises MorphError if there are some.
     """
     from ._methods import FEMWARP
-    prepared = (method or FEMWARP()).prepare(mesh, nodes,
-                                             fix_unnamed_boundary=fix_unnamed_boundary)
+    method = FEMWARP() if method is None else method
+    _require(method, Method, "method")
+    prepared = method.prepare(mesh, nodes, fix_unnamed_boundary=fix_unnamed_boundary)
     moved = prepared.evaluate(displacements, targets=targets)
     if repair:
         return _repair(mesh, moved, prepared.nodes, fix_unnamed_boundary=fix_unnamed_boundary)

@@ -44,10 +44,12 @@ case "$release" in
   "debian 12") ;;
   "debian 13")
     solvers=() # It has no CalculiX.
+    packages+=(qt6-svg-plugins) # the icons of ParaView, which does not ask for it
     tests+=(mount) ;;
   *) # Of Debian's unstable suite: paraview-dev stands on the system's VTK; xmlpatterns is gone.
     solvers=(calculix-ccx)
-    packages=("${packages[@]/qtxmlpatterns5-dev-tools/xsltproc}" libvtk9-dev libvtk9-qt-dev)
+    packages=("${packages[@]/qtxmlpatterns5-dev-tools/xsltproc}" libvtk9-dev libvtk9-qt-dev
+      qt6-svg-plugins)
     tests+=(mount)
     if [ "${release% *}" != debian ] || [ -n "${release//[!0-9]/}" ]; then
       echo "install-packages.sh: written for Debian, this is '$release'. Going on; package names" \

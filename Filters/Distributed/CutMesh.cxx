@@ -3,6 +3,7 @@
 
 #include "Distributed/RankCommunicator.h"
 #include "Support/Error.h"
+#include "Support/Lists.h"
 
 #include <algorithm>
 #include <map>
@@ -10,6 +11,37 @@
 
 namespace morph::distributed
 {
+namespace
+{
+/// In whose messages pieces are the cells that they are cut from.
+class PiecesOnRanks : public RankCommunicator
+{
+public:
+  explicit PiecesOnRanks(const CutMesh& cut)
+    : RankCommunicator(cut.pieces())
+    , cut_(cut)
+  {
+  }
+
+  std::vector<Index> gatherCells(const std::vector<Index>& pieces) const override
+  {
+    std::vector<Index> cells;
+    for (const Index piece : pieces)
+    {
+      if (!this->isCopy(piece))
+      {
+        cells.push_back(this->cut_.cellOf(piece));
+      }
+    }
+    sortUnique(cells);
+    return this->cut_.whole().gatherCells(cells);
+  }
+
+private:
+  const CutMesh& cut_;
+};
+}
+
 CutMesh::CutMesh(const DistributedMesh& whole, const Mesh& mesh, int layers, Monitor& monitor)
   : whole_(&whole)
 {
@@ -29,7 +61,7 @@ CutMesh::CutMesh(const DistributedMesh& whole, const Mesh& mesh, int layers, Mon
 
 std::shared_ptr<const Communicator> CutMesh::processes() const
 {
-  return std::make_shared<RankCommunicator>(*this->pieces_);
+  return std::make_shared<PiecesOnRanks>(*this);
 }
 
 Piece CutMesh::ownPieces(const PolyhedronPieces& cut, const Points& points)

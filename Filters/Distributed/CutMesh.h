@@ -26,9 +26,9 @@ public:
   /// ghosts around the pieces. Throws Error on all ranks.
   CutMesh(const DistributedMesh& whole, const Mesh& mesh, int layers, Monitor& monitor);
 
+  const DistributedMesh& whole() const { return *this->whole_; }
   const DistributedMesh& pieces() const { return *this->pieces_; }
   const Mesh& mesh() const override { return this->pieces_->mesh(); }
-  /// Holds this object by reference.
   std::shared_ptr<const Communicator> processes() const override;
   Index cellOf(Index piece) const override
   {

@@ -152,6 +152,26 @@ void checkMotion(const Arguments& arguments)
   }
 }
 
+/// Throws UsageError for options that say how to morph, for a task that does not.
+void requireNoMorph(const Arguments& arguments)
+{
+  if (!arguments.report.empty())
+  {
+    throw UsageError("--report is of a morph: it has no effect here.");
+  }
+  const std::string given = arguments.properties.all();
+  if (!given.empty())
+  {
+    throw UsageError("Nothing is morphed here, so these have no effect:" + given + ".");
+  }
+  if (!(arguments.target + arguments.handles + arguments.lattice + arguments.field +
+        arguments.displacements)
+         .empty())
+  {
+    throw UsageError("Nothing is morphed here, so files that say how have no effect.");
+  }
+}
+
 /// Throws UsageError unless all that a table of designs needs is given, and nothing else.
 void takeDesigns(const std::vector<std::string>& files, Arguments& result)
 {
@@ -187,9 +207,9 @@ void takeFiles(std::vector<std::string> files, Arguments& result)
     files.push_back(result.output);
   }
   const bool morphs = result.task == Task::Morph;
-  if (!result.report.empty() && !morphs && result.task != Task::Repair)
+  if (!morphs && result.task != Task::Repair)
   {
-    throw UsageError("--report is of a morph: it has no effect here.");
+    requireNoMorph(result);
   }
   const bool reads = morphs && files.size() == 3;
   if (!reads && files.size() != (hasOutput ? 2u : 1u))

@@ -27,6 +27,8 @@
 #include <filesystem>
 #include <iostream>
 #include <string>
+#include <system_error>
+#include <utility>
 
 namespace
 {
@@ -153,6 +155,57 @@ std::string grouped(long long number)
   return digits;
 }
 
+/// Throws UsageError where what is written would take the place of another file of the same run.
+/// A mesh may replace the one that it is made from.
+void requireOwnFiles(const Arguments& arguments)
+{
+  namespace fs = std::filesystem;
+  const auto areSame = [](const std::string& a, const std::string& b)
+  {
+    std::error_code none; // files that do not exist are the same if their paths are
+    return !a.empty() && !b.empty() &&
+           (fs::equivalent(a, b, none) ||
+             fs::weakly_canonical(a, none) == fs::weakly_canonical(b, none));
+  };
+  const auto require = [&](const std::string& written, const char* what)
+  {
+    const bool isReport = written == arguments.report;
+    const bool isMesh = !isReport && arguments.task != Arguments::Task::ExtractBoundary;
+    const std::pair<const char*, const std::string&> others[] = { { isMesh ? "" : "the grid",
+                                                                    arguments.grid },
+      { isReport ? "the output" : "", arguments.output }, { "the boundary", arguments.boundary },
+      { "--target", arguments.target }, { "--handles", arguments.handles },
+      { "--lattice", arguments.lattice }, { "--field", arguments.field },
+      { "--displacements", arguments.displacements } };
+    for (const auto& [name, file] : others)
+    {
+      if (*name != '\0' && areSame(written, file))
+      {
+        throw UsageError(std::string(what) + " would replace " + name + ", " + file +
+                         ". Give it a file of its own.");
+      }
+    }
+  };
+  require(arguments.report, "--report");
+  require(arguments.output, "The output");
+}
+
+/// Removes that of another run, which would be taken for this one's. Throws Failure where none can
+/// be written.
+void makeRoomFor(const std::string& report)
+{
+  namespace fs = std::filesystem;
+  const fs::path folder = fs::path(report).parent_path();
+  if (fs::is_directory(report) || !(folder.empty() || fs::is_directory(folder)))
+  {
+    throw Failure("Cannot write the report " + report + ".");
+  }
+  if (fs::is_regular_file(report))
+  {
+    fs::remove(report);
+  }
+}
+
 /// Morphs by a part of the motion, and writes and reports the mesh. `report`: of Arguments.
 int morphPart(Morphing& morphing, vtkUnstructuredGrid* grid, const Arguments& arguments,
   const std::string& output, const std::string& report)
@@ -161,7 +214,7 @@ int morphPart(Morphing& morphing, vtkUnstructuredGrid* grid, const Arguments& ar
   const vtkSmartPointer<vtkScaledJacobian> before = reports ? measure(grid, arguments) : nullptr;
   if (!report.empty())
   {
-    std::filesystem::remove(report); // that of another run would be taken for this one's
+    makeRoomFor(report);
   }
   Messages messages(morphing.filter);
   std::string partial;
@@ -253,6 +306,7 @@ int morphMesh(const Arguments& arguments)
 int run(int argc, char* argv[])
 {
   Arguments arguments = parseArguments(argc, argv);
+  requireOwnFiles(arguments);
   if (!arguments.region.empty())
   {
     arguments.grid = regionOf(arguments.grid, arguments.region);

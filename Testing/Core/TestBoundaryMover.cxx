@@ -160,6 +160,43 @@ TEST(BoundaryMover, SidesFollowATopThatTurnsWithinTheirPlanes)
   }
 }
 
+TEST(BoundaryMover, NodesBetweenCornersStayOnEdgesOfLinearCells)
+{
+  morph::Mesh mesh;
+  const morph::Mesh all = meshes::quadraticHexes(4, 2, 2, false);
+  mesh.points = all.points;
+  mesh.offsets = { 0 };
+  for (Index c = 0; c < all.numberOfCells(); ++c)
+  {
+    const bool isLinear = all.points(all.cell(c)[1], 0) <= 2;
+    meshes::add(mesh, isLinear ? std::uint8_t(morph::Hexahedron) : all.types[c],
+      { all.cell(c), all.cell(c) + (isLinear ? 8 : 20) });
+  }
+  const BoundaryModel model = modelOf(mesh);
+  ASSERT_EQ(model.onLinearEdges.size(), 8u); // around the box, where the cells meet
+  const morph::Choice choice = morph::choosePatches(model, { "TOP" }, {});
+  Points targets = model.points()(choice.moving, morph::allColumns);
+  targets.col(2).array() += 0.1 * targets.col(1).array().square() + 0.1 * targets.col(0).array();
+  meshes::ThreadedMonitor monitor;
+  morph::Surroundings surroundings;
+
+  const auto result = surroundings.spread(model, choice, targets, {}, monitor);
+
+  std::size_t apart = 0;
+  for (const Index k : model.onLinearEdges)
+  {
+    const Index *ends = model.faces.between.begin(k), node = model.faces.nodes[k];
+    const Row middle = (result.moved.row(ends[0]) + result.moved.row(ends[1])) / 2;
+    const bool moves = result.roles[node] == morph::Surroundings::Moves;
+    EXPECT_TRUE(moves || (Row(result.moved.row(node)) - middle).norm() < 1e-12) << node;
+    apart += (Row(result.moved.row(node)) - middle).norm() > 1e-6;
+  }
+  const bool isSaid = std::any_of(monitor.warnings.begin(), monitor.warnings.end(),
+    [](const std::string& text)
+    { return text.find("part from linear ones") != std::string::npos; });
+  EXPECT_EQ(isSaid, apart > 0);
+}
+
 TEST(BoundaryMover, APlacementScalesThenTurnsThenShifts)
 {
   morph::Placement placement;

@@ -5,6 +5,7 @@
 #include "Mesh/Topology.h"
 #include "Meshes.h"
 #include "Quality/ScaledJacobian.h"
+#include "Session/Session.h"
 
 #include <gtest/gtest.h>
 
@@ -141,4 +142,23 @@ TEST(CollapsedCells, WithoutVolumeAreNoVolumeCells)
   {
     EXPECT_EQ(int(recognized(cellOf(kind.type, kind.nodes)).types[0]), int(kind.becomes));
   }
+}
+
+TEST(CollapsedCells, QuadraticOnesThatAreNoKnownCellAreNamed)
+{
+  // The bottom edge at y = 0 has no length.
+  Mesh mesh = meshes::quadraticHexes(2, 1, 1, false);
+  const std::vector<Index> cell(mesh.cell(0), mesh.cell(0) + 20);
+  for (Index& node : mesh.connectivity)
+  {
+    node = node == cell[0] || node == cell[8] ? cell[1] : node;
+  }
+  mesh = recognized(mesh);
+  EXPECT_EQ(morph::unrecognizedCells(mesh, { 0, 1 }), std::vector<Index>{ 0 });
+  meshes::ThreadedMonitor monitor;
+  morph::Session session;
+  session.setMesh(mesh, monitor);
+  session.reportMesh({}, monitor);
+  ASSERT_EQ(monitor.warnings.size(), 1u); // none of how to repair it
+  EXPECT_NE(monitor.warnings[0].find("no cell of a known type: cell ids 0."), std::string::npos);
 }

@@ -4,6 +4,7 @@
 #include "Boundary/FaceAreas.h"
 #include "LinearMethods.h"
 #include "LinearMethods/FemWarp.h"
+#include "Mesh/CollapsedCells.h"
 #include "Mesh/HangingNodes.h"
 #include "Meshes.h"
 #include "Motions.h"
@@ -217,6 +218,61 @@ TEST(HangingNodes, AreTiedToNodesThatFollow)
   ASSERT_EQ(mesh.points.row(17), Row(1, 0, 1));
   EXPECT_LT((moved.row(17) - expected).norm(), 1e-12 * meshes::size(mesh.points));
   EXPECT_GT((moved.row(large[8]) - mesh.points.row(large[8])).norm(), 0.01);
+}
+
+// The large cell is a hexahedron of seven nodes, and so a polyhedron.
+TEST(HangingNodes, HangOnCollapsedCells)
+{
+  Mesh mesh = meshes::hexes(1, 1, 1); // of the nodes 1, 3, 5 and 7 at x = 1
+  mesh.connectivity[3] = 0;           // 0 and 2 are one node
+  const Mesh fine = meshes::hexes(2, 2, 2);
+  std::vector<Index> to;
+  for (Index n = 0; n < fine.numberOfNodes(); ++n)
+  {
+    const Row x = fine.points.row(n) / 2 + Row(1, 0, 0);
+    Index found = 0;
+    while (found < mesh.numberOfNodes() && mesh.points.row(found) != x)
+    {
+      ++found;
+    }
+    if (found == mesh.numberOfNodes())
+    {
+      mesh.points.conservativeResize(found + 1, 3);
+      mesh.points.row(found) = x;
+    }
+    to.push_back(found);
+  }
+  for (Index c = 0; c < fine.numberOfCells(); ++c)
+  {
+    std::vector<Index> nodes;
+    std::transform(fine.cell(c), fine.cell(c) + 8, std::back_inserter(nodes),
+      [&](Index node) { return to[node]; });
+    meshes::add(mesh, morph::Hexahedron, nodes);
+  }
+  morph::Monitor monitor;
+  morph::recognizeCells(mesh, monitor);
+  ASSERT_EQ(int(mesh.types[0]), int(morph::Polyhedron));
+  HangingNodes hanging;
+
+  const morph::BoundaryFaces outer = morph::boundaryFaces(mesh, hanging, monitor);
+
+  EXPECT_EQ(hanging.nodes().size(), 5u);
+  EXPECT_EQ(outer.cells.size(), 5u + 5 * 4);
+  const Mesh conforming = hanging.conforming(mesh);
+  EXPECT_NO_THROW(morph::validate(conforming));
+  EXPECT_EQ(morph::boundaryFaces(conforming, monitor).cells.size(), outer.cells.size());
+  Session session;
+  session.setMesh(mesh, monitor);
+  Session::Options options;
+  options.createMorpher = [] { return std::make_unique<morph::FemWarp>(); };
+  const morph::NodePartition partition = motions::outerPartition(mesh);
+  const auto step = session.morph(
+    { partition.prescribed, motions::targets(mesh, partition, motions::affine) }, options, monitor);
+  for (const Index node : to)
+  {
+    const Row x = mesh.points.row(node);
+    EXPECT_LT((step->moved.row(node) - motions::affine(x)).norm(), 1e-10) << node;
+  }
 }
 
 // Where all cells around an edge are on one side of it, its nodes are on the boundary.

@@ -16,6 +16,9 @@
 #include <cmath>
 #include <functional>
 #include <memory>
+#include <sstream>
+#include <string>
+#include <vector>
 
 using namespace meshes;
 using namespace morph;
@@ -217,4 +220,26 @@ TEST(PolyhedralMorphers, InversionFreeKeepsPolyhedraValidWhereFemWarpInvertsThem
   };
   EXPECT_GT(bad(femWarp), 0) << "the motion tests nothing";
   EXPECT_EQ(bad(inversionFree), 0);
+}
+
+TEST(PolyhedralMorphers, WarningsNameCellsAndNotTheirPieces)
+{
+  Mesh mesh = asPolyhedra(hexes(3, 3, 3));
+  mesh.points.row(21).array() += 1.2; // the node of 8 cells, of which it inverts some
+  auto method = morpherForPolyhedra(std::make_unique<FemWarp>(), true);
+  ThreadedMonitor monitor;
+
+  method->prepare(mesh, outerPartition(mesh), monitor);
+
+  ASSERT_EQ(monitor.warnings.size(), 1u);
+  const std::string& text = monitor.warnings[0];
+  const std::size_t from = text.find("ids ") + 4;
+  std::istringstream ids(text.substr(from, text.find('.', from) - from));
+  std::vector<Index> named;
+  for (std::string id; std::getline(ids, id, ',');)
+  {
+    named.push_back(std::stol(id));
+  }
+  EXPECT_LT(named.back(), mesh.numberOfCells()) << text;
+  EXPECT_EQ(std::adjacent_find(named.begin(), named.end()), named.end()) << text;
 }

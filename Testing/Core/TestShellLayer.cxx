@@ -3,6 +3,7 @@
 #include "Geometry/AffineFit.h"
 #include "LinearMethods.h"
 #include "LinearMethods/FemWarp.h"
+#include "LinearMethods/SimplexLinear.h"
 #include "Mesh/ShellLayer.h"
 #include "Meshes.h"
 #include "Motions.h"
@@ -18,6 +19,7 @@
 
 #include <cmath>
 #include <map>
+#include <memory>
 #include <random>
 
 namespace
@@ -279,6 +281,32 @@ TEST(ShellLayer, FemWarpIsTheMembraneOfCotangents)
   for (const Index node : layer.partition.free)
   {
     EXPECT_LT(force.row(node % force.rows()).norm(), 1e-12) << node;
+  }
+}
+
+// The simplex methods refuse curved shells.
+TEST(ShellLayer, NodesOffThePlaneOfTheFacesBendNothing)
+{
+  Mesh plane = square("quads");
+  const Index end = plane.numberOfNodes();
+  plane.points.conservativeResize(end + 2, 3);
+  plane.points.bottomRows(2) << 0, 0, 5, 1, 1, std::nan("");
+  meshes::add(plane, morph::Line, { 0, end });
+  const Shell shell(plane);
+  morph::Monitor monitor;
+  morph::Session session;
+  session.setMesh(shell.mesh, monitor);
+  morph::Session::Options options;
+  options.createMorpher = [] { return std::make_unique<morph::SimplexLinear>(); };
+  const auto shear = [](const Row& x) -> Row { return x + Row(0.2 * x[1], 0.1 * x[0], 0); };
+
+  const auto step = session.morph(
+    { shell.partition.prescribed, motions::targets(shell.mesh, shell.partition, shear) }, options,
+    monitor);
+
+  for (Index n = 0; n < end; ++n)
+  {
+    EXPECT_LT((step->moved.row(n) - shear(plane.points.row(n))).norm(), 1e-12) << n;
   }
 }
 

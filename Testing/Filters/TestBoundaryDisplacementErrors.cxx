@@ -124,6 +124,12 @@ TEST(BoundaryDisplacementErrors, TheMotion)
       [](auto* f) { f->SetTransform(transformWith(0, 3, NAN)); } },
     { "`Transform` moves nodes to places that are not finite",
       [](auto* f) { f->SetTransform(transformWith(1, 1, INFINITY)); } },
+    { "`Translation`, `Rotation` or `Scale` moves nodes beyond 1e50",
+      [](auto* f)
+      {
+        f->SetDisplacementToTranslateRotateScale();
+        f->SetTranslation(1e60, 0, 0);
+      } },
     { "`Vector` moves nodes beyond 1e50",
       [](auto* f)
       {

@@ -143,6 +143,43 @@ Mesh octree(Choices& choices, int order, Known& known)
   return made.mesh;
 }
 
+/// Lets the ends of an edge of a hexahedron be one node, so that cells are hexahedra of seven
+/// nodes; perhaps those of the edge across a face, too, of six.
+void collapse(Choices& choices, Mesh& mesh)
+{
+  Random random = choices.stream("mesh.collapsed");
+  const Index* cell = mesh.cell(random.below(static_cast<int>(mesh.numberOfCells())));
+  const morph::CellShape& shape = *morph::cellShape(morph::Hexahedron);
+  const auto& face = shape.faces[random.below(6)].corner;
+  std::vector<Index> to(mesh.numberOfNodes());
+  std::iota(to.begin(), to.end(), Index{ 0 });
+  to[cell[face[0]]] = cell[face[1]];
+  if (random.happens(0.5))
+  {
+    to[cell[face[3]]] = cell[face[2]];
+  }
+  for (Index& node : mesh.connectivity)
+  {
+    node = to[node];
+  }
+}
+
+/// Winds faces at random the other way round.
+void wind(Choices& choices, Mesh& mesh)
+{
+  Random random = choices.stream("mesh.windings");
+  for (Index c = 0; c < mesh.numberOfCells(); ++c)
+  {
+    if (random.happens(0.4))
+    {
+      const auto first = mesh.connectivity.begin() + mesh.offsets[c];
+      const auto middle = first + morph::cellShape(mesh.types[c])->numberOfCorners;
+      std::reverse(first + 1, middle);
+      std::reverse(middle, mesh.connectivity.begin() + mesh.offsets[c + 1]);
+    }
+  }
+}
+
 /// Makes the sides at the ends of x images of each other, or the one at x = 0 a plane of symmetry.
 void nameSides(Choices& choices, const Mesh& mesh, Known& known)
 {
@@ -236,7 +273,12 @@ Mesh lattice(Choices& choices, Known& known)
                                                       : Known::None;
   if (known.faces != Known::None)
   {
-    return faces(choices, known);
+    Mesh mesh = faces(choices, known);
+    if (choices.chance("with.windings", 0.4))
+    {
+      wind(choices, mesh);
+    }
+    return mesh;
   }
   if (const int order =
         choices.pick("with.octree", { "none", "linear", "quadratic" }, { 20, 1.2, 0.8 }))
@@ -269,7 +311,12 @@ Mesh lattice(Choices& choices, Known& known)
   // In part: mid-side nodes that the neighbor does not have.
   const double part = order > 0 && choices.chance("mesh.partlyQuadratic", 0.1) ? 0.5 : 1;
   mesh = order == 0 ? mesh : quadratic(mesh, order, part, choices.stream("mesh.quadraticCells"));
-  if (kind < 7 && part == 1)
+  known.isCollapsed = kind == 0 && order == 0 && choices.chance("with.collapsed", 0.15);
+  if (known.isCollapsed)
+  {
+    collapse(choices, mesh);
+  }
+  else if (kind < 7 && part == 1)
   {
     nameSides(choices, mesh, known);
   }
@@ -317,6 +364,10 @@ void changeCells(Choices& choices, Mesh& mesh, bool hostile, bool isWhole, bool 
     {
       std::swap(cells[i - 1], cells[random.below(static_cast<int>(i))]);
     }
+  }
+  if (!isWhole && !hostile && !cells.empty() && choices.chance("with.doubled", 0.05))
+  {
+    cells.push_back(cells[random.below(static_cast<int>(cells.size()))]);
   }
   if (hostile && choices.chance("cells.twice", 0.06))
   {
@@ -408,7 +459,8 @@ void jitter(Choices& choices, Mesh& mesh, bool hostile, const Known& known)
   for (Index n = 0; n < mesh.numberOfNodes(); ++n)
   {
     // The smallest cells of an octree are a quarter as wide, and quadratic faces soon fold.
-    const double amount = (known.outer.empty() ? 1 : 0.25) * (isOuter.count(n) ? outside : inside);
+    const bool isSlim = !known.outer.empty() || known.isCollapsed;
+    const double amount = (isSlim ? 0.25 : 1) * (isOuter.count(n) ? outside : inside);
     for (int j = 0; j < 3; ++j)
     {
       mesh.points(n, j) += amount * random.between(-1, 1);

@@ -26,11 +26,12 @@ struct Known
   /// Nodes of one side and their images on the other, which are translated.
   std::vector<std::pair<morph::Index, morph::Index>> images;
   std::vector<morph::Index> plane; ///< the nodes of a plane of symmetry
+  bool isCollapsed = false;        ///< hexahedra have a corner twice, and are polyhedra or wedges
 
   bool isAny() const
   {
     return this->faces != None || !this->outer.empty() || !this->images.empty() ||
-           !this->plane.empty();
+           !this->plane.empty() || this->isCollapsed;
   }
   /// The largest distance of a node that hangs from its place.
   double gap(const morph::Points& points) const;

@@ -3,6 +3,7 @@
 
 #include "Choices.h"
 #include "Mesh/CellShape.h"
+#include "Mesh/Polyhedra.h"
 
 #include <vtkCell3D.h>
 #include <vtkGenericCell.h>
@@ -383,6 +384,33 @@ double leastOfFace(const Mesh& mesh, const Points& points, Index c, double unit)
   }
   return least;
 }
+
+/// The minimum determinant, of edges of length 1, of the tetrahedra between the middle of a
+/// polyhedron, the middle of a face and an edge of this.
+double leastOfPolyhedron(const Mesh& mesh, const Points& points, Index c)
+{
+  const auto middleOf = [&](const Index* nodes, Index size) -> Vector
+  {
+    return points(std::vector<Index>(nodes, nodes + size), morph::allColumns)
+      .colwise()
+      .mean()
+      .transpose();
+  };
+  const Vector middle = middleOf(mesh.cell(c), mesh.cellSize(c));
+  double least = 1;
+  morph::forEachFace(mesh, c,
+    [&](const Index* nodes, Index size)
+    {
+      const Vector up = (middleOf(nodes, size) - middle).stableNormalized();
+      for (Index k = 0; k < size; ++k)
+      {
+        const Vector a = points.row(nodes[k]).transpose() - middle;
+        const Vector b = points.row(nodes[(k + 1) % size]).transpose() - middle;
+        least = std::min(least, a.stableNormalized().cross(b.stableNormalized()).dot(up));
+      }
+    });
+  return least;
+}
 }
 
 bool isValid(const Mesh& mesh, const Points& points, double least)
@@ -392,7 +420,9 @@ bool isValid(const Mesh& mesh, const Points& points, double least)
   for (Index c = 0; c < mesh.numberOfCells(); ++c)
   {
     hasVolume = hasVolume || isVolume(mesh, c);
-    if (isVolume(mesh, c) && !(determinants(mesh, points, c, unit).least > least))
+    const bool isPolyhedron = mesh.types[c] == morph::Polyhedron;
+    if (isVolume(mesh, c) && !((isPolyhedron ? leastOfPolyhedron(mesh, points, c)
+                                             : determinants(mesh, points, c, unit).least) > least))
     {
       return false;
     }

@@ -519,6 +519,29 @@ class MorphMesh(unittest.TestCase):
         self.assertGreater(report["after"]["Skewness"]["worst"], 0)
         self.fails(2, "--report is of a morph", "check", "--report", "x.json", BORE)
 
+    def test_what_morphs_nothing_takes_no_motion(self):
+        for command in ("list", "check", "extract"):
+            files = [BORE] + ([self.folder / "out.vtp"] if command == "extract" else [])
+            self.fails(2, "no effect: --move=Surface 1 --translate=0,0,0.2.", command, "--move",
+                       "Surface 1", "--translate", "0,0,0.2", *files)
+            self.fails(2, "no effect", command, "--target", self.boundary, *files)
+        self.assertFalse((self.folder / "out.vtp").exists())
+
+    def test_no_file_of_a_run_takes_the_place_of_another(self):
+        grid, out = self.folder / "part.vtu", self.folder / "out.vtu"
+        original = Path(BORE).read_bytes()
+        grid.write_bytes(original)
+        same = f"{self.folder}/../{self.folder.name}/out.vtu"
+        move = ("--move", "Surface 1", "--translate", "0,0,0.2", grid)
+        self.fails(2, "--report would replace the grid", "--report", grid, *move, out)
+        self.fails(2, "--report would replace the output", "--report", same, *move, out)
+        self.fails(2, "The output would replace the grid", "extract", grid, grid)
+        self.assertEqual(grid.read_bytes(), original)
+        (self.folder / "empty").mkdir()
+        self.fails(1, "Cannot write the report", "--report", self.folder / "empty", *move, out)
+        self.assertTrue((self.folder / "empty").is_dir())
+        self.assertFalse(out.exists())
+
     def test_a_motion_that_cannot_be_completed_is_written_as_far_as_it_goes(self):
         canister = MODELS / "canister_tet_small.vtu"
         self.assertEqual(run("--extract-boundary", canister, self.boundary).returncode, 0)

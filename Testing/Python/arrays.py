@@ -4,6 +4,7 @@
 Run: PYTHONPATH=<folder of meshmorphing> MESHMORPHING_MODELS=<small models> python3 arrays.py
 """
 import os
+import pickle
 import re
 import shutil
 import signal
@@ -175,12 +176,17 @@ class Meshes(unittest.TestCase):
                 "outside 0 to 26: cell ids 1, 3": (points, [("hexahedron", strayed)]),
                 "cube with 8 nodes": (points, [("cube", cells)]),
                 "tetra with 8 nodes": (points, [("tetra", cells)]),
-                "filters of `meshmorphing.vtk`": (points, [("quad", cells[:, :4])]),
+                "is a volume cell": (points, [("line", cells[:, :2])]),
                 "need celltypes": (points, flat),
+                "offsets has the shape": (points, [8, 0, 1]),
+                "points has complex or masked": (points + 1j, block),
+                "hexahedron has complex or masked": (
+                    points, [("hexahedron", numpy.ma.masked_equal(cells, 3))]),
                 "pair of type and array": (points, [cells]),
                 "at nodes 0, 1": (points + 1e60, block),
                 "cell 8 of 9": (points, flat, numpy.full(9, HEXAHEDRON)),
                 "7 cells have 63": (points, flat, types[:7]),
+                "has no cells": (points, [], []),
                 "whole numbers": (points, flat.astype(float), types),
                 "polyhedron 0 is no stream": (points, flat, numpy.full(8, 42)),
                 "faces of polyhedra are missing: cells 0, 1": (
@@ -188,6 +194,82 @@ class Meshes(unittest.TestCase):
                 "closed": (points, [("polyhedron8", [faces_of(cells[0])[:5]])])}.items():
             with self.subTest(text), self.assertRaisesRegex(ValueError, text):
                 mm.Mesh(*arguments)
+
+
+class PointsOfNoCell(unittest.TestCase):
+    def test_may_be_nan_and_stay(self):
+        points, cells = cube(3)
+        blocks = [("hexahedron", cells + 1)]
+        mesh = mm.Mesh(numpy.vstack([[numpy.nan] * 3, points]), blocks)
+        prepared = mm.FEMWARP().prepare(mesh, mesh.boundary.nodes)
+        moved = prepared.evaluate(targets=mesh.points[prepared.nodes] @ AFFINE)
+        self.assertTrue(numpy.isnan(moved[0]).all())
+        self.assertLess(abs(moved[1:] - points @ AFFINE).max(), 1e-10)
+        self.assertEqual(mm.quality(mesh, moved).inverted, 0)
+        self.assertTrue((mm.repair(mesh, moved, prepared.nodes)[1:] == moved[1:]).all())
+        self.assertTrue(numpy.isfinite(prepared.adjoint(moved - mesh.points)).all())
+
+
+class Faces(unittest.TestCase):
+    """Plane meshes and shells."""
+    TYPES = {"triangle": lambda quads: numpy.vstack([quads[:, :3], quads[:, [0, 2, 3]]]),
+             "quad": lambda quads: quads}
+
+    def square(self, kind, shape=lambda x, y: 0 * x):
+        points, cells = cube()
+        front = points[:, 2] == 0
+        points = points[front]
+        quads = (numpy.cumsum(front) - 1)[cells[front[cells[:, 0]]][:, :4]]
+        points[:, 2] = shape(*points[:, :2].T)
+        return mm.Mesh(points, [(kind, self.TYPES[kind](quads))])
+
+    def test_edges_are_the_boundary(self):
+        mesh = self.square("quad")
+        self.assertEqual(mesh.points.shape, (49, 3))
+        self.assertTrue((numpy.diff(mesh.boundary.offsets) == 2).all())
+        self.assertEqual((len(mesh.boundary.cells), mesh.boundary.nodes.max()), (24, 48))
+        surfaces = mesh.surfaces()
+        self.assertEqual([len(s.faces) for s in surfaces], [6] * 4)
+        self.assertTrue(numpy.allclose([s.area for s in surfaces], 1))
+        self.assertEqual([len(s.nodes) for s in surfaces], [7] * 4)
+
+    def test_linear_methods_are_exact_and_have_an_adjoint(self):
+        for shape in (lambda x, y: 0 * x, lambda x, y: x**2 - y**2 + x * y):
+            for kind in self.TYPES:
+                mesh = self.square(kind, shape)
+                nodes = mesh.boundary.nodes[::-1]
+                is_plane = not mesh.points[:, 2].any()
+                affine = AFFINE * [1, 1, not is_plane]
+                for method in LINEAR if is_plane else (mm.FEMWARP, mm.LBWARP, mm.RadialBasis):
+                    with self.subTest(method.__name__, kind=kind, plane=is_plane):
+                        prepared = method().prepare(mesh, nodes)
+                        moved = prepared.evaluate(targets=mesh.points[nodes] @ affine)
+                        self.assertLess(abs(moved - mesh.points @ affine).max(), 1e-9)
+                        motion, gradient = bend(mesh.points[nodes]), bend(mesh.points, 1)
+                        motion[:, 2] *= not is_plane
+                        gradient[:, 2] *= not is_plane
+                        change = prepared.evaluate(motion) - mesh.points
+                        self.assertAlmostEqual((prepared.adjoint(gradient) * motion).sum(),
+                                               (gradient * change).sum(), delta=1e-7)
+
+    def test_a_fold_is_inverted_and_repaired(self):
+        mesh = self.square("quad")
+        moved = mesh.points.copy()
+        inside = numpy.setdiff1d(numpy.arange(49), mesh.boundary.nodes)[0]
+        moved[inside] += [0.4, 0.3, 0]
+        self.assertGreater(mm.quality(mesh, moved).inverted, 0)
+        repaired = mm.repair(mesh, moved, mesh.boundary.nodes)
+        self.assertEqual(mm.quality(mesh, repaired).inverted, 0)
+        self.assertLess(abs(repaired[:, 2]).max(), 1e-12)
+
+    def test_a_lid_leaves_its_plane(self):
+        mesh = self.square("triangle")
+        side = mesh.surfaces()[0].nodes
+        moved = mm.morph(mesh, side, numpy.full((len(side), 3), [0, 0, 0.3]))
+        self.assertTrue((moved[side, 2] == 0.3).all())
+        self.assertTrue(0.01 < moved[24, 2] < 0.29)
+        with self.assertRaisesRegex(ValueError, r"no nodes 49: ids go from 0 to 48"):
+            mm.morph(mesh, [49], [[0, 0, 0]])
 
 
 class Methods(unittest.TestCase):
@@ -290,7 +372,10 @@ class Methods(unittest.TestCase):
         for text, make in {
                 "no value 'soft'; there are Uniform": lambda: mm.FEMWARP(stiffness="soft"),
                 "from 0 to 4": lambda: mm.FEMWARP(stiffness_exponent=5),
-                "whole number": lambda: mm.WeightedResidual(number_of_neighbors=2.5),
+                "whole number from 1 to": lambda: mm.WeightedResidual(number_of_neighbors=2.5),
+                "is inf; a whole": lambda: mm.WeightedResidual(number_of_neighbors=numpy.inf),
+                "wall_array is NaN at node 0": lambda: mm.FEMWARP(
+                    wall_array=numpy.full(343, numpy.nan)).prepare(mesh, nodes),
                 "wall_array has 3": lambda: mm.FEMWARP(
                     stiffness="Wall distance", wall_array=[1, 0, 0]).prepare(mesh, nodes)}.items():
             with self.subTest(text), self.assertRaisesRegex(ValueError, text):
@@ -318,6 +403,15 @@ class Methods(unittest.TestCase):
                 call()
         with self.assertRaises(TypeError):
             prepared.evaluate()
+        for text, call in {
+                "mesh is a NoneType": lambda: mm.FEMWARP().prepare(None, nodes),
+                "mesh is a ndarray": lambda: mm.quality(mesh.points),
+                "mesh is a tuple": lambda: mm.repair((), mesh.points, nodes),
+                "method is a str": lambda: mm.morph(mesh, nodes, motion, method="FEMWARP"),
+                "method is a type": lambda: mm.morph(mesh, nodes, motion,
+                                                     method=mm.FEMWARP)}.items():
+            with self.subTest(text), self.assertRaisesRegex(TypeError, text):
+                call()
         with self.assertRaises((ValueError, RuntimeError)):
             mm.FEMWARP().prepare(mesh, [], fix_unnamed_boundary=False)
 
@@ -375,6 +469,9 @@ class Validity(unittest.TestCase):
         with self.assertRaisesRegex(mm.MorphError, "repair=True") as caught:
             mm.morph(mesh, nodes, motion, method=mm.WeightedResidual(), repair=False)
         self.assertGreater(len(caught.exception.cells), 0)
+        again = pickle.loads(pickle.dumps(caught.exception))
+        self.assertEqual((str(again), len(again.cells)),
+                         (str(caught.exception), len(caught.exception.cells)))
         moved = caught.exception.points
         self.assertEqual(moved.shape, mesh.points.shape)
         everything = numpy.arange(len(moved))

@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 namespace morph
@@ -181,82 +182,99 @@ Eigen::VectorXd heights(const Shell& shell, const Place& place, Monitor& monitor
   return result;
 }
 
-struct Facet
+/// A face as triangles: itself, or those around the mean of its corners.
+struct Facets
 {
-  std::array<Eigen::Vector3d, 3> corners;
-  Eigen::AlignedBox3d box;
+  std::vector<Eigen::Vector3d> points; ///< the corners, and then their mean
+  std::vector<std::array<std::size_t, 3>> triangles;
+  std::vector<Eigen::AlignedBox3d> boxes; ///< #triangles
+
+  /// `at`: the place of a corner.
+  template <typename At>
+  void take(const Shell& shell, Index face, const At& at)
+  {
+    this->points.clear();
+    this->triangles.clear();
+    this->boxes.clear();
+    std::transform(shell.begin(face), shell.end(face), std::back_inserter(this->points), at);
+    const std::size_t size = this->points.size();
+    if (size == 3)
+    {
+      this->add({ 0, 1, 2 });
+      return;
+    }
+    Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+    for (const Eigen::Vector3d& corner : this->points)
+    {
+      mean += corner / static_cast<double>(size);
+    }
+    this->points.push_back(mean);
+    for (std::size_t k = 0; k < size; ++k)
+    {
+      this->add({ size, k, (k + 1) % size });
+    }
+  }
+
+private:
+  void add(const std::array<std::size_t, 3>& triangle)
+  {
+    this->triangles.push_back(triangle);
+    this->boxes.emplace_back();
+    for (const std::size_t corner : triangle)
+    {
+      this->boxes.back().extend(this->points[corner]);
+    }
+  }
 };
 
-/// Fills `triangles` with those of a face. `at`: the place of a corner.
-template <typename At>
-void makeFacets(const Shell& shell, Index face, const At& at, std::vector<Facet>& triangles)
+/// Whether the line from p to q passes through a triangle or its rim.
+bool passes(const Eigen::Vector3d& p, const Eigen::Vector3d& q,
+  const std::array<const Eigen::Vector3d*, 3>& triangle)
 {
-  const Index* nodes = shell.begin(face);
-  const Index size = shell.size(face);
-  triangles.clear();
-  const auto add = [&](const Eigen::Vector3d& a, Index b, Index c)
-  {
-    Facet triangle;
-    triangle.corners = { a, at(b), at(c) };
-    for (const Eigen::Vector3d& corner : triangle.corners)
-    {
-      triangle.box.extend(corner);
-    }
-    triangles.push_back(triangle);
-  };
-  if (size == 3)
-  {
-    add(at(nodes[0]), nodes[1], nodes[2]);
-    return;
-  }
-  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-  for (Index k = 0; k < size; ++k)
-  {
-    mean += at(nodes[k]) / static_cast<double>(size);
-  }
-  for (Index k = 0; k < size; ++k)
-  {
-    add(mean, nodes[k], nodes[(k + 1) % size]);
-  }
-}
-
-/// Whether the line from p to q passes from one side of the triangle's plane to the other, through
-/// the triangle or its rim. Lines that only reach the plane do not.
-bool pierces(const Eigen::Vector3d& p, const Eigen::Vector3d& q, const Facet& triangle)
-{
-  const auto& [a, b, c] = triangle.corners;
-  if (orientationSign(a, b, c, p) * orientationSign(a, b, c, q) >= 0)
-  {
-    return false;
-  }
-  const int sides[] = { orientationSign(p, q, a, b), orientationSign(p, q, b, c),
-    orientationSign(p, q, c, a) };
-  return std::find(sides, sides + 3, -1) == sides + 3 ||
-         std::find(sides, sides + 3, 1) == sides + 3;
-}
-
-/// Whether an edge of a triangle passes through another one.
-bool anyEdgePierces(const Facet& edges, const Facet& other)
-{
+  int sum = 0, sides = 0;
   for (int k = 0; k < 3; ++k)
   {
-    if (pierces(edges.corners[k], edges.corners[(k + 1) % 3], other))
+    const int side = orientationSign(p, q, *triangle[k], *triangle[(k + 1) % 3]);
+    sum += side;
+    sides += std::abs(side);
+    if (std::abs(sum) < sides)
     {
-      return true;
+      return false; // on one side here, and on the other there
     }
   }
-  return false;
+  return true;
 }
 
-bool anyCross(const std::vector<Facet>& first, const std::vector<Facet>& second)
+/// Whether an edge of a triangle of `edges` passes from one side of the plane of one of `others` to
+/// the other side, and through this triangle. Edges that only reach the plane do not.
+bool anyEdgePierces(const Facets& edges, const Facets& others)
 {
-  for (const Facet& a : first)
+  std::vector<int> side; // of the plane, on which the points are
+  for (std::size_t t = 0; t < others.triangles.size(); ++t)
   {
-    for (const Facet& b : second)
+    const auto& [a, b, c] = others.triangles[t];
+    const std::array<const Eigen::Vector3d*, 3> triangle = { &others.points[a], &others.points[b],
+      &others.points[c] };
+    side.clear();
+    for (std::size_t s = 0; s < edges.triangles.size(); ++s)
     {
-      if (a.box.intersects(b.box) && (anyEdgePierces(a, b) || anyEdgePierces(b, a)))
+      if (!edges.boxes[s].intersects(others.boxes[t]))
       {
-        return true;
+        continue;
+      }
+      if (side.empty())
+      {
+        std::transform(edges.points.begin(), edges.points.end(), std::back_inserter(side),
+          [&](const Eigen::Vector3d& x)
+          { return orientationSign(*triangle[0], *triangle[1], *triangle[2], x); });
+      }
+      for (int k = 0; k < 3; ++k)
+      {
+        const std::size_t p = edges.triangles[s][k], q = edges.triangles[s][(k + 1) % 3];
+        if (side[p] * side[q] < 0 && passes(edges.points[p], edges.points[q], triangle))
+        {
+          return true;
+        }
       }
     }
   }
@@ -266,7 +284,7 @@ bool anyCross(const std::vector<Facet>& first, const std::vector<Facet>& second)
 /// Whether two faces cross with one of them pushed, and one moved back by `length`: as a whole, and
 /// also with the faces at its corners.
 bool crossPushed(const Shell& shell, const Place& place, const std::array<Index, 2>& pair,
-  double length, std::array<std::vector<Facet>, 2>& facets)
+  double length, std::array<Facets, 2>& facets)
 {
   const auto cross = [&](int pushed, int movedBack, bool asAWhole)
   {
@@ -281,9 +299,9 @@ bool crossPushed(const Shell& shell, const Place& place, const std::array<Index,
           asAWhole ? place.normals.row(face) : place.outwards.row(corner);
         return (side == movedBack ? Eigen::RowVector3d(x - length * way) : x).transpose();
       };
-      makeFacets(shell, face, at, facets[side]);
+      facets[side].take(shell, face, at);
     }
-    return anyCross(facets[0], facets[1]);
+    return anyEdgePierces(facets[0], facets[1]) || anyEdgePierces(facets[1], facets[0]);
   };
   const auto crossIf = [&](int movedBack, bool asAWhole)
   { return cross(0, movedBack, asAWhole) || cross(1, movedBack, asAWhole); };
@@ -344,7 +362,7 @@ std::vector<std::array<Index, 2>> crossingFaces(const ConstPoints& rest, const C
     parallelBatches(monitor, static_cast<Index>(pairs.size()), Batch, Grain,
       [&](Index begin, Index end)
       {
-        std::array<std::vector<Facet>, 2> facets;
+        std::array<Facets, 2> facets;
         const auto crossAt = [&](const Place& place, const auto& pair, double length)
         { return crossPushed(shell, place, pair, length, facets); };
         for (Index i = begin; i < end; ++i)

@@ -2,8 +2,10 @@
 #include "BoundaryMover/BoundaryModel.h"
 
 #include "Boundary/FaceAreas.h"
+#include "Mesh/CellShape.h"
 #include "Mesh/FacesOfCells.h"
 #include "Mesh/HangingNodes.h"
+#include "Mesh/Polyhedra.h"
 #include "Support/Lists.h"
 
 #include <Eigen/Geometry>
@@ -47,6 +49,52 @@ std::vector<Index> facesOfCells(const Mesh& mesh, const BoundaryFaces& faces, st
       result.push_back(static_cast<Index>(f));
     }
   }
+  return result;
+}
+
+/// See BoundaryModel::onLinearEdges. Cost: a pass over the cells of a mesh with quadratic ones.
+std::vector<Index> linearEdges(const Mesh& mesh, const BoundaryFaces& faces)
+{
+  std::map<std::pair<Index, Index>, Index> middle; // of edges
+  for (std::size_t i = 0; i < faces.nodes.size(); ++i)
+  {
+    const auto k = static_cast<Index>(i);
+    const Index* ends = faces.between.begin(k);
+    if (faces.between.end(k) - ends == 2)
+    {
+      middle.emplace(std::minmax(ends[0], ends[1]), k);
+    }
+  }
+  std::vector<Index> result;
+  const auto take = [&](const std::vector<Index>& face)
+  {
+    for (std::size_t k = 0; k < face.size(); ++k)
+    {
+      const auto found = middle.find(std::minmax(face[k], face[(k + 1) % face.size()]));
+      if (found != middle.end())
+      {
+        result.push_back(found->second);
+      }
+    }
+  };
+  for (Index c = 0; c < mesh.numberOfCells() && !middle.empty(); ++c)
+  {
+    const CellShape* shape = cellShape(mesh, c);
+    forEachFace(mesh, c,
+      [&](const Index* nodes, Index size) { take(std::vector<Index>(nodes, nodes + size)); });
+    const bool isLinear =
+      shape && shape->dimension == 3 && shape->numberOfNodes == shape->numberOfCorners;
+    for (int f = 0; f < (isLinear ? shape->numberOfFaces : 0); ++f)
+    {
+      std::vector<Index> face;
+      for (int k = 0; k < shape->faces[f].size; ++k)
+      {
+        face.push_back(mesh.cell(c)[shape->cornerNode[shape->faces[f].corner[k]]]);
+      }
+      take(face);
+    }
+  }
+  sortUnique(result);
   return result;
 }
 
@@ -214,6 +262,7 @@ void BoundaryModel::findFaces(const std::vector<std::uint8_t>& isNamed, Monitor&
     this->faces = facesAt(this->mesh, places);
     hanging.divideEdges(this->faces);
   }
+  this->onLinearEdges = linearEdges(this->mesh, this->faces);
   const std::vector<std::int8_t> ofCell = cellSigns(this->mesh, bodies);
   this->orientation.clear();
   for (const Index cell : this->faces.cells)

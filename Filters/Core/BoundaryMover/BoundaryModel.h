@@ -39,6 +39,9 @@ struct BoundaryModel
   Points undeformed; ///< of a boundary alone: #nodes x 3
   /// The outer faces, then those of baffles, then those of sheets; see innerFaces().
   BoundaryFaces faces;
+  /// Nodes between corners on edges that linear cells have, too, by their numbers in faces.nodes.
+  /// A boundary alone has none.
+  std::vector<Index> onLinearEdges;
   InnerFaces inner;                        ///< the last ones of `faces`
   std::vector<InnerSurface> innerSurfaces; ///< of its parts and of sets of nodes
   /// The names of those that are sheets, too. Others are listed alone.

@@ -100,7 +100,8 @@ void requireKnownCells(bool hasPolyhedra)
 {
   if (hasPolyhedra)
   {
-    throw Error("`SlideRounds` does not know polyhedra, and the mesh has some. Set it to 0.");
+    throw Error("`SlideRounds` does not know polyhedra, and the mesh has some, or hexahedra that "
+                "name a node more than once. Set it to 0.");
   }
 }
 }

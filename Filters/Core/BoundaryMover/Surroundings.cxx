@@ -95,15 +95,25 @@ std::vector<std::uint8_t> touched(const BoundaryModel& model, const Surroundings
   return isTouched;
 }
 
+/// The motion of the place between corners at which a node, by its number in faces.nodes, is.
+Eigen::RowVector3d shiftBetween(
+  const BoundaryModel& model, Index k, const Surroundings::Result& result)
+{
+  return meanBetween(model.faces, k, model.points(),
+    [&](Index corner)
+    { return Eigen::RowVector3d(result.moved.row(corner) - model.points().row(corner)); });
+}
+
 /// Moves mid-side and face nodes of these roles with their corners. Otherwise the edges between
 /// moved and fixed corners would bend. A held node moves only beside a corner with the role Moves.
-void moveBetween(const BoundaryModel& model, const std::vector<Surroundings::Role>& roles,
-  Surroundings::Result& result)
+/// `which`: their numbers in faces.nodes.
+void moveBetween(const BoundaryModel& model, const std::vector<Index>& which,
+  const std::vector<Surroundings::Role>& roles, Surroundings::Result& result)
 {
   const BoundaryFaces& faces = model.faces;
-  for (std::size_t i = 0; i < faces.nodes.size(); ++i)
+  for (const Index k : which)
   {
-    const Index node = faces.nodes[i], k = static_cast<Index>(i);
+    const Index node = faces.nodes[k];
     const Index *begin = faces.between.begin(k), *end = faces.between.end(k);
     if (begin == end || std::count(roles.begin(), roles.end(), result.roles[node]) == 0 ||
         (result.roles[node] == Surroundings::IsHeld &&
@@ -112,9 +122,7 @@ void moveBetween(const BoundaryModel& model, const std::vector<Surroundings::Rol
     {
       continue;
     }
-    const Eigen::RowVector3d shift = meanBetween(faces, k, model.points(),
-      [&](Index corner)
-      { return Eigen::RowVector3d(result.moved.row(corner) - model.points().row(corner)); });
+    const Eigen::RowVector3d shift = shiftBetween(model, k, result);
     result.moved.row(node) = model.points().row(node);
     if (!shift.isZero(0))
     {
@@ -125,6 +133,39 @@ void moveBetween(const BoundaryModel& model, const std::vector<Surroundings::Rol
     {
       result.roles[node] = Surroundings::Stays;
     }
+  }
+}
+
+void moveBetween(const BoundaryModel& model, const std::vector<Surroundings::Role>& roles,
+  Surroundings::Result& result)
+{
+  moveBetween(model, consecutive(model.faces.nodes.size()), roles, result);
+}
+
+/// Warns of moving nodes that leave the edge of a linear cell, which is straight.
+void warnOfGaps(const BoundaryModel& model, const Surroundings::Result& result, Monitor& monitor)
+{
+  std::vector<Index> off;
+  double most = 0;
+  for (const Index k : model.onLinearEdges)
+  {
+    const Index node = model.faces.nodes[k];
+    const Eigen::RowVector3d to = model.points().row(node) + shiftBetween(model, k, result);
+    const double gap = (result.moved.row(node) - to).norm();
+    if (result.roles[node] == Surroundings::Moves && gap > 1e-6 * model.size)
+    {
+      off.push_back(node);
+      most = std::max(most, gap);
+    }
+  }
+  if (!off.empty())
+  {
+    std::ostringstream size;
+    size << most;
+    monitor.warn("Quadratic cells part from linear ones beside them by up to " + size.str() +
+                 ": what moves takes nodes between corners off edges that are straight on the "
+                 "other side. Point ids " +
+                 listIds(off) + ". Make the cells on both sides linear or quadratic.");
   }
 }
 
@@ -192,6 +233,8 @@ Surroundings::Result Surroundings::spread(const BoundaryModel& model, const Choi
   if (!choice.moving.empty())
   {
     this->place(model, choice, options, result, monitor);
+    moveBetween(model, model.onLinearEdges, { Stays, Follows, IsHeld }, result);
+    warnOfGaps(model, result, monitor);
   }
   leaveFree(model, choice.held, options.free, options.freeNodes, result);
   return result;

@@ -75,7 +75,8 @@ public:
   /// Nodes of sliding surfaces, moving ones too, go to the nearest point at their height above the
   /// surface's shape.
   /// With Stay and Fade mid-side and face nodes keep their place between their corners. So they do
-  /// on surfaces that stay or are held, next to a moving corner. Nodes of free surfaces alone, and
+  /// on surfaces that stay or are held, next to a moving corner, and on edges that linear cells
+  /// have, too; a warning names those that the targets take off. Nodes of free surfaces alone, and
   /// free nodes, neither moving nor held, have the role IsFree and their current position.
   /// A result does not depend on what is kept. `last`: an earlier result that is no longer needed.
   /// Its memory is used again, so that nodes inside cost nothing.

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <iterator>
 #include <map>
 #include <set>
 #include <utility>
@@ -320,5 +321,13 @@ void recognizeCells(Mesh& mesh, Monitor& monitor)
   replace(collapsedCells(mesh), mesh);
   replace(laterCopies(mesh, monitor), mesh);
   orientPolyhedra(mesh);
+}
+
+std::vector<Index> unrecognizedCells(const Mesh& mesh, const std::vector<Index>& cells)
+{
+  std::vector<Index> result;
+  std::copy_if(cells.begin(), cells.end(), std::back_inserter(result),
+    [&](Index cell) { return repeatsCorners(*cellShape(mesh, cell), mesh.cell(cell)); });
+  return result;
 }
 }

@@ -95,8 +95,7 @@ Adjacency nodesOfFaces(const Mesh& mesh, const BoundaryFaces& faces)
     const Index* corners = faces.connectivity.data() + faces.offsets[f];
     const Index size = faces.offsets[f + 1] - faces.offsets[f];
     std::vector<Index> nodes(corners, corners + size), middles(size, -1), center;
-    const Index last = shape.shape == Shape::Polyhedron ? 0 : shape.numberOfNodes;
-    for (int k = shape.numberOfCorners; k < last; ++k)
+    for (int k = shape.numberOfCorners; k < shape.numberOfNodes; ++k) // -1 of a polyhedron
     {
       double N[8];
       shapeFunctions(shape.shape, shape.extraNodes[k - shape.numberOfCorners], N, nullptr);
@@ -127,8 +126,8 @@ Adjacency nodesOfFaces(const Mesh& mesh, const BoundaryFaces& faces)
       std::count_if(middles.begin(), middles.end(), [](Index node) { return node >= 0; });
     const bool isLinear = count == 0 && center.empty();
     const bool isQuadratic = count == size && (center.empty() || (size == 4 && center.size() == 1));
-    const bool isKnown = shape.shape != Shape::Polyhedron && (size == 3 || size == 4) &&
-                         mesh.types[cell] < LagrangeCurve && (isLinear || isQuadratic);
+    const bool isKnown =
+      (size == 3 || size == 4) && mesh.types[cell] < LagrangeCurve && (isLinear || isQuadratic);
     if (isKnown)
     {
       result.values.insert(result.values.end(), nodes.begin(), nodes.end());

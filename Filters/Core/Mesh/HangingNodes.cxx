@@ -73,6 +73,28 @@ void complete(NodesOnEdges& onEdge)
 /// What a node is tied to, and by what weights.
 using Tie = std::map<Index, double>;
 
+/// The corners of the sides of a volume cell, each once; none of other cells.
+std::vector<std::vector<Index>> sidesOf(const Mesh& mesh, Index cell)
+{
+  std::vector<std::vector<Index>> sides;
+  forEachFace(
+    mesh, cell, [&](const Index* nodes, Index size) { sides.emplace_back(nodes, nodes + size); });
+  const CellShape* shape = cellShape(mesh, cell);
+  for (int f = 0; shape && shape->dimension == 3 && f < shape->numberOfFaces; ++f)
+  {
+    std::vector<Index>& corners = sides.emplace_back();
+    for (int k = 0; k < shape->faces[f].size; ++k)
+    {
+      const Index node = mesh.cell(cell)[shape->cornerNode[shape->faces[f].corner[k]]];
+      if (std::find(corners.begin(), corners.end(), node) == corners.end())
+      {
+        corners.push_back(node);
+      }
+    }
+  }
+  return sides;
+}
+
 /// Replaces nodes in ties that are tied themselves.
 void resolve(std::map<Index, Tie>& ties)
 {
@@ -108,10 +130,6 @@ void HangingNodes::find(const Mesh& mesh, const BoundaryFaces& faces, Monitor& m
 {
   *this = HangingNodes();
   const Index count = static_cast<Index>(faces.cells.size());
-  if (hasPolyhedra(mesh))
-  {
-    return;
-  }
   const DividedFaces divided(mesh, faces, monitor);
   std::vector<std::vector<Index>> parts(count);
   parallel(count, FaceGrain, monitor, [&](Index f) { parts[f] = divided.parts(f); });
@@ -489,29 +507,20 @@ Mesh HangingNodes::conforming(const Mesh& mesh) const
   {
     const Index *begin = mesh.cell(c), *end = begin + mesh.cellSize(c);
     std::vector<Index> nodes(begin, end);
-    const CellShape* shape = cellShape(mesh, c);
     const auto cover = this->covers_.lower_bound({ c, 0 });
     const bool isCovered = cover != this->covers_.end() && cover->first.first == c;
-    const bool isVolume = shape && shape->dimension == 3 && shape->shape != Shape::Polyhedron;
-    if (isVolume && (isCovered || std::count_if(begin, end, [&](Index n) { return isEnd[n]; }) > 1))
+    const bool isPolyhedron = mesh.types[c] == Polyhedron;
+    if (isPolyhedron || isCovered ||
+        std::count_if(begin, end, [&](Index n) { return isEnd[n]; }) > 1)
     {
+      const std::vector<Polygon> sides = sidesOf(mesh, c);
       std::vector<Polygon> polygons;
       bool isDivided = isCovered;
-      for (int side = 0; side < shape->numberOfFaces; ++side)
+      for (std::size_t side = 0; side < sides.size(); ++side)
       {
-        const FaceShape& face = shape->faces[side];
-        Polygon corners;
-        for (int k = 0; k < face.size; ++k)
-        {
-          const Index node = begin[shape->cornerNode[face.corner[k]]];
-          if (std::find(corners.begin(), corners.end(), node) == corners.end())
-          {
-            corners.push_back(node);
-          }
-        }
-        const auto parts = this->covers_.find({ c, side });
+        const auto parts = this->covers_.find({ c, static_cast<int>(side) });
         const std::vector<Polygon> own =
-          parts == this->covers_.end() ? std::vector<Polygon>{ corners } : parts->second;
+          parts == this->covers_.end() ? std::vector<Polygon>{ sides[side] } : parts->second;
         for (Polygon polygon : own)
         {
           const std::size_t before = polygon.size();
@@ -523,7 +532,7 @@ Mesh HangingNodes::conforming(const Mesh& mesh) const
           }
         }
       }
-      if (isDivided)
+      if (isDivided || isPolyhedron)
       {
         result.types[c] = Polyhedron;
         nodes.clear(); // those between its corners are in no piece

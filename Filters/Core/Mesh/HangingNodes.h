@@ -25,8 +25,8 @@ class HigherOrderNodes;
 /// if they lie on it. So no gap opens. A tie to a node that hangs, too, is one to what that is tied
 /// to.
 ///
-/// Cells are linear or quadratic: faces of 3, 4, 6, 8 and 9 nodes. A mesh with polyhedra has none,
-/// as these have the small faces themselves.
+/// Cells are linear or quadratic: faces of 3, 4, 6, 8 and 9 nodes. Polyhedra may have such faces,
+/// as collapsed hexahedra do, or the small faces themselves.
 class HangingNodes
 {
 public:

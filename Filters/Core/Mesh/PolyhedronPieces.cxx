@@ -5,6 +5,7 @@
 #include "Mesh/IndexLimits.h"
 #include "Mesh/Polyhedra.h"
 #include "Mesh/SimplicialDecomposition.h"
+#include "Support/Lists.h"
 
 #include <Eigen/Geometry>
 
@@ -263,6 +264,28 @@ void append(const Cells& cells, Mesh& mesh)
   mesh.connectivity.insert(
     mesh.connectivity.end(), cells.connectivity.begin(), cells.connectivity.end());
 }
+
+/// One process, in whose messages pieces are the cells that they are cut from.
+class PiecesAlone : public Communicator
+{
+public:
+  explicit PiecesAlone(const CellPieces& pieces)
+    : pieces_(pieces)
+  {
+  }
+
+  std::vector<Index> gatherCells(const std::vector<Index>& pieces) const override
+  {
+    std::vector<Index> cells;
+    std::transform(pieces.begin(), pieces.end(), std::back_inserter(cells),
+      [this](Index piece) { return this->pieces_.cellOf(piece); });
+    sortUnique(cells);
+    return cells;
+  }
+
+private:
+  const CellPieces& pieces_;
+};
 }
 
 PolyhedronPieces::PolyhedronPieces(const Mesh& mesh, Monitor& monitor, bool cutsAll)
@@ -340,6 +363,11 @@ PolyhedronPieces::PolyhedronPieces(const Mesh& mesh, Monitor& monitor, bool cuts
 }
 
 CellPieces::~CellPieces() = default;
+
+std::shared_ptr<const Communicator> PolyhedronPieces::processes() const
+{
+  return std::make_shared<PiecesAlone>(*this);
+}
 
 Index PolyhedronPieces::cellOf(Index piece) const
 {

@@ -22,8 +22,9 @@ public:
 
   /// The pieces and the other cells, with the centers at their first places.
   virtual const Mesh& mesh() const = 0;
-  /// Those that have the other parts of mesh(); null for one process.
-  virtual std::shared_ptr<const Communicator> processes() const { return nullptr; }
+  /// Those that have the other parts of mesh(), or this process alone. What it tells of cells it
+  /// tells of those that the pieces are cut from. Holds this object by reference.
+  virtual std::shared_ptr<const Communicator> processes() const = 0;
   /// The cell that a piece is cut from; -1 for a copy of another process's piece.
   virtual Index cellOf(Index piece) const = 0;
   /// The node of the pieces that a node is; -1 for one that no cell of this process has.
@@ -66,6 +67,7 @@ public:
   PolyhedronPieces(const Mesh& mesh, Monitor& monitor, bool cutsAll = false);
 
   const Mesh& mesh() const override { return this->pieces_; }
+  std::shared_ptr<const Communicator> processes() const override;
   Index cellOf(Index piece) const override;
   Index nodeOf(Index node) const override { return node; }
   Points extend(const ConstPoints& points) const override;

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <string>
 #include <tuple>
 
@@ -258,6 +259,24 @@ void turnOver(Mesh& layer, Index cell)
   }
 }
 
+/// Puts the nodes between front and back, which quadratic prisms have, in the middle.
+void placeBetween(const Mesh& rest, Points& moved)
+{
+  const Index count = rest.layer.nodes;
+  for (Index c = 0; c < rest.numberOfCells() && rest.numberOfNodes() > 2 * count; ++c)
+  {
+    // The last nodes of a quadratic prism are between its corners of front and back.
+    const std::vector<Index> corners = frontOf(rest, c);
+    const Index* end = rest.cell(c) + rest.cellSize(c);
+    for (std::size_t k = 0;
+         rest.cellSize(c) > 2 * static_cast<Index>(corners.size()) && k < corners.size(); ++k)
+    {
+      const Index front = corners[corners.size() - 1 - k];
+      moved.row(*(end - 1 - k)) = (moved.row(front) + moved.row(front + count)) / 2;
+    }
+  }
+}
+
 /// Appends the cells of a layer to a mesh.
 class Layer
 {
@@ -426,16 +445,26 @@ Mesh thicken(const Mesh& shell)
   return mesh;
 }
 
-bool leavesPlane(const ShellLayer& layer, const ConstPoints& points)
+bool leavesPlane(const Mesh& rest, const ConstPoints& points)
 {
+  const ShellLayer& layer = rest.layer;
   if (layer.nodes == 0 || layer.isCurved())
   {
     return false;
   }
-  const auto front = points.topRows(layer.nodes);
-  const Eigen::VectorXd heights = (front.rowwise() - front.row(0)) * layer.normal.transpose();
-  const double size = (front.colwise().maxCoeff() - front.colwise().minCoeff()).norm();
-  return heights.maxCoeff() - heights.minCoeff() > 2 * Flatness * size;
+  Eigen::AlignedBox3d box;
+  double least = std::numeric_limits<double>::infinity(), most = -least; // of heights
+  for (Index node = 0; node < layer.nodes; ++node)
+  {
+    if (points.row(node).allFinite()) // else it is of no cell
+    {
+      const double height = (points.row(node) - rest.points.row(node)).dot(layer.normal);
+      least = std::min(least, height);
+      most = std::max(most, height);
+      box.extend(points.row(node).transpose());
+    }
+  }
+  return most - least > 2 * Flatness * box.diagonal().stableNorm();
 }
 
 void requireRegion(const Mesh& mesh)
@@ -507,18 +536,23 @@ void placeImages(const Mesh& rest, Points& moved)
     }
   }
   moved.middleRows(count, count) = moved.topRows(count) + rest.layer.thickness * normals;
-  for (Index c = 0; c < rest.numberOfCells() && rest.numberOfNodes() > 2 * count; ++c)
+  placeBetween(rest, moved);
+}
+
+Points layerBehind(const Mesh& rest, const ConstPoints& front)
+{
+  const Index count = rest.layer.nodes;
+  Points points = rest.points;
+  points.topRows(count) = front;
+  points.middleRows(count, count) =
+    front.rowwise() + Eigen::RowVector3d(rest.layer.thickness * rest.layer.normal);
+  placeBetween(rest, points);
+  if (leavesPlane(rest, points))
   {
-    // The last nodes of a quadratic prism are between its corners of front and back.
-    const std::vector<Index> corners = frontOf(rest, c);
-    const Index* end = rest.cell(c) + rest.cellSize(c);
-    for (std::size_t k = 0;
-         rest.cellSize(c) > 2 * static_cast<Index>(corners.size()) && k < corners.size(); ++k)
-    {
-      const Index front = corners[corners.size() - 1 - k];
-      moved.row(*(end - 1 - k)) = (moved.row(front) + moved.row(front + count)) / 2;
-    }
+    placeImages(bent(rest), points);
   }
+  placeImages(rest, points);
+  return points;
 }
 
 std::vector<std::pair<Index, Index>> imagesAmong(

@@ -27,8 +27,10 @@ namespace morph
 /// normal at a node, too. Cost: passes over the mesh.
 Mesh thicken(const Mesh& shell);
 
-/// Whether the front of a plane layer at `points` leaves the plane by more than 1e-6 of its size.
-bool leavesPlane(const ShellLayer& layer, const ConstPoints& points);
+/// Whether nodes of a plane layer, at `points`, leave its plane by more than 1e-6 of its size.
+/// `points`: of the front, and of any others after these. Nodes that are off it in the undeformed
+/// mesh, as those of beams, do not.
+bool leavesPlane(const Mesh& rest, const ConstPoints& points);
 /// A plane layer as a curved one that is as thick, for motions that leave the plane.
 Mesh bent(Mesh mesh);
 
@@ -44,6 +46,9 @@ BoundaryFaces frontFaces(const Mesh& mesh);
 /// surface. Where folded cells leave a node no normal of its own, it has that of three rings of
 /// cells. Other meshes stay. Cost: some passes over the cells.
 void placeImages(const Mesh& rest, Points& moved);
+
+/// Returns the points of all nodes of a layer where those of its front are `front`.
+Points layerBehind(const Mesh& rest, const ConstPoints& front);
 
 /// The images of the nodes of a layer among `ids`, ascending: their places in `ids`, front first.
 /// Nodes whose image is not among them are left out.

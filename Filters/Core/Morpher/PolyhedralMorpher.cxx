@@ -52,7 +52,7 @@ public:
     }
     if (auto* stiff = dynamic_cast<StiffMethod*>(this->method_.get()))
     {
-      this->setStiffness(*stiff);
+      this->setStiffness(*stiff, processes);
     }
     this->method_->prepare(this->pieces_->mesh(),
       this->pieces_->extend(this->ties_.extend(partition)), monitor, this->pieces_->processes());
@@ -171,7 +171,7 @@ private:
     }
   }
 
-  void setStiffness(StiffMethod& method) const
+  void setStiffness(StiffMethod& method, const Communicator& processes) const
   {
     CellStiffness stiffness = this->stiffness_;
     if (!stiffness.values.empty())
@@ -183,7 +183,7 @@ private:
       node = stiffness.areWallsGlobal ? node : this->pieces_->nodeOf(node);
     }
     method.setStiffness(std::move(stiffness));
-    if (!this->pieces_->processes())
+    if (!processes.bodies())
     {
       method.setFirstCenter(this->nodes_);
     }

@@ -106,8 +106,8 @@ bool repairPolyhedra(const Mesh& mesh, const HangingNodes& hanging, const Points
   const auto pieces = cutCells(mesh, hanging, processes, 1, preparing);
   const std::shared_ptr<const Communicator> ofPieces = pieces->processes();
   const NodePartition nodes = pieces->extend(hanging.extend(partition));
-  const std::vector<Index> stay = cellsThatStay(
-    *pieces, nodes, pieces->extend(moved), ofPieces ? *ofPieces : Communicator::alone(), preparing);
+  const std::vector<Index> stay =
+    cellsThatStay(*pieces, nodes, pieces->extend(moved), *ofPieces, preparing);
   const auto canBeMended = [&]
   { return !processes.all(std::includes(stay.begin(), stay.end(), left.begin(), left.end())); };
   if (!canBeMended())
@@ -150,7 +150,7 @@ Index smoothAfterwards(const Mesh& rest, const HangingNodes& hanging, bool onPie
   {
     const auto pieces = cutCells(rest, hanging, processes, 1, monitor);
     const std::shared_ptr<const Communicator> shared = pieces->processes();
-    const Communicator& ofPieces = shared ? *shared : Communicator::alone();
+    const Communicator& ofPieces = *shared;
     const Mesh& mesh = pieces->mesh();
     Points all = pieces->extend(moved);
     report = smoothOwnCells(mesh,

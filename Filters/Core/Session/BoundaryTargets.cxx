@@ -46,8 +46,8 @@ void verifyRestPositions(const NamedPoints& named, const Mesh& rest, double tole
     throw Error(
       "The boundary's ids are stale: its 'RestPosition' disagrees with the grid at node ids " +
       listNodes(stale, globalIds) +
-      ". The boundary was made from another mesh, or a filter has interpolated its arrays. Apply "
-      "Extract Morph Boundary to this grid again.");
+      ". The boundary was made from another mesh or at another time, or a filter has interpolated "
+      "its arrays. Apply Extract Morph Boundary to this grid again.");
   }
 }
 

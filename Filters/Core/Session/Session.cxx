@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Session/Session.h"
 
+#include "Mesh/CollapsedCells.h"
 #include "Mesh/Extent.h"
 #include "Mesh/OwnCells.h"
 #include "Mesh/ShellLayer.h"
@@ -130,11 +131,19 @@ void Session::reportMesh(const Options& options, Monitor& whole) const
   if (options.measureAll)
   {
     std::string note;
+    std::vector<Index> unrecognized;
     processes.together(
-      [&] {
-        note =
-          Validity::note(options.validity, processes.gatherCells(mesh.before(monitor).cells()));
+      [&]
+      {
+        const std::vector<Index>& before = mesh.before(monitor).cells();
+        const std::vector<Index> own = unrecognizedCells(mesh.mesh(), before);
+        std::vector<Index> others;
+        std::set_difference(
+          before.begin(), before.end(), own.begin(), own.end(), std::back_inserter(others));
+        unrecognized = processes.gatherCells(own);
+        note = Validity::note(options.validity, processes.gatherCells(others));
       });
+    warnOfUnrecognized(unrecognized, monitor);
     if (!note.empty())
     {
       monitor.warn(note);
@@ -224,7 +233,8 @@ bool Session::countsHere(Index node) const
 StepResult Session::morphStep(const Mesh& from, const BoundaryTargets& boundary,
   const AffineHandle* handle, const Options& options, Monitor& monitor)
 {
-  if (!from.layer.isCurved() && (!boundary.leaving.empty() || leavesPlane(from.layer, from.points)))
+  if (!from.layer.isCurved() &&
+      (!boundary.leaving.empty() || leavesPlane(this->mesh_->mesh(), from.points)))
   {
     return this->morphStep(bent(from), boundary, handle, options, monitor);
   }

@@ -182,6 +182,19 @@ void warnOfShared(const std::vector<Index>& repeatedCells, const std::vector<Ind
   }
 }
 
+void warnOfUnrecognized(const std::vector<Index>& cells, Monitor& monitor)
+{
+  if (!cells.empty())
+  {
+    monitor.warn("Cells name a node more than once in a way that makes no cell of a known type: "
+                 "cell ids " +
+                 listIds(cells) +
+                 ". They count as degenerate, however they move, and methods see them "
+                 "approximately. Divide them into other cells or, if they are quadratic, make them "
+                 "linear.");
+  }
+}
+
 void warnOfUnmapped(const std::vector<Index>& cells, Monitor& monitor)
 {
   if (!cells.empty())

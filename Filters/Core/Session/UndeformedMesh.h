@@ -108,6 +108,9 @@ void warnOfMirrored(Index bodies, Index first, Monitor& monitor);
 /// are those of the whole mesh, ascending.
 void warnOfShared(const std::vector<Index>& repeatedCells, const std::vector<Index>& touchingNodes,
   Monitor& monitor);
+/// Warns of cells that name a corner more than once and are no known shape; see CollapsedCells.h.
+/// Ids as above.
+void warnOfUnrecognized(const std::vector<Index>& cells, Monitor& monitor);
 /// Warns of cells of which quality sees the corners alone; see unmappedCells(). Ids as above.
 void warnOfUnmapped(const std::vector<Index>& cells, Monitor& monitor);
 /// Returns the prescribed nodes that hang and are not at their targets in the moved mesh, but

@@ -267,8 +267,9 @@ Points Targets(const BoundaryModel& model, const Choice& choice, const Options& 
     return from;
   }
   Points targets = wholeMotion(model, choice, options, from, presentDimension);
-  const char* names[] = { "Transform", "Vector", "Distance", "DisplacementArray", "Scale",
-    "RadiusChange", "Target", "Handles", "Lattice", "FieldArray", "Dimension" };
+  const char* names[] = { "Transform", "Vector", "Distance", "DisplacementArray",
+    "Translation`, `Rotation` or `Scale", "RadiusChange", "Target", "Handles", "Lattice",
+    "FieldArray", "Dimension" };
   requireModerate(targets, choice.moving, names[options.Displacement]);
   if (options.ScaleFactor == 0)
   {
