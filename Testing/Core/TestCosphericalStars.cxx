@@ -76,9 +76,7 @@ Points morphed(const Mesh& mesh, const NodePartition& partition, const Points& t
 {
   Monitor monitor;
   SimplexLinear method;
-  method.prepare(mesh, partition, monitor);
-  Points moved;
-  method.evaluate(target, moved, monitor);
+  Points moved = motions::morphed(method, mesh, partition, target, monitor);
   return moved;
 }
 

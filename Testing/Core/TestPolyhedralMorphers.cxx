@@ -37,9 +37,7 @@ Points morphed(const Make& make, const Mesh& mesh, const NodePartition& partitio
   {
     method = morpherForPolyhedra(std::move(method), cutsAll);
   }
-  method->prepare(mesh, partition, monitor);
-  Points result;
-  method->evaluate(target, result, monitor);
+  Points result = motions::morphed(*method, mesh, partition, target, monitor);
   return result;
 }
 

@@ -22,9 +22,7 @@
 
 namespace
 {
-using morph::Index;
-using morph::Mesh;
-using morph::Points;
+using namespace morph;
 using motions::Row;
 
 constexpr int Boxes = 6;
@@ -123,9 +121,8 @@ struct Shell
   }
   Points moved(morph::Morpher& method, const motions::Map& map)
   {
-    method.prepare(mesh, partition, monitor);
-    Points result;
-    method.evaluate(motions::targets(mesh, partition, map), result, monitor);
+    Points result =
+      motions::morphed(method, mesh, partition, motions::targets(mesh, partition, map), monitor);
     return result;
   }
   Points front(const Points& points) const { return points.topRows(faces.numberOfNodes()); }

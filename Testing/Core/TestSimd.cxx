@@ -14,9 +14,7 @@
 
 namespace
 {
-using morph::Index;
-using morph::SimdDouble4;
-using morph::SimdWidth;
+using namespace morph;
 using namespace morph::foldover;
 
 constexpr int Blocks = 6;

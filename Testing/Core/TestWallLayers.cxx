@@ -149,9 +149,8 @@ Figures kept(const Mesh& mesh, const std::function<bool(const Row&)>& isWall,
     prescribed.insert(prescribed.end(), some.columns.values.begin(), some.columns.values.end());
   }
   const NodePartition partition = partitionNodes(mesh, prescribed);
-  method.prepare(mesh, partition, monitor);
-  Points moved;
-  method.evaluate(meshes::rows(target, partition.prescribed), moved, monitor);
+  Points moved =
+    motions::morphed(method, mesh, partition, meshes::rows(target, partition.prescribed), monitor);
 
   Figures figures;
   figures.inverted =

@@ -12,10 +12,7 @@
 
 namespace
 {
-using morph::AttachedNodes;
-using morph::Index;
-using morph::Mesh;
-using morph::Points;
+using namespace morph;
 using Row = Eigen::RowVector3d;
 
 constexpr Index Volume = 7 * 6 * 5;

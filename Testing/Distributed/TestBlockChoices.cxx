@@ -165,8 +165,7 @@ TEST(RankBlockChoices, AZoneThatNoRankHasIsOneError)
   filter->SetMovingToSelection();
   filter->SetSelectionData(upperPointsOfB(mine));
   filter->AddFixedZone("Nowhere");
-  grids::Listener listener(filter);
-  filter->Update();
+  const grids::Run listener(filter);
   EXPECT_EQ(ranks.sum(static_cast<morph::Index>(listener.Errors.size())), 1);
   for (const std::string& error : listener.Errors)
   {

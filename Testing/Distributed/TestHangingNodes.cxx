@@ -18,11 +18,7 @@
 
 namespace
 {
-using morph::HangingNodes;
-using morph::Index;
-using morph::Monitor;
-using morph::NodePartition;
-using morph::Points;
+using namespace morph;
 using morph::distributed::DistributedMesh;
 using morph::distributed::Ranks;
 using motions::Row;

@@ -22,10 +22,7 @@
 
 namespace
 {
-using morph::Index;
-using morph::InversionFree;
-using morph::Mesh;
-using morph::Points;
+using namespace morph;
 using morph::distributed::Ranks;
 using Setting = std::function<void(InversionFree&)>;
 

@@ -213,8 +213,7 @@ TEST(BoundaryDisplacementCaching, InputsAreComparedByContent)
   EXPECT_NE(other, moved);
 
   // The arrays that tell the geometry.
-  vtkNew<vtkClassifyBoundary> classify;
-  classify->SetInputData(grid);
+  auto classify = grids::of<vtkClassifyBoundary>(grid);
   classify->Update();
   filter->SetInputData(classify->GetOutput());
   EXPECT_LE((result(filter) - moved).cwiseAbs().maxCoeff(), 1e-13);

@@ -196,8 +196,7 @@ void addTexts(vtkDataSet* data, const char* name, const std::vector<std::string>
 
 std::string errorOf(vtkAlgorithm* filter)
 {
-  const Listener listener(filter);
-  filter->Update();
+  const Run listener(filter);
   EXPECT_EQ(listener.Errors.size(), 1u);
   EXPECT_TRUE(listener.ExecutiveErrors.empty()) << listener.ExecutiveErrors[0];
   return listener.Errors.empty() ? std::string() : listener.Errors[0];
@@ -205,23 +204,20 @@ std::string errorOf(vtkAlgorithm* filter)
 
 void expectError(vtkAlgorithm* filter, const std::string& part)
 {
-  const Listener listener(filter);
-  filter->Update();
+  const Run listener(filter);
   listener.ExpectError(part);
 }
 
 void expectWarning(vtkAlgorithm* filter, const std::string& part)
 {
-  const Listener listener(filter);
-  filter->Update();
+  const Run listener(filter);
   EXPECT_TRUE(listener.Errors.empty()) << listener.Errors[0];
   listener.ExpectWarning(part);
 }
 
 void update(vtkAlgorithm* filter)
 {
-  const Listener listener(filter);
-  filter->Update();
+  const Run listener(filter);
   EXPECT_TRUE(listener.Errors.empty()) << listener.Errors[0];
 }
 
@@ -319,5 +315,11 @@ Listener::~Listener()
   this->Observers->Filter->RemoveObserver(this->Observers->Command);
   this->Observers->Filter->GetExecutive()->RemoveObserver(this->Observers->ExecutiveCommand);
   delete this->Observers;
+}
+
+Run::Run(vtkAlgorithm* filter)
+  : Listener(filter)
+{
+  filter->Update();
 }
 }

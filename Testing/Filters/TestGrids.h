@@ -25,6 +25,14 @@ using Map = std::function<Row(const Row&)>;
 vtkSmartPointer<vtkUnstructuredGrid> make(const morph::Mesh& mesh, int pointType = VTK_DOUBLE);
 /// A jittered hexahedral grid of n x n x n cells: the default input.
 vtkSmartPointer<vtkUnstructuredGrid> hexes(int n = 4);
+/// A filter with that input.
+template <typename Filter>
+vtkSmartPointer<Filter> of(vtkDataObject* input)
+{
+  auto filter = vtkSmartPointer<Filter>::New();
+  filter->SetInputDataObject(input);
+  return filter;
+}
 /// A copy whose arrays are its own.
 vtkSmartPointer<vtkUnstructuredGrid> copy(vtkUnstructuredGrid* grid);
 
@@ -82,5 +90,11 @@ public:
 private:
   struct Tags;
   Tags* Observers;
+};
+
+/// A filter's update, and what the filter says in it.
+struct Run : Listener
+{
+  explicit Run(vtkAlgorithm* filter);
 };
 }

@@ -68,8 +68,7 @@ TEST_P(HostileSelections, DoNotCrash)
       filter->SetDisplacementToVector();
       filter->SetVector(1, 0, 0);
       filter->SetSelectionData(selection(this->GetParam(), content, lists[i]));
-      grids::Listener listener(filter);
-      filter->Update();
+      const grids::Run listener(filter);
       const bool moved = filter->GetMovingPoints() > 0;
       EXPECT_EQ(listener.Errors.size(), moved ? 0u : 1u);
     }

@@ -7,8 +7,6 @@
 #include "vtkMorphMesh.h"
 #include "vtkMorphShapes.h"
 
-#include <vtkNew.h>
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -88,8 +86,7 @@ TEST_P(NothingAsked, EveryMethodAndDisplacement)
     for (const auto& [motion, ask] : Motions)
     {
       SCOPED_TRACE(body + ", " + motion);
-      vtkNew<vtkMorphMesh> filter;
-      filter->SetInputData(grid);
+      auto filter = grids::of<vtkMorphMesh>(grid);
       filter->SetMethod(GetParam());
       filter->SetValidity(vtkMorphAlgorithm::VALIDITY_REPORT);
       filter->AddSurface("Surface 1");
@@ -117,8 +114,7 @@ TEST(NothingAskedOf, WeightsOfShapes)
   for (const auto& [body, mesh] : bodies())
   {
     auto grid = grids::make(mesh);
-    vtkNew<vtkMorphShapes> filter;
-    filter->SetInputData(grid);
+    auto filter = grids::of<vtkMorphShapes>(grid);
     filter->AddShapeData(grids::boundary(grid, grids::affine));
     filter->AddShapeData(grids::boundary(grid,
       [](const grids::Row& x) { return grids::Row(x[0] + 0.01 * std::sin(x[1]), x[1], x[2]); }));
@@ -138,8 +134,7 @@ TEST(NothingAskedOf, RepairOfAValidResult)
   {
     SCOPED_TRACE(body);
     auto grid = grids::make(mesh);
-    vtkNew<vtkMorphMesh> filter;
-    filter->SetInputData(grid);
+    auto filter = grids::of<vtkMorphMesh>(grid);
     filter->SetValidity(vtkMorphAlgorithm::VALIDITY_REPAIR);
     filter->AddSurface("Surface 1");
     filter->SetDisplacementToVector();

@@ -226,8 +226,7 @@ TEST(SlideRounds, WithoutMotionKeepsTheBitsAndSaysSo)
 TEST(SlideRounds, AMeshWithoutAFreeNodeHasNothingToSlide)
 {
   auto grid = grids::make(meshes::hexes(Side, Side, 1));
-  vtkNew<vtkMorphMesh> filter;
-  filter->SetInputData(grid);
+  auto filter = grids::of<vtkMorphMesh>(grid);
   filter->SetDisplacementToVector();
   filter->SetVector(.1, .05, 0);
   filter->AddSurface(surface(grid, onPlane).c_str());
@@ -259,8 +258,7 @@ TEST(SlideRounds, RefusesWhatItDoesNotKnow)
       filter->AddSlidingSurface(side.c_str());
     }
     filter->SetSlideRounds(3);
-    grids::Listener listener(filter);
-    filter->Update();
+    const grids::Run listener(filter);
     EXPECT_EQ(listener.Errors.size() + listener.Warnings.size(), 1u);
     return listener.Errors.empty() ? listener.Warnings.at(0) : listener.Errors.at(0);
   };

@@ -365,12 +365,10 @@ WallLayers InnerNodes::layersOnRanks(
     columnOf[wall].push_back(this->addPoints(model, { point }).front());
   }
   WallLayers layers;
-  layers.columns.offsets = { 0 };
   for (const auto& [wall, column] : columnOf)
   {
     layers.walls.push_back(wall);
-    layers.columns.values.insert(layers.columns.values.end(), column.begin(), column.end());
-    layers.columns.offsets.push_back(static_cast<Index>(layers.columns.values.size()));
+    layers.columns.add(column.begin(), column.end());
   }
   return layers;
 }

@@ -489,10 +489,10 @@ Mesh HangingNodes::conforming(const Mesh& mesh) const
   {
     const Index *begin = mesh.cell(c), *end = begin + mesh.cellSize(c);
     std::vector<Index> nodes(begin, end);
-    const CellShape* shape = cellShape(mesh, c);
+    const CellShape* shape = volumeShape(mesh, c);
     const auto cover = this->covers_.lower_bound({ c, 0 });
     const bool isCovered = cover != this->covers_.end() && cover->first.first == c;
-    const bool isVolume = shape && shape->dimension == 3 && shape->shape != Shape::Polyhedron;
+    const bool isVolume = shape && shape->shape != Shape::Polyhedron;
     if (isVolume && (isCovered || std::count_if(begin, end, [&](Index n) { return isEnd[n]; }) > 1))
     {
       std::vector<Polygon> polygons;

@@ -391,8 +391,8 @@ std::vector<Index> unmappedCells(const Mesh& mesh)
   std::vector<Index> cells;
   for (Index c = 0; c < mesh.numberOfCells(); ++c)
   {
-    const CellShape* shape = cellShape(mesh, c);
-    if (shape && shape->dimension == 3 && !shape->isMapped)
+    const CellShape* shape = volumeShape(mesh, c);
+    if (shape && !shape->isMapped)
     {
       cells.push_back(c);
     }

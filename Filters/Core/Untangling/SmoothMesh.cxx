@@ -231,7 +231,7 @@ private:
   /// Returns the free nodes in rings of cells around these.
   std::vector<Index> patchAround(const std::vector<Index>& cells)
   {
-    if (this->around_.offsets.empty())
+    if (this->around_.values.empty())
     {
       this->around_ = nodeToCells(this->mesh_);
     }
