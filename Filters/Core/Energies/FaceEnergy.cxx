@@ -66,15 +66,13 @@ Eigen::Matrix2d FaceEnergy::jacobian(Index corner, const Points& points) const
 
 EnergyState FaceEnergy::evaluate(const Points& points, Monitor& monitor) const
 {
-  const EnergySum sum =
-    reproducibleSum(static_cast<Index>(this->corners_.size()), monitor, EnergySum(),
-      [&](Index c)
-      {
-        const Eigen::Matrix2d J = this->jacobian(c, points);
-        const double d = J.determinant();
-        return EnergySum{ this->corners_[c].weight * this->density_.value(J), d, d > 0 ? 0. : 1. };
-      });
-  return { sum.energy, sum.least, static_cast<Index>(sum.inverted) };
+  return reproducibleSum(static_cast<Index>(this->corners_.size()), monitor, EnergyState(),
+    [&](Index c)
+    {
+      const Eigen::Matrix2d J = this->jacobian(c, points);
+      const double d = J.determinant();
+      return EnergyState{ this->corners_[c].weight * this->density_.value(J), d, d > 0 ? 0 : 1 };
+    });
 }
 
 Objective::Value FaceEnergy::value(const Points& points, Monitor& monitor) const

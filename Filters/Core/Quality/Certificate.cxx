@@ -371,21 +371,6 @@ struct Counts
 };
 }
 
-Certificate certifyCell(std::uint8_t type, const double (*nodes)[3])
-{
-  const CellShape* shape = cellShape(type);
-  if (!shape || !shape->isMapped || numberOfCorners(shape->shape) == 0)
-  {
-    return Certificate::Undecided;
-  }
-  Vector x[MostNodesOfVolume];
-  for (int k = 0; k < shape->numberOfNodes; ++k)
-  {
-    x[k] = Vector(nodes[k][0], nodes[k][1], nodes[k][2]);
-  }
-  return certifyNodes(type, *shape, x);
-}
-
 std::vector<Index> unmappedCells(const Mesh& mesh)
 {
   std::vector<Index> cells;

@@ -80,7 +80,6 @@ public:
   }
   /// Gives Output() to output 0. RequestData() does it, too.
   void WriteOutput(vtkInformationVector* outputVector) { this->Mesh.Scatter(outputVector); }
-  const Blocks& GetBlocks() const { return this->Mesh; }
 
   /// Calls `task.Work`: on the one MPI process with cells or, if several have cells or others than
   /// that one have a boundary, on all.
