@@ -246,8 +246,7 @@ TEST(RankBoundary, DisplacementMovesWhatItMovesOnOneRank)
       {
         filter->SetMovingToArray();
         filter->SetMovingArray("Marked");
-        filter->SetDisplacementToVector();
-        filter->SetVector(0.1, 0.1, 0.2);
+        grids::moveBy(filter, 0.1, 0.1, 0.2);
         filter->SetSurroundingsToFade();
       } },
     { "target",
@@ -379,8 +378,7 @@ TEST(RankBoundary, EachRankSelectsInItsPiece)
   const auto configure = [](vtkBoundaryDisplacement* filter)
   {
     filter->SetMovingToSelection();
-    filter->SetDisplacementToVector();
-    filter->SetVector(0, 0, 1);
+    grids::moveBy(filter, 0, 0, 1);
   };
   vtkNew<vtkBoundaryDisplacement> serial, filter;
   configure(serial);

@@ -223,8 +223,7 @@ TEST(RankComposite, SetsAreNamesAndFollowNodesOfOtherRanks)
     vtkFEMWarpMorph::SafeDownCast(filter->GetMethodFilter())->SetTolerance(1e-12);
     filter->SetInputDataObject(data);
     filter->AddSurface("wall");
-    filter->SetDisplacementToVector();
-    filter->SetVector(-0.05, 0.03, 0.02);
+    grids::moveBy(filter, -0.05, 0.03, 0.02);
     return filter;
   };
   auto serial = configured(tree);

@@ -93,8 +93,7 @@ TEST(RankMorphMesh, MovesSurfacesAsOnOneRank)
       {
         filter->AddSurface("Surface 1");
         filter->AddSlidingSurface("Surface 0");
-        filter->SetDisplacementToVector();
-        filter->SetVector(0.1, 0, 0.2);
+        grids::moveBy(filter, 0.1, 0, 0.2);
       } },
     { "target", [&](vtkMorphMesh* filter)
       {
@@ -214,8 +213,7 @@ TEST(RankMorphMesh, RepairsByDefault)
     filter->SetInputData(grid);
     filter->AddSurface("Surface 1");
     filter->SetSurroundings(vtkBoundaryDisplacement::SURROUNDINGS_STAY);
-    filter->SetDisplacementToVector();
-    filter->SetVector(0.1, 0, 0.1);
+    grids::moveBy(filter, 0.1, 0, 0.1);
     grids::update(filter);
   };
   vtkNew<vtkMorphMesh> serial, filter;

@@ -60,8 +60,7 @@ void expectMoved(vtkBoundaryDisplacement* filter, const std::function<bool(const
 vtkSmartPointer<vtkBoundaryDisplacement> movesUp(vtkDataObject* input)
 {
   auto filter = displaced::make(input);
-  filter->SetDisplacementToVector();
-  filter->SetVector(Up[0], Up[1], Up[2]);
+  grids::moveBy(filter, Up[0], Up[1], Up[2]);
   filter->SetSurroundingsToStay();
   return filter;
 }
@@ -545,8 +544,7 @@ TEST(BoundaryDisplacement, OneAfterTheOtherMoveTwoParts)
   second->SetInputConnection(first->GetOutputPort());
   second->SetMovingToSurfaces();
   second->AddSurface(surfaceName(first, [](const Row& x) { return x[0] == 0; }).c_str());
-  second->SetDisplacementToVector();
-  second->SetVector(-1, 0, 0);
+  grids::moveBy(second, -1, 0, 0);
   second->SetSurroundingsToStay();
   for (const double height : { 0.7, 1.5, 2.5 })
   {

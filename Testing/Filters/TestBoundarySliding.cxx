@@ -219,8 +219,7 @@ TEST(BoundarySliding, NodesOfABumpySurfaceStayWhereNothingMoves)
     filter->SetMovingToSurfaces();
     filter->AddSurface(surface(grid, [](const Row& x) { return x[0] == 6; }).c_str());
     filter->AddSlidingSurface(surface(grid, [](const Row& x) { return x[2] > 3.5; }).c_str());
-    filter->SetDisplacementToVector();
-    filter->SetVector(0, 1e-9, 0);
+    grids::moveBy(filter, 0, 1e-9, 0);
     filter->Update();
     const morph::Points x = displaced::restPositions(filter->GetOutput());
     const morph::Points y = grids::points(filter->GetOutput());
@@ -239,8 +238,7 @@ TEST(BoundarySliding, SaysHowFarASurfaceLeavesItsShape)
   auto filter = displaced::make(grid);
   filter->SetMovingToSurfaces();
   filter->AddSurface(surface(grid, [](const Row& x) { return x[2] == 4; }).c_str());
-  filter->SetDisplacementToVector();
-  filter->SetVector(0.3, 0, 0.4);
+  grids::moveBy(filter, 0.3, 0, 0.4);
   const grids::Run listener(filter);
   // Two sides keep their planes, and two are pulled 0.3 out of theirs by 0.5.
   listener.ExpectWarning(" by 0.3 (60 % of the largest displacement), Surface ");
@@ -259,8 +257,7 @@ TEST(BoundarySliding, AVertexIsNoTouchUnlessItMovesAlone)
   auto filter = displaced::make(grid);
   filter->SetMovingToSurfaces();
   filter->AddSurface(surface(grid, [](const Row& x) { return x[2] == 4; }).c_str());
-  filter->SetDisplacementToVector();
-  filter->SetVector(0, 0, 0.4);
+  grids::moveBy(filter, 0, 0, 0.4);
   filter->Update();
   const auto followers = [&](const std::function<bool(const Row&)>& is)
   {
@@ -462,8 +459,7 @@ TEST(BoundarySliding, NodesOfFreeSurfacesAreSolvedWithTheInterior)
   auto displace = displaced::make(grid);
   displace->SetMovingToSurfaces();
   displace->AddSurface(surface(grid, onHole).c_str());
-  displace->SetDisplacementToVector();
-  displace->SetVector(0, 0, 0.1);
+  grids::moveBy(displace, 0, 0, 0.1);
   displace->AddFreeSurface(surface(grid, [](const Row& at) { return isAt(at[2], 1); }).c_str());
   displace->Update();
   EXPECT_EQ(displace->GetFreePoints(), freed / 2);
@@ -513,8 +509,7 @@ TEST(BoundarySliding, SurfacesThatFoldAsTheyFollowSlideUntilTheyDoNot)
   auto filter = displaced::make(grid);
   filter->SetMovingToSurfaces();
   filter->AddSurface(displaced::surfaceName(filter, onHole).c_str());
-  filter->SetDisplacementToVector();
-  filter->SetVector(0.85, 0, 0);
+  grids::moveBy(filter, 0.85, 0, 0);
   const grids::Run listener(filter);
 
   ASSERT_EQ(listener.Warnings.size(), 1);

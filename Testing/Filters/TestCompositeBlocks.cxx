@@ -127,8 +127,7 @@ vtkSmartPointer<vtkMorphMesh> lifting(vtkDataObject* data)
   filter->SetInputDataObject(data);
   filter->SetMovingToArray();
   filter->SetMovingArray("Left");
-  filter->SetDisplacementToVector();
-  filter->SetVector(0, 0, 0.3);
+  grids::moveBy(filter, 0, 0, 0.3);
   return filter;
 }
 
@@ -337,8 +336,7 @@ TEST(CompositeBlocks, SetsAreNamesOfSurfaces)
   data->GetMetaData(1u)->Set(vtkCompositeDataSet::NAME(), "inlet");
   auto filter = grids::of<vtkMorphMesh>(data);
   filter->AddSurface("inlet");
-  filter->SetDisplacementToVector();
-  filter->SetVector(-0.3, 0.1, 0);
+  grids::moveBy(filter, -0.3, 0.1, 0);
   filter->SetSurroundings(0);
   const grids::Run listener(filter);
   ASSERT_TRUE(listener.Errors.empty()) << listener.Errors[0];
@@ -688,8 +686,7 @@ TEST(CompositeBlocks, SelectionsOfBlocksMove)
     selection->GetNode(0)->GetProperties()->Set(vtkSelectionNode::COMPOSITE_INDEX(), 4);
     auto filter = grids::of<vtkMorphMesh>(data);
     filter->SetSelectionData(selection);
-    filter->SetDisplacementToVector();
-    filter->SetVector(0, -0.2, 0);
+    grids::moveBy(filter, 0, -0.2, 0);
     filter->SetSurroundings(0);
     grids::update(filter);
     vtkDataObject* output = filter->GetOutputDataObject(0);

@@ -219,8 +219,7 @@ TEST_F(GivenBoundaries, AMeshThatNothingHoldsIsToldOf)
   this->Run(grid, boundary);
   EXPECT_TRUE(this->Warnings.empty()); // all of the boundary moves
   auto filter = grids::of<vtkMorphMesh>(grid);
-  filter->SetDisplacementToVector();
-  filter->SetVector(0, 0, 0.125);
+  grids::moveBy(filter, 0, 0, 0.125);
   filter->AddSurface("Surface 0");
   for (int s = 1; s < 6; ++s)
   {

@@ -2,6 +2,7 @@
 #include "TestGrids.h"
 
 #include "Mesh/Polyhedra.h"
+#include "vtkDisplacementAlgorithm.h"
 #include "vtkExtractMorphBoundary.h"
 
 #include <vtkAlgorithm.h>
@@ -89,6 +90,12 @@ vtkSmartPointer<vtkUnstructuredGrid> hexes(int n)
   return make(mesh);
 }
 
+void moveBy(vtkDisplacementAlgorithm* filter, double x, double y, double z)
+{
+  filter->SetDisplacementToVector();
+  filter->SetVector(x, y, z);
+}
+
 vtkSmartPointer<vtkUnstructuredGrid> copy(vtkUnstructuredGrid* grid)
 {
   auto result = vtkSmartPointer<vtkUnstructuredGrid>::New();
@@ -98,8 +105,7 @@ vtkSmartPointer<vtkUnstructuredGrid> copy(vtkUnstructuredGrid* grid)
 
 vtkSmartPointer<vtkPolyData> boundary(vtkUnstructuredGrid* grid, const Map& map)
 {
-  vtkNew<vtkExtractMorphBoundary> extract;
-  extract->SetInputData(grid);
+  auto extract = of<vtkExtractMorphBoundary>(grid);
   extract->Update();
   auto result = vtkSmartPointer<vtkPolyData>::New();
   result->ShallowCopy(extract->GetOutput());

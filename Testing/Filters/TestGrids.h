@@ -13,6 +13,7 @@
 
 class vtkAlgorithm;
 class vtkDataSetAttributes;
+class vtkDisplacementAlgorithm;
 
 /// Grids and boundaries for the tests of the filters, and what a filter says.
 namespace grids
@@ -33,6 +34,8 @@ vtkSmartPointer<Filter> of(vtkDataObject* input)
   filter->SetInputDataObject(input);
   return filter;
 }
+/// Makes a filter move its boundary by a vector.
+void moveBy(vtkDisplacementAlgorithm* filter, double x, double y, double z);
 /// A copy whose arrays are its own.
 vtkSmartPointer<vtkUnstructuredGrid> copy(vtkUnstructuredGrid* grid);
 

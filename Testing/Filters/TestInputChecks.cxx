@@ -374,8 +374,7 @@ TEST(SinglePrecision, PositionsBeyondItAreAnError)
   expectFinite(morph->GetOutput());
 
   auto displace = grids::of<vtkBoundaryDisplacement>(grid);
-  displace->SetDisplacementToVector();
-  displace->SetVector(1e40, 0, 0);
+  grids::moveBy(displace, 1e40, 0, 0);
   displace->SetOutputPointsPrecision(vtkAlgorithm::SINGLE_PRECISION);
   expectError(displace, { "Single precision does not hold", "`OutputPointsPrecision` to double" });
   expectFinite(displace->GetOutput());
@@ -412,8 +411,7 @@ TEST(BoundaryDisplacementInputs, HugeMotions)
 {
   auto grid = grids::hexes(3);
   auto filter = grids::of<vtkBoundaryDisplacement>(grid);
-  filter->SetDisplacementToVector();
-  filter->SetVector(1e60, 0, 0);
+  grids::moveBy(filter, 1e60, 0, 0);
   expectError(filter, { "`Vector` moves nodes beyond 1e50: point ids" });
   filter->SetVector(1e30, 0, 0);
   filter->SetScaleFactor(1e30);

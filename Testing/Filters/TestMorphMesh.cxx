@@ -62,8 +62,7 @@ vtkSmartPointer<vtkMorphMesh> make(vtkUnstructuredGrid* grid)
   auto filter = vtkSmartPointer<vtkMorphMesh>::New();
   filter->SetInputData(grid);
   filter->AddSurface(topSurface(grid).c_str());
-  filter->SetDisplacementToVector();
-  filter->SetVector(Up[0], Up[1], Up[2]);
+  grids::moveBy(filter, Up[0], Up[1], Up[2]);
   return filter;
 }
 
@@ -74,8 +73,7 @@ vtkSmartPointer<vtkUnstructuredGrid> byTwoFilters(vtkUnstructuredGrid* grid, con
   auto displace = displaced::make(grid);
   displace->SetMovingToSurfaces();
   displace->AddSurface(topSurface(grid).c_str());
-  displace->SetDisplacementToVector();
-  displace->SetVector(up[0], up[1], up[2]);
+  grids::moveBy(displace, up[0], up[1], up[2]);
   auto morph = grids::of<Method>(grid);
   morph->SetBoundaryConnection(displace->GetOutputPort());
   morph->SetValidityToRepair();
@@ -567,8 +565,7 @@ TEST(MorphMesh, BodiesThatTouchAndPartAreWarnedOfUnlessTheyAreTied)
   {
     filter->AddSurface(("Surface " + std::to_string(below)).c_str());
   }
-  filter->SetDisplacementToVector();
-  filter->SetVector(0.25, 0, -0.125);
+  grids::moveBy(filter, 0.25, 0, -0.125);
   grids::Run listener(filter);
   ASSERT_EQ(listener.Warnings.size(), 1u);
   for (const char* part :

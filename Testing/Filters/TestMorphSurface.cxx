@@ -213,8 +213,7 @@ TEST(MorphMeshSurface, IsThatOfTheMethodOrTheBoundaryThatIsChosenFrom)
   EXPECT_EQ(surfaceOf(filter)->GetNumberOfCells(), 6 * 16);
   EXPECT_NE(surfaceOf(filter)->GetCellData()->GetArray("SurfaceId"), nullptr);
   filter->SetMovingToEverything();
-  filter->SetDisplacementToVector();
-  filter->SetVector(1, 2, 3);
+  grids::moveBy(filter, 1, 2, 3);
   filter->Update();
   vtkCellArray* polygons = surfaceOf(filter)->GetPolys();
   expectSurfaceOf(filter->GetOutput(), surfaceOf(filter));

@@ -587,8 +587,7 @@ TEST(Crossings, HaveTheNamesOfTheSurfaceListWithoutSets)
   vtkNew<vtkBox> prong;
   prong->SetBounds(-1, 5.5, -1, 3, 2.5, 9);
   filter->SetRegion(prong);
-  filter->SetDisplacementToVector();
-  filter->SetVector(3, 0, 0);
+  grids::moveBy(filter, 3, 0, 0);
   const grids::Run listener(filter);
   EXPECT_STREQ(filter->GetMorphStatus(), "CrossesItself");
   EXPECT_GT(filter->GetCrossingFaces(), 1);

@@ -37,12 +37,7 @@ double largestMove(vtkUnstructuredGrid* rest, vtkPointSet* moved)
 
 /// The kinds of displacement of Morph Mesh that a number can make.
 const std::vector<std::pair<std::string, void (*)(vtkMorphMesh*, double)>> Motions = {
-  { "Vector",
-    [](vtkMorphMesh* f, double by)
-    {
-      f->SetDisplacementToVector();
-      f->SetVector(0, by, 0);
-    } },
+  { "Vector", [](vtkMorphMesh* f, double by) { grids::moveBy(f, 0, by, 0); } },
   { "AlongNormals",
     [](vtkMorphMesh* f, double by)
     {
@@ -137,8 +132,7 @@ TEST(NothingAskedOf, RepairOfAValidResult)
     auto filter = grids::of<vtkMorphMesh>(grid);
     filter->SetValidity(vtkMorphAlgorithm::VALIDITY_REPAIR);
     filter->AddSurface("Surface 1");
-    filter->SetDisplacementToVector();
-    filter->SetVector(1e-9, 0, 0);
+    grids::moveBy(filter, 1e-9, 0, 0);
     filter->Update();
     EXPECT_LE(largestMove(grid, filter->GetOutput()), 1e-7);
   }

@@ -53,8 +53,7 @@ vtkSmartPointer<vtkBoundaryDisplacement> moved(vtkUnstructuredGrid* grid, const 
     }
   }
   filter->SetSelectionData(displaced::indices(vtkSelectionNode::POINT, ids));
-  filter->SetDisplacementToVector();
-  filter->SetVector(by[0], by[1], by[2]);
+  grids::moveBy(filter, by[0], by[1], by[2]);
   return filter;
 }
 

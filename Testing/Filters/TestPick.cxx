@@ -249,8 +249,7 @@ TEST(ListedSurfaces, AMotionIsShownBeforeItIsMade)
   auto filter = grids::of<vtkMorphMesh>(grid);
   filter->UpdateInformation();
   vtkNew<vtkBoundaryDisplacement> motion; // which has no input
-  motion->SetDisplacementToVector();
-  motion->SetVector(0, 0, 0.5);
+  grids::moveBy(motion, 0, 0, 0.5);
   vtkNew<vtkListedSurfaces> shown;
   shown->SetFilter(filter);
   shown->SetMotion(motion);

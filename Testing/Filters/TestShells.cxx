@@ -230,8 +230,7 @@ TEST(Shells, AnEdgeSlidesAlongItsOwnCurve)
   auto filter = grids::of<vtkMorphMesh>(grid);
   filter->AddSurface("Left");
   filter->AddSlidingSurface("Lower");
-  filter->SetDisplacementToVector();
-  filter->SetVector(0.1, 0, 0);
+  grids::moveBy(filter, 0.1, 0, 0);
   const grids::Run listener(filter);
   ASSERT_TRUE(listener.Errors.empty()) << listener.Errors[0];
   const Points rest = grids::points(grid), moved = grids::points(filter->GetOutput());
@@ -297,8 +296,7 @@ TEST(Shells, StepsZonesAndLayersAreAsForSolids)
   filter->AddSurface("Left");
   filter->AddRigidZone("Plate");
   filter->SetKeepLayers(2);
-  filter->SetDisplacementToVector();
-  filter->SetVector(-0.1, 0, 0.4);
+  grids::moveBy(filter, -0.1, 0, 0.4);
   filter->SetNumberOfSteps(3);
   filter->SetStepping(vtkMorphAlgorithm::STEPPING_RELATIVE);
   grids::update(filter);

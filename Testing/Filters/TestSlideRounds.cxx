@@ -227,8 +227,7 @@ TEST(SlideRounds, AMeshWithoutAFreeNodeHasNothingToSlide)
 {
   auto grid = grids::make(meshes::hexes(Side, Side, 1));
   auto filter = grids::of<vtkMorphMesh>(grid);
-  filter->SetDisplacementToVector();
-  filter->SetVector(.1, .05, 0);
+  grids::moveBy(filter, .1, .05, 0);
   filter->AddSurface(surface(grid, onPlane).c_str());
   filter->AddSlidingSurface(surface(grid, [](const Row& x) { return isAt(x[0], Side); }).c_str());
   filter->SetSurroundings(vtkMorphMesh::SURROUNDINGS_STAY);
@@ -251,8 +250,7 @@ TEST(SlideRounds, RefusesWhatItDoesNotKnow)
     auto filter = displaced::make(input);
     filter->SetMovingToSurfaces();
     filter->AddSurface(bottom.c_str());
-    filter->SetDisplacementToVector();
-    filter->SetVector(0, 0, 0.1);
+    grids::moveBy(filter, 0, 0, 0.1);
     if (slides)
     {
       filter->AddSlidingSurface(side.c_str());

@@ -138,8 +138,7 @@ TEST(SurfaceNames, WhatHasANameMovesAndSlides)
   auto filter = grids::of<vtkMorphMesh>(grid);
   filter->AddSurface("inlet");
   filter->AddSlidingSurface("wall");
-  filter->SetDisplacementToVector();
-  filter->SetVector(-0.25, 0.1, 0);
+  grids::moveBy(filter, -0.25, 0.1, 0);
   grids::update(filter);
   const morph::Points x = grids::points(grid), y = grids::points(filter->GetOutput());
   for (morph::Index i = 0; i < x.rows(); ++i)
@@ -239,8 +238,7 @@ TEST(SurfaceNames, ABaffleMovesByItsName)
   auto grid = withBaffle();
   auto filter = grids::of<vtkMorphMesh>(grid);
   filter->AddSurface("plateLeft");
-  filter->SetDisplacementToVector();
-  filter->SetVector(0.3, 0, 0);
+  grids::moveBy(filter, 0.3, 0, 0);
   grids::update(filter);
   const morph::Points x = grids::points(grid), y = grids::points(filter->GetOutput());
   bool anyFollows = false;
@@ -264,8 +262,7 @@ TEST(SurfaceNames, ABaffleStaysWhileAnotherSurfaceMoves)
   const morph::Points x = grids::points(grid);
   auto filter = grids::of<vtkMorphMesh>(grid);
   filter->AddSurface("outlet");
-  filter->SetDisplacementToVector();
-  filter->SetVector(1, 0, 0);
+  grids::moveBy(filter, 1, 0, 0);
   filter->Update();
   const morph::Points y = grids::points(filter->GetOutput());
   for (morph::Index i = 0; i < x.rows(); ++i)
@@ -288,8 +285,7 @@ TEST(SurfaceNames, ASheetMovesByItsNameAndElseGoesAlong)
     filter->SetRegion(side);
     filter->AddSurface("sheet");
     filter->AddFixedSurface(fixed);
-    filter->SetDisplacementToVector();
-    filter->SetVector(0.25, 0, 0);
+    grids::moveBy(filter, 0.25, 0, 0);
     filter->SetSurroundingsToStay();
     grids::update(filter);
     return morph::Points(grids::points(filter->GetOutput()) - x);
@@ -315,8 +311,7 @@ TEST(SurfaceNames, ASetOfNodesInsideMovesWithItsRim)
     grid, "LINE", [](const Row& p) { return p[0] == 2 && p[1] == 2 && p[2] > 0 && p[2] < 4; });
   grids::addTexts(grid, "SurfaceNames", { "MIDDLE", "LINE" });
   auto filter = grids::of<vtkMorphMesh>(grid);
-  filter->SetDisplacementToVector();
-  filter->SetVector(0.25, 0, 0);
+  grids::moveBy(filter, 0.25, 0, 0);
   filter->UpdateInformation();
   EXPECT_EQ(filter->GetSurfaceSizes()->GetValue(0), "MIDDLE");
   EXPECT_EQ(filter->GetSurfaceSizes()->GetValue(1), "16 inner");
@@ -396,8 +391,7 @@ TEST(SurfaceNames, AnInterfaceMovesAndSidesFollowItsRim)
 {
   vtkNew<vtkMorphMesh> filter;
   filter->AddSurface("steel | glue");
-  filter->SetDisplacementToVector();
-  filter->SetVector(0.5, 0, 0);
+  grids::moveBy(filter, 0.5, 0, 0);
   const auto [x, y] = movedBlocks(twoBlocks(), filter);
   for (morph::Index i = 0; i < x.rows(); ++i)
   {
@@ -419,8 +413,7 @@ TEST(SurfaceNames, AnInterfaceIsHeldOrSlidesOrGoesAlong)
     vtkNew<vtkMorphMesh> filter;
     filter->SetMoving(vtkMorphMesh::MOVING_REGION);
     filter->SetRegion(side);
-    filter->SetDisplacementToVector();
-    filter->SetVector(0.25, 0.25, 0);
+    grids::moveBy(filter, 0.25, 0.25, 0);
     if (isHeld)
     {
       filter->AddFixedSurface("steel | glue");
@@ -457,8 +450,7 @@ TEST(SurfaceNames, PlanesOfSymmetryOfTheFileSlide)
   filter->SetMovingToSelection();
   filter->SetSelectionData(displaced::indices(
     vtkSelectionNode::POINT, displaced::nodesWhere(grid, [](const Row& x) { return x[0] == 6; })));
-  filter->SetDisplacementToVector();
-  filter->SetVector(0.5, 0.2, 0);
+  grids::moveBy(filter, 0.5, 0.2, 0);
   filter->Update();
 
   const morph::Points rest = displaced::restPositions(filter->GetOutput());
@@ -482,8 +474,7 @@ TEST(SurfaceNames, APatchOfSymmetryThatIsAPartOfAPlaneIsNamed)
   grids::addTexts(grid, "SymmetrySurfaces", { "inlet" });
   auto filter = displaced::make(grid);
   filter->AddSurface("wall");
-  filter->SetDisplacementToVector();
-  filter->SetVector(0.5, 0, 0);
+  grids::moveBy(filter, 0.5, 0, 0);
   const grids::Run listener(filter);
   listener.ExpectWarning("'inlet' is one of symmetry");
   filter->AddFixedSurface("inlet");

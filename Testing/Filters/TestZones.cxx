@@ -385,8 +385,7 @@ TEST(Zones, OneThatIsFrozenAndRigidStays)
   {
     grids::addNumbers(grid->GetPointData(), "All", grid->GetNumberOfPoints(), 1);
     auto filter = displaced::make(grid);
-    filter->SetDisplacementToVector();
-    filter->SetVector(0.1, 0, 0);
+    grids::moveBy(filter, 0.1, 0, 0);
     filter->AddFixedZone(name);
     filter->AddRigidZone(name);
     grids::update(filter);
