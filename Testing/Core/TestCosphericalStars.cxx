@@ -76,8 +76,7 @@ Points morphed(const Mesh& mesh, const NodePartition& partition, const Points& t
 {
   Monitor monitor;
   SimplexLinear method;
-  Points moved = motions::morphed(method, mesh, partition, target, monitor);
-  return moved;
+  return motions::morphed(method, mesh, partition, target, monitor);
 }
 
 /// How far sites lie on both sides of the plane of the face opposite corner k, the lesser of the

@@ -121,9 +121,8 @@ struct Shell
   }
   Points moved(morph::Morpher& method, const motions::Map& map)
   {
-    Points result =
-      motions::morphed(method, mesh, partition, motions::targets(mesh, partition, map), monitor);
-    return result;
+    return motions::morphed(
+      method, mesh, partition, motions::targets(mesh, partition, map), monitor);
   }
   Points front(const Points& points) const { return points.topRows(faces.numberOfNodes()); }
   morph::Quality quality(const Points& points) { return qualityOf(mesh, points); }

@@ -26,8 +26,7 @@ Points morphed(const Mesh& mesh, const NodePartition& partition, const Points& t
 {
   Monitor monitor;
   SimplexNaturalNeighbor method;
-  Points moved = motions::morphed(method, mesh, partition, target, monitor);
-  return moved;
+  return motions::morphed(method, mesh, partition, target, monitor);
 }
 
 }

@@ -26,8 +26,7 @@ class MorphFilters : public testing::TestWithParam<grids::MorphFilter>
 protected:
   static vtkSmartPointer<vtkMorphAlgorithm> Make(vtkUnstructuredGrid* grid, vtkDataObject* boundary)
   {
-    auto filter = GetParam().of(grid, boundary);
-    return filter;
+    return GetParam().of(grid, boundary);
   }
 };
 
