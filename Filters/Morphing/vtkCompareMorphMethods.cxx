@@ -277,7 +277,7 @@ void vtkCompareMorphMethods::vtkInternals::Run(vtkMorphAlgorithm* method, vtkUns
       filters::Ranks::Count(!isHere && filters::Input::HasPoints(boundaries.front())) > 0);
   filters::Results results(filters::ResultTables::vtkMorphAlgorithm());
   filters::GridMorpher morpher(method, results);
-  vtkNew<vtkUnstructuredGrid> mesh, badCells;
+  vtkNew<vtkUnstructuredGrid> mesh, inverted;
   vtkNew<vtkPolyData> surface;
   filters::GridMorpher::Motion motion;
   motion.Steps = this->Steps;
@@ -302,7 +302,7 @@ void vtkCompareMorphMethods::vtkInternals::Run(vtkMorphAlgorithm* method, vtkUns
         filters::RankGroup(isDistributed).Together([&] { method->TakeInputs(grid, boundary); });
         morpher.Morph(grid, boundary, isDistributed, motion,
           { method->GetOptions(), [method] { return method->CreateMorpher(); } },
-          { mesh, badCells, surface }, part);
+          { mesh, inverted, surface }, part);
       }
     };
     const filters::Execution::Outcome outcome = filters::Execution::Run(

@@ -51,11 +51,11 @@ struct CertificateReport
 /// Also undecided are quadratic cells within about 1e-11 of zero, even if exactly zero (a node at a
 /// quarter of its edge). So are coordinates that are not finite and shapes that are not volumes.
 ///
-/// Cells of an unknown type stay undecided. Cells of lower dimension and cells with a nonzero `skip`
-/// entry are not examined. `points`: #nodes x 3, the positions to examine, instead of the mesh's
-/// own. `orientation`: #cells of +1 / -1 (Topology.h), or empty for VTK's order throughout. Cost:
-/// 0.1 microseconds for a tetrahedron, 1.5 for a hexahedron, 5 for a curved quadratic cell. An
-/// undecided cell takes up to about 5 milliseconds.
+/// Cells of an unknown type stay undecided. Cells of lower dimension and cells with a nonzero
+/// `skip` entry are not examined. `points`: #nodes x 3, the positions to examine, instead of the
+/// mesh's own. `orientation`: #cells of +1 / -1 (Topology.h), or empty for VTK's order throughout.
+/// Cost: 0.1 microseconds for a tetrahedron, 1.5 for a hexahedron, 5 for a curved quadratic cell.
+/// An undecided cell takes up to about 5 milliseconds.
 CertificateReport certify(const Mesh& mesh, const ConstPoints& points,
   const std::vector<std::int8_t>& orientation, const std::vector<std::uint8_t>& skip,
   Monitor& monitor);
