@@ -22,7 +22,9 @@
 
 namespace
 {
-using namespace morph;
+using morph::Index;
+using morph::Mesh;
+using morph::Points;
 using motions::Row;
 
 constexpr int Boxes = 6;

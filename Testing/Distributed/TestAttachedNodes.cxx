@@ -12,7 +12,10 @@
 
 namespace
 {
-using namespace morph;
+using morph::AttachedNodes;
+using morph::Index;
+using morph::Mesh;
+using morph::Points;
 using Row = Eigen::RowVector3d;
 
 constexpr Index Volume = 7 * 6 * 5;

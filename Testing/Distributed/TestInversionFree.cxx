@@ -22,7 +22,10 @@
 
 namespace
 {
-using namespace morph;
+using morph::Index;
+using morph::InversionFree;
+using morph::Mesh;
+using morph::Points;
 using morph::distributed::Ranks;
 using Setting = std::function<void(InversionFree&)>;
 
