@@ -14,7 +14,9 @@
 
 namespace
 {
-using namespace morph;
+using morph::Index;
+using morph::SimdDouble4;
+using morph::SimdWidth;
 using namespace morph::foldover;
 
 constexpr int Blocks = 6;
