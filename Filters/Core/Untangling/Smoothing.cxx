@@ -6,7 +6,6 @@
 #include "LinearMethods/BodyMotion.h"
 #include "Mesh/Extent.h"
 #include "Quality/BoundaryDetermined.h"
-#include "Support/Error.h"
 #include "Untangling/KeepMinimum.h"
 
 #include <limits>
@@ -22,13 +21,7 @@ constexpr double Affine = 1e-9; // of the mesh's size: rounding of an affine mot
 EvaluateReport reportSmoothing(const SmoothingReport& smoothing, Index takenBack,
   const std::vector<Index>& determined, Monitor& monitor)
 {
-  if (!determined.empty())
-  {
-    monitor.warn(
-      "The boundary itself inverts cells whose corners it prescribes: cell ids " +
-      listIds(determined) +
-      ". No method can repair them; move the boundary less, or leave some of their nodes free.");
-  }
+  warnOfDetermined(determined, monitor);
   if (!smoothing.isValid)
   {
     monitor.warn("Smoothing could not untangle the mesh. Move the boundary in smaller steps, or "
