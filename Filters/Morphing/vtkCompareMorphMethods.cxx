@@ -137,15 +137,6 @@ std::vector<std::pair<std::string, double>> measureCriteria(
   }
   return result;
 }
-
-/// A part of the work whose warnings are kept, for others to tell.
-class QuietRange : public morph::ProgressRange
-{
-public:
-  using ProgressRange::ProgressRange;
-  std::vector<std::string> Warnings;
-  void warn(const std::string& message) override { this->Warnings.push_back(message); }
-};
 }
 
 vtkCompareMorphMethods::vtkCompareMorphMethods()
@@ -291,10 +282,10 @@ void vtkCompareMorphMethods::vtkInternals::Run(vtkMorphAlgorithm* method, vtkUns
   for (motion.Step = 0; motion.Step < motion.Steps.Number(); ++motion.Step)
   {
     check();
-    QuietRange part(monitor, motion.Step / number, (motion.Step + 1) / number);
+    morph::QuietRange part(monitor, motion.Step / number, (motion.Step + 1) / number);
     results.Reset();
     std::vector<std::string> messages;
-    const auto morph = [&]
+    const auto work = [&]
     {
       if (isDistributed || isHere)
       {
@@ -306,11 +297,12 @@ void vtkCompareMorphMethods::vtkInternals::Run(vtkMorphAlgorithm* method, vtkUns
       }
     };
     const filters::Execution::Outcome outcome = filters::Execution::Run(
-      method, "morph this mesh", morph, [] {},
+      method, "morph this mesh", work, [] {},
       [&](const std::string& problem) { messages.push_back(problem); });
     check();
     run.Failure = messages.empty() ? "" : messages.front();
-    messages.insert(messages.end(), part.Warnings.begin(), part.Warnings.end());
+    const std::vector<std::string> warnings = part.take();
+    messages.insert(messages.end(), warnings.begin(), warnings.end());
     for (const std::string& message : messages)
     {
       if (told.insert(message).second)
