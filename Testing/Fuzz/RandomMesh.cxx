@@ -620,7 +620,8 @@ std::vector<Index> outerNodes(const Mesh& mesh)
       // Corners come first.
       std::set<vtkIdType> corners(
         nodes.begin(), nodes.begin() + std::min<std::size_t>(nodes.size(), shape->faces[f].size));
-      for (int k = shape->numberOfCorners; isAnyOrder && k < mesh.cellSize(c); ++k)
+      // Also those of an edge that has collapsed into a corner.
+      for (int k = shape->numberOfCorners; k < mesh.cellSize(c); ++k)
       {
         double N[8], share = 0;
         const morph::CellShape& own = *morph::cellShape(mesh, c);

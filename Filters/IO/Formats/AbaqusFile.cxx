@@ -88,7 +88,7 @@ private:
   std::size_t systemOf(std::size_t part, std::size_t at, const AbaqusKeyword& keyword);
   const Shift& ownShift();
   std::string shifted(std::string_view entry, Index own, bool isNodes) const;
-  void addLinks(const std::unordered_map<Index, Index>& positions);
+  void addLinks(const Numbering& numbering);
   void finish();
 
   Block block_ = Block::Other;
@@ -663,14 +663,14 @@ void AbaqusFile::takeSurface(std::size_t part)
 }
 
 /// Adds lines between the nodes that are tied: from one to all, or from each to its partner.
-void AbaqusFile::addLinks(const std::unordered_map<Index, Index>& positions)
+void AbaqusFile::addLinks(const Numbering& numbering)
 {
   const auto nodesOf = [&](const std::string& entry)
   {
     const auto number = parseInteger(entry);
-    if (const auto found = positions.find(number.value_or(-1)); found != positions.end())
+    if (const Index node = numbering.find(number.value_or(-1)); node >= 0)
     {
-      return std::vector<Index>{ found->second };
+      return std::vector<Index>{ node };
     }
     std::vector<Index> nodes;
     for (const NamedSet& set : this->mesh_.sets)
@@ -715,26 +715,25 @@ void AbaqusFile::finish()
   {
     this->fail(this->models_.empty() ? "it has no *NODE." : "no *INSTANCE has a *NODE.");
   }
-  const auto positions = positionsOf(this->mesh_.nodeNumbers, "node", this->path());
-  positionsOf(this->all_.elementNumbers, "element", this->path());
+  const Numbering numbering(this->mesh_.nodeNumbers, "node", this->path());
+  Numbering(this->all_.elementNumbers, "element", this->path()); // there is none twice
   std::vector<Index> nodes;
   for (std::size_t e = 0; e < this->all_.elementNumbers.size(); ++e)
   {
     nodes.clear();
     for (const Index number : this->all_.elementNodes[e])
     {
-      const auto found = positions.find(number);
-      if (found == positions.end())
+      nodes.push_back(numbering.find(number));
+      if (nodes.back() < 0)
       {
         this->fail("element " + std::to_string(this->all_.elementNumbers[e]) + " has the node " +
                    std::to_string(number) + ", which is not defined.");
       }
-      nodes.push_back(found->second);
     }
     this->mesh_.addCell(this->all_.elementTypes[e], nodes, this->all_.elementNumbers[e]);
   }
-  this->all_.sets.addTo(this->mesh_, positions, this->all_.arePlane);
-  this->addLinks(positions);
+  this->all_.sets.addTo(this->mesh_, numbering, this->all_.arePlane);
+  this->addLinks(numbering);
   for (const std::string& type : this->unknownTypes_)
   {
     this->mesh_.warnings.push_back(

@@ -12,19 +12,6 @@
 
 namespace morph::io
 {
-namespace
-{
-void addFound(
-  Index number, const std::unordered_map<Index, Index>& positionOf, std::vector<Index>& list)
-{
-  const auto found = positionOf.find(number);
-  if (found != positionOf.end())
-  {
-    list.push_back(found->second);
-  }
-}
-}
-
 AbaqusSets::Entries* AbaqusSets::entriesOf(Sets& sets, const std::string& name)
 {
   if (name.empty())
@@ -125,7 +112,7 @@ std::vector<const AbaqusSets::NamedEntries*> AbaqusSets::reached(
 }
 
 std::vector<Index> AbaqusSets::positions(
-  const Sets& sets, const std::string& name, const std::unordered_map<Index, Index>& positionOf)
+  const Sets& sets, const std::string& name, const Numbering& numbering)
 {
   std::vector<Index> result;
   std::string missing;
@@ -133,27 +120,11 @@ std::vector<Index> AbaqusSets::positions(
   {
     for (const Index number : set->entries.numbers)
     {
-      addFound(number, positionOf, result);
+      numbering.add(number, number, result);
     }
     for (const auto& [first, last, step] : set->entries.ranges)
     {
-      const Index steps = last < first ? -1 : (last - first) / step;
-      // A range may be longer than the mesh by far.
-      if (steps <= static_cast<Index>(positionOf.size()))
-      {
-        for (Index i = 0; i <= steps; ++i)
-        {
-          addFound(first + i * step, positionOf, result);
-        }
-        continue;
-      }
-      for (const auto& [number, position] : positionOf)
-      {
-        if (number >= first && number <= last && (number - first) % step == 0)
-        {
-          result.push_back(position);
-        }
-      }
+      numbering.add(first, last, result, step);
     }
   }
   sortUnique(result);
@@ -161,8 +132,7 @@ std::vector<Index> AbaqusSets::positions(
 }
 
 std::vector<Index> AbaqusSets::nodesOf(const std::string& name, const SolverMesh& mesh,
-  const std::unordered_map<Index, Index>& nodes,
-  const std::unordered_map<Index, Index>& elements) const
+  const Numbering& nodes, const Numbering& elements) const
 {
   std::vector<Index> result = positions(this->nodeSets_, name, nodes);
   std::string missing;
@@ -182,9 +152,8 @@ std::vector<Index> AbaqusSets::nodesOf(const std::string& name, const SolverMesh
   return result;
 }
 
-void AbaqusSets::addSurface(const NamedSurface& surface, SolverMesh& mesh,
-  const std::unordered_map<Index, Index>& nodes, const std::unordered_map<Index, Index>& elements,
-  const std::vector<std::uint8_t>& arePlane) const
+void AbaqusSets::addSurface(const NamedSurface& surface, SolverMesh& mesh, const Numbering& nodes,
+  const Numbering& elements, const std::vector<std::uint8_t>& arePlane) const
 {
   std::vector<Index> cells, points;
   for (const auto& [what, face] : surface.lines)
@@ -193,12 +162,12 @@ void AbaqusSets::addSurface(const NamedSurface& surface, SolverMesh& mesh,
     std::vector<Index> chosen;
     if (surface.ofNodes)
     {
-      number ? addFound(*number, nodes, chosen)
+      number ? nodes.add(*number, *number, chosen)
              : void(chosen = this->nodesOf(what, mesh, nodes, elements));
       points.insert(points.end(), chosen.begin(), chosen.end());
       continue;
     }
-    number ? addFound(*number, elements, chosen)
+    number ? elements.add(*number, *number, chosen)
            : void(chosen = positions(this->elementSets_, what, elements));
     for (const Index element : chosen)
     {
@@ -260,10 +229,10 @@ std::string AbaqusSets::missing(const NamedSurface& surface) const
   return result;
 }
 
-void AbaqusSets::addTo(SolverMesh& mesh, const std::unordered_map<Index, Index>& nodes,
-  const std::vector<std::uint8_t>& arePlane) const
+void AbaqusSets::addTo(
+  SolverMesh& mesh, const Numbering& nodes, const std::vector<std::uint8_t>& arePlane) const
 {
-  const auto elements = positionsOf(mesh.cellNumbers, "element", "the file");
+  const Numbering elements(mesh.cellNumbers, "element", "the file");
   const auto isWhole = [&mesh](const std::string& name, const std::string& missing)
   {
     if (!missing.empty())
@@ -280,7 +249,7 @@ void AbaqusSets::addTo(SolverMesh& mesh, const std::unordered_map<Index, Index>&
       std::vector<Index> found = this->nodesOf(key, mesh, nodes, elements), undefined;
       const std::vector<Index>& numbers = set.entries.numbers;
       std::copy_if(numbers.begin(), numbers.end(), std::back_inserter(undefined),
-        [&nodes](Index number) { return nodes.count(number) == 0; });
+        [&nodes](Index number) { return nodes.find(number) < 0; });
       if (!undefined.empty())
       {
         mesh.warnings.push_back("The set '" + set.name + "' names nodes that the file does not " +

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Formats/Numbering.h"
 #include "Formats/SolverMesh.h"
 
 #include <array>
@@ -36,13 +37,13 @@ public:
   /// A node set gets the nodes of an element set.
   void addNodesOf(const std::string& elementSet, const std::string& nodeSet);
 
-  /// Adds all sets to a mesh, with the faces of surfaces as cells. `nodes`: positions of node
-  /// numbers. `arePlane`: see AbaqusElement, of each cell. Numbers of elements that the file does
-  /// not define are left out, as they may be of a type that is. So are numbers of nodes, surfaces
-  /// with a side that its element lacks, and sets and surfaces that name a set that the file does
-  /// not define; a warning of the mesh says so.
-  void addTo(SolverMesh& mesh, const std::unordered_map<Index, Index>& nodes,
-    const std::vector<std::uint8_t>& arePlane) const;
+  /// Adds all sets to a mesh, with the faces of surfaces as cells. `nodes`: those of the mesh.
+  /// `arePlane`: see AbaqusElement, of each cell. Numbers of elements that the file does not define
+  /// are left out, as they may be of a type that is. So are numbers of nodes, surfaces with a side
+  /// that its element lacks, and sets and surfaces that name a set that the file does not define; a
+  /// warning of the mesh says so.
+  void addTo(
+    SolverMesh& mesh, const Numbering& nodes, const std::vector<std::uint8_t>& arePlane) const;
 
 private:
   struct NamedEntries
@@ -66,16 +67,14 @@ private:
     const Sets& sets, const std::string& name, std::string& missing);
   /// The positions in a set and in those that it names.
   static std::vector<Index> positions(
-    const Sets& sets, const std::string& name, const std::unordered_map<Index, Index>& positionOf);
+    const Sets& sets, const std::string& name, const Numbering& numbering);
   /// The first name that is not defined among those that a set or surface names; or empty.
   std::string missing(const Sets& sets, const std::string& name) const;
   std::string missing(const NamedSurface& surface) const;
   std::vector<Index> nodesOf(const std::string& name, const SolverMesh& mesh,
-    const std::unordered_map<Index, Index>& nodes,
-    const std::unordered_map<Index, Index>& elements) const;
-  void addSurface(const NamedSurface& surface, SolverMesh& mesh,
-    const std::unordered_map<Index, Index>& nodes, const std::unordered_map<Index, Index>& elements,
-    const std::vector<std::uint8_t>& arePlane) const;
+    const Numbering& nodes, const Numbering& elements) const;
+  void addSurface(const NamedSurface& surface, SolverMesh& mesh, const Numbering& nodes,
+    const Numbering& elements, const std::vector<std::uint8_t>& arePlane) const;
 
   Sets nodeSets_, elementSets_;
   std::list<NamedSurface> surfaces_;

@@ -3,6 +3,7 @@
 
 #include "Files/ReadFile.h"
 #include "Formats/AbaqusKeyword.h"
+#include "Formats/Numbering.h"
 #include "Formats/SolidElements.h"
 #include "Formats/TextFile.h"
 #include "Text/NumberText.h"
@@ -46,8 +47,8 @@ private:
   void parse();
   void readWidths(Lines& lines);
   bool nextOfBlock(Lines& lines, const char* block) const;
-  std::vector<NumberField> fieldsOf(Span line) const;
-  std::vector<Index> integersOf(Span line) const;
+  const std::vector<NumberField>& fieldsOf(Span line);
+  const std::vector<Index>& integersOf(Span line);
   void readNodes(Lines& lines);
   void readElements(Lines& lines);
   void readComponent(Lines& lines, const std::vector<Span>& command);
@@ -58,6 +59,8 @@ private:
 
   std::vector<std::size_t> widths_; ///< of the fields of the block
   std::size_t integers_ = 0;        ///< of these, which come first
+  std::vector<NumberField> fields_; ///< of a line
+  std::vector<Index> numbers_;      ///< of a line
   std::map<Index, Index> types_;    ///< element type of each number of ET
   std::vector<Element> elements_;
   std::vector<Component> components_;
@@ -129,31 +132,31 @@ bool AnsysFile::nextOfBlock(Lines& lines, const char* block) const
   return !line.empty() && line != "-1" && line[0] != 'N' && line[0] != 'n';
 }
 
-std::vector<NumberField> AnsysFile::fieldsOf(Span line) const
+/// Those of a line, which stay until the next call.
+const std::vector<NumberField>& AnsysFile::fieldsOf(Span line)
 {
-  std::vector<NumberField> fields;
-  fields.reserve(this->widths_.size());
+  this->fields_.clear();
   std::size_t column = 0;
   for (const std::size_t width : this->widths_)
   {
-    fields.push_back(fixedField(this->text(), line, column, width));
+    this->fields_.push_back(fixedField(this->text(), line, column, width));
     column += width;
   }
-  return fields;
+  return this->fields_;
 }
 
-/// Those of a line, up to its end.
-std::vector<Index> AnsysFile::integersOf(Span line) const
+/// Those of a line, up to its end, which stay until the next call.
+const std::vector<Index>& AnsysFile::integersOf(Span line)
 {
-  std::vector<Index> numbers;
+  this->numbers_.clear();
   for (const NumberField& field : this->fieldsOf(line))
   {
     if (field.span.size() > 0)
     {
-      numbers.push_back(this->integerAt(0, field.span));
+      this->numbers_.push_back(this->integerAt(0, field.span));
     }
   }
-  return numbers;
+  return this->numbers_;
 }
 
 void AnsysFile::readNodes(Lines& lines)
@@ -165,7 +168,7 @@ void AnsysFile::readNodes(Lines& lines)
   }
   while (this->nextOfBlock(lines, "NBLOCK"))
   {
-    const std::vector<NumberField> fields = this->fieldsOf(lines.span());
+    const std::vector<NumberField>& fields = this->fieldsOf(lines.span());
     NumberRules rules;
     rules.field = NumberRules::Field::Fixed;
     rules.width = fields[this->integers_].width;
@@ -181,7 +184,7 @@ void AnsysFile::readTypes(Lines& lines)
   this->readWidths(lines);
   while (this->nextOfBlock(lines, "ETBLOCK"))
   {
-    if (const std::vector<Index> numbers = this->integersOf(lines.span()); numbers.size() >= 2)
+    if (const std::vector<Index>& numbers = this->integersOf(lines.span()); numbers.size() >= 2)
     {
       this->types_[numbers[0]] = numbers[1];
     }
@@ -195,7 +198,7 @@ void AnsysFile::readElements(Lines& lines)
   this->readWidths(lines);
   while (this->nextOfBlock(lines, "EBLOCK"))
   {
-    const std::vector<Index> head = this->integersOf(lines.span());
+    const std::vector<Index>& head = this->integersOf(lines.span());
     if (head.size() < 12 || head[8] < 1 || head[8] > 100)
     {
       this->failAt(0, lines.span().begin, "an element of EBLOCK needs 11 numbers and its nodes.");
@@ -205,7 +208,7 @@ void AnsysFile::readElements(Lines& lines)
     const auto count = static_cast<std::size_t>(head[8]);
     while (element.nodes.size() < count && this->nextOfBlock(lines, "EBLOCK"))
     {
-      const std::vector<Index> more = this->integersOf(lines.span());
+      const std::vector<Index>& more = this->integersOf(lines.span());
       element.nodes.insert(element.nodes.end(), more.begin(), more.end());
     }
     if (element.nodes.size() != count)
@@ -267,7 +270,8 @@ void AnsysFile::readComponent(Lines& lines, const std::vector<Span>& command)
 /// ends the nodes.
 void AnsysFile::readNodeCommand(Span line)
 {
-  const std::vector<NumberField> fields = freeFields(this->text(), line, 9);
+  const std::vector<NumberField>& fields = this->fields_;
+  freeFields(this->text(), line, 9, this->fields_);
   const auto word = [&](std::size_t i) { return upperCase(fields[i].span.of(this->text())); };
   const bool isCoded = !parseInteger(word(1)) && !word(2).empty();
   if (isCoded && word(2) != "LOC")
@@ -298,7 +302,8 @@ void AnsysFile::readNodeCommand(Span line)
 /// eight nodes, as CDWRITE has them unblocked; or "EN,number,..." and "EMORE,...".
 void AnsysFile::readElementCommand(Span line)
 {
-  const std::vector<NumberField> fields = freeFields(this->text(), line, 10);
+  const std::vector<NumberField>& fields = this->fields_;
+  freeFields(this->text(), line, 10, this->fields_);
   const auto word = [&](std::size_t i) { return upperCase(fields[i].span.of(this->text())); };
   const bool isMore = word(0) == "EMORE", isAttributes = word(2) == "ATTR";
   const bool isCoded = isAttributes || word(2) == "NODE";
@@ -413,9 +418,8 @@ void AnsysFile::finish()
       "element " + std::to_string(this->elements_.back().number) + " lacks " +
         std::to_string(this->missing_) + " of its nodes.");
   }
-  const auto positions = positionsOf(this->mesh_.nodeNumbers, "node", this->path());
+  const Numbering nodesOf(this->mesh_.nodeNumbers, "node", this->path());
   std::set<Index> unknown;
-  std::map<Index, Index> cells;
   std::map<Index, std::vector<Index>> materials;
   for (const Element& element : this->elements_)
   {
@@ -454,35 +458,29 @@ void AnsysFile::finish()
         node = -1; // between corners, left out
         continue;
       }
-      const auto found = positions.find(node);
-      if (found == positions.end())
+      const Index position = nodesOf.find(node);
+      if (position < 0)
       {
         this->failAt(0, element.at,
           "element " + std::to_string(element.number) + " has the node " + std::to_string(node) +
             ", which is not defined.");
       }
-      node = found->second;
+      node = position;
     }
-    const Index cell = this->mesh_.addCell(cellType, nodes, element.number);
-    cells[element.number] = cell;
-    materials[element.material].push_back(cell);
+    materials[element.material].push_back(this->mesh_.addCell(cellType, nodes, element.number));
   }
   for (auto& [material, members] : materials)
   {
     this->mesh_.set("Material " + std::to_string(material)).cells = std::move(members);
   }
-  positionsOf(this->mesh_.cellNumbers, "element", this->path());
-  const std::map<Index, Index> nodes(positions.begin(), positions.end());
+  const Numbering cellsOf(this->mesh_.cellNumbers, "element", this->path());
   for (const Component& component : this->components_)
   {
     NamedSet& set = this->mesh_.set(component.name);
-    const auto& places = component.isOfNodes ? nodes : cells;
     for (const auto& [first, last] : component.ranges) // of elements that are left out, too
     {
-      for (auto one = places.lower_bound(first); one != places.end() && one->first <= last; ++one)
-      {
-        (component.isOfNodes ? set.nodes : set.cells).push_back(one->second);
-      }
+      component.isOfNodes ? nodesOf.add(first, last, set.nodes)
+                          : cellsOf.add(first, last, set.cells);
     }
   }
   for (const Index type : unknown)

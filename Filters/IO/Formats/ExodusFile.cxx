@@ -5,6 +5,7 @@
 #include "Formats/ExodusElements.h"
 #include "Formats/JoinedNodes.h"
 #include "Formats/NetCdf.h"
+#include "Formats/Numbering.h"
 #include "Support/Error.h"
 #include "Support/Lists.h"
 
@@ -118,7 +119,7 @@ std::vector<Index> ExodusFile::numbersOf(const NetCdf& file,
     if (file.has(variable))
     {
       std::vector<Index> numbers = file.integers(variable, count);
-      positionsOf(numbers, what, this->path());
+      Numbering(numbers, what, this->path()); // there is none twice
       if (std::any_of(numbers.begin(), numbers.end(), [](Index n) { return n < 0; }))
       {
         this->fail(std::string("its ") + variable + " has negative numbers.");

@@ -4,6 +4,7 @@
 #include "Files/ReadFile.h"
 #include "Formats/GmshElements.h"
 #include "Formats/GmshSections.h"
+#include "Formats/Numbering.h"
 #include "Formats/TextFile.h"
 
 #include <algorithm>
@@ -54,8 +55,8 @@ private:
 
   std::map<Group, std::string> names_;
   std::map<Group, std::vector<Group>> groupsOf_; ///< of each entity, by dimension and tag
-  std::unordered_map<Index, Index> positions_;   ///< of nodes
-  std::map<std::vector<Index>, Index> cellOf_;   ///< by sorted nodes, of version 2
+  Numbering nodes_;
+  std::map<std::vector<Index>, Index> cellOf_; ///< by sorted nodes, of version 2
   bool isBinary_ = false, isVersion4_ = false;
 };
 
@@ -219,13 +220,12 @@ void GmshFile::addElement(
   std::vector<Index> nodes;
   for (const Index number : element.nodes)
   {
-    const auto found = this->positions_.find(number);
-    if (found == this->positions_.end())
+    nodes.push_back(this->nodes_.find(number));
+    if (nodes.back() < 0)
     {
       cursor.fail("element " + std::to_string(element.number) + " has the node " +
                   std::to_string(number) + ", which is not defined.");
     }
-    nodes.push_back(found->second);
   }
   Index cell = this->mesh_.cells();
   if (!this->isVersion4_)
@@ -356,7 +356,7 @@ void GmshFile::parse()
   }
   sections.isVersion4 ? this->readNodes4(sections.cursor(*nodes))
                       : this->readNodes2(sections, *nodes, parametric != nullptr);
-  this->positions_ = positionsOf(this->mesh_.nodeNumbers, "node", this->path());
+  this->nodes_ = Numbering(this->mesh_.nodeNumbers, "node", this->path());
   sections.isVersion4 ? this->readElements4(sections.cursor(*elements))
                       : this->readElements2(sections, *elements);
   if (std::none_of(this->mesh_.cellTypes.begin(), this->mesh_.cellTypes.end(),

@@ -3,6 +3,7 @@
 
 #include "Files/ReadFile.h"
 #include "Formats/AbaqusKeyword.h"
+#include "Formats/Numbering.h"
 #include "Formats/SolidElements.h"
 #include "Formats/TextFile.h"
 
@@ -74,14 +75,15 @@ private:
   void takeCard(std::size_t part, Span span);
   void takeElement(std::size_t part, Span span);
   void takeSet(std::size_t part, Span span);
-  std::vector<NumberField> fieldsOf(std::size_t part, Span span,
-    std::initializer_list<std::size_t> widths, std::size_t count) const;
+  /// These and the next stay until the next call.
+  const std::vector<NumberField>& fieldsOf(
+    std::size_t part, Span span, std::initializer_list<std::size_t> widths, std::size_t count);
   /// The first `count` numbers, or all of a line between commas where it is a list.
-  std::vector<Index> integersOf(
-    std::size_t part, Span span, std::size_t width, std::size_t count, bool isList = false) const;
+  std::vector<Index>& integersOf(
+    std::size_t part, Span span, std::size_t width, std::size_t count, bool isList = false);
   Index position(Index node, const std::string& what) const;
   void addElements();
-  void addSet(const Set& set, const std::map<Index, Index>& nodes);
+  void addSet(const Set& set);
   void addRigidBodies();
   void makeNamesUnique();
   void finish();
@@ -95,48 +97,50 @@ private:
   bool isOpen_ = false;           ///< the nodes of an element are on the next line
   int extraLines_ = 0, skip_ = 0; ///< of each element, and of the one before
   std::string title_;
+  std::vector<NumberField> fields_; ///< of a line
+  std::vector<Index> numbers_;      ///< of a line
   std::vector<Element> elements_;
-  std::map<std::pair<Block, Index>, Index> cells_; ///< each kind of element has its own numbers
+  std::map<Block, Numbering> cells_; ///< each kind of element has its own numbers
   std::vector<Set> sets_;
   std::vector<RigidBody> rigidBodies_;
   std::map<Index, std::string> titles_; ///< of parts
   std::set<std::string> unknown_;
-  std::unordered_map<Index, Index> positions_;
+  Numbering nodes_;
   std::map<Index, std::vector<Index>> cellsOfPart_;
 };
 
 /// Fields of these widths, the last of them repeated, or between commas.
-std::vector<NumberField> LsDynaFile::fieldsOf(
-  std::size_t part, Span span, std::initializer_list<std::size_t> widths, std::size_t count) const
+const std::vector<NumberField>& LsDynaFile::fieldsOf(
+  std::size_t part, Span span, std::initializer_list<std::size_t> widths, std::size_t count)
 {
   const std::string_view text = this->parts_[part].text;
   if (span.of(text).find(',') != std::string_view::npos)
   {
-    return freeFields(text, span, count);
+    freeFields(text, span, count, this->fields_);
+    return this->fields_;
   }
-  std::vector<NumberField> fields;
-  fields.reserve(count);
+  this->fields_.clear();
   for (std::size_t i = 0, column = 0; i < count; ++i)
   {
     const std::size_t own = widths.begin()[std::min(i, widths.size() - 1)];
     const std::size_t width = this->isLongBlock_ ? 20 : this->isWideBlock_ && own == 8 ? 10 : own;
-    fields.push_back(fixedField(text, span, column, width));
+    this->fields_.push_back(fixedField(text, span, column, width));
     column += width;
   }
-  return fields;
+  return this->fields_;
 }
 
-std::vector<Index> LsDynaFile::integersOf(
-  std::size_t part, Span span, std::size_t width, std::size_t count, bool isList) const
+std::vector<Index>& LsDynaFile::integersOf(
+  std::size_t part, Span span, std::size_t width, std::size_t count, bool isList)
 {
-  const std::vector<NumberField> fields = this->fieldsOf(part, span, { width }, count);
-  std::vector<Index> numbers(isList ? fields.size() : count);
-  for (std::size_t i = 0; i < numbers.size(); ++i)
+  const std::vector<NumberField>& fields = this->fieldsOf(part, span, { width }, count);
+  this->numbers_.resize(isList ? fields.size() : count);
+  for (std::size_t i = 0; i < this->numbers_.size(); ++i)
   {
     const Span field = fields[i].span;
-    numbers[i] = field.size() == 0 ? 0 : this->integerAt(part, field);
+    this->numbers_[i] = field.size() == 0 ? 0 : this->integerAt(part, field);
   }
-  return numbers;
+  return this->numbers_;
 }
 
 /// Whether a line without content is a title, or one that an element has beside its nodes.
@@ -268,7 +272,7 @@ void LsDynaFile::takeCard(std::size_t part, Span span)
   {
     case Block::Node:
     {
-      const auto fields = this->fieldsOf(part, span, { 8, 16 }, 4);
+      const auto& fields = this->fieldsOf(part, span, { 8, 16 }, 4);
       NumberRules rules;
       const bool isFixed = fields[1].width > 0;
       rules.field = isFixed ? NumberRules::Field::Fixed : NumberRules::Field::Free;
@@ -291,7 +295,7 @@ void LsDynaFile::takeCard(std::size_t part, Span span)
       if (const int line = this->line_++ - (this->hasTitle_ ? 1 : 0);
           line == 0 || (line > 0 && !this->isFirstAlone_))
       {
-        const std::vector<Index> numbers = this->integersOf(part, span, 10, 4);
+        const std::vector<Index>& numbers = this->integersOf(part, span, 10, 4);
         this->rigidBodies_.push_back({ numbers[2], numbers[3] });
       }
       return;
@@ -321,7 +325,7 @@ void LsDynaFile::takeElement(std::size_t part, Span span)
   }
   // What follows the two nodes of a beam or spring is its orientation.
   const bool isLine = this->block_ == Block::Beam || this->block_ == Block::Discrete;
-  std::vector<Index> numbers = this->integersOf(part, span, 8, isLine ? 4 : 10);
+  std::vector<Index>& numbers = this->integersOf(part, span, 8, isLine ? 4 : 10);
   if (!this->isOpen_)
   {
     this->elements_.push_back({ numbers[0], numbers[1], {}, part, span.begin, this->block_ });
@@ -330,7 +334,7 @@ void LsDynaFile::takeElement(std::size_t part, Span span)
   numbers.erase(std::find(numbers.begin(), numbers.end(), 0), numbers.end());
   this->isOpen_ = !this->isOpen_ && numbers.empty();
   this->skip_ = this->isOpen_ ? 0 : this->extraLines_;
-  this->elements_.back().nodes = std::move(numbers);
+  this->elements_.back().nodes = numbers;
 }
 
 void LsDynaFile::takeSet(std::size_t part, Span span)
@@ -348,7 +352,7 @@ void LsDynaFile::takeSet(std::size_t part, Span span)
     return;
   }
   const bool isSegment = this->block_ == Block::SegmentSet;
-  std::vector<Index> numbers = this->integersOf(part, span, 10, isSegment ? 4 : 8, !isSegment);
+  std::vector<Index>& numbers = this->integersOf(part, span, 10, isSegment ? 4 : 8, !isSegment);
   if (!isSegment)
   {
     numbers.erase(std::remove(numbers.begin(), numbers.end(), 0), numbers.end());
@@ -360,16 +364,17 @@ void LsDynaFile::takeSet(std::size_t part, Span span)
 /// A node's place in the mesh.
 Index LsDynaFile::position(Index node, const std::string& what) const
 {
-  const auto found = this->positions_.find(node);
-  if (found == this->positions_.end())
+  const Index position = this->nodes_.find(node);
+  if (position < 0)
   {
     this->fail(what + " has the node " + std::to_string(node) + ", which is not defined.");
   }
-  return found->second;
+  return position;
 }
 
 void LsDynaFile::addElements()
 {
+  std::map<Block, std::vector<Index>> numbers; // of each cell, or -1 where it is of another kind
   for (const Element& element : this->elements_)
   {
     const bool isSolid = element.kind == Block::Solid || element.kind == Block::ThickShell;
@@ -393,13 +398,17 @@ void LsDynaFile::addElements()
       node = this->position(node, name);
     }
     const Index cell = this->mesh_.addCell(type, nodes, element.number);
-    this->cells_[{ element.kind, element.number }] = cell;
+    numbers[element.kind].resize(static_cast<std::size_t>(cell), -1);
+    numbers[element.kind].push_back(element.number);
     this->cellsOfPart_[element.part].push_back(cell);
+  }
+  for (const auto& [kind, ofKind] : numbers)
+  {
+    this->cells_[kind] = Numbering(ofKind, "element of one kind", this->path());
   }
 }
 
-/// `nodes`: positions by number, of which ranges are taken.
-void LsDynaFile::addSet(const Set& set, const std::map<Index, Index>& nodes)
+void LsDynaFile::addSet(const Set& set)
 {
   static const std::map<Block, Block> elements = { { Block::SolidSet, Block::Solid },
     { Block::ThickShellSet, Block::ThickShell }, { Block::ShellSet, Block::Shell },
@@ -433,10 +442,7 @@ void LsDynaFile::addSet(const Set& set, const std::map<Index, Index>& nodes)
     }
     else if (set.kind == Block::NodeSet)
     {
-      for (auto node = nodes.lower_bound(first); node != nodes.end() && node->first <= last; ++node)
-      {
-        named.nodes.push_back(node->second);
-      }
+      this->nodes_.add(first, last, named.nodes);
     }
     else if (set.kind == Block::PartSet)
     {
@@ -448,13 +454,7 @@ void LsDynaFile::addSet(const Set& set, const std::map<Index, Index>& nodes)
     }
     else
     {
-      const Block kind = elements.at(set.kind);
-      const auto end = this->cells_.upper_bound({ kind, last });
-      for (auto cell = this->cells_.lower_bound({ kind, first }); cell != end && first <= last;
-           ++cell)
-      {
-        named.cells.push_back(cell->second);
-      }
+      this->cells_[elements.at(set.kind)].add(first, last, named.cells);
     }
   }
 }
@@ -516,22 +516,16 @@ void LsDynaFile::finish()
   {
     this->fail("it has no *NODE.");
   }
-  this->positions_ = positionsOf(this->mesh_.nodeNumbers, "node", this->path());
+  this->nodes_ = Numbering(this->mesh_.nodeNumbers, "node", this->path());
   this->addElements();
   this->makeNamesUnique();
   for (const auto& [part, cells] : this->cellsOfPart_)
   {
     this->mesh_.set(this->titles_[part]).cells = cells;
   }
-  std::map<Index, Index> nodes;
-  if (std::any_of(this->sets_.begin(), this->sets_.end(),
-        [](const Set& set) { return set.kind == Block::NodeSet && set.isRange; }))
-  {
-    nodes.insert(this->positions_.begin(), this->positions_.end());
-  }
   for (const Set& set : this->sets_)
   {
-    this->addSet(set, nodes);
+    this->addSet(set);
   }
   this->addRigidBodies();
   for (const std::string& name : this->unknown_)

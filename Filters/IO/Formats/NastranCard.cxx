@@ -63,7 +63,7 @@ bool NastranCards::next(NastranCard& card)
   {
     return false;
   }
-  card = NastranCard();
+  card.fields.clear();
   card.at = this->line_.begin;
   card.name = nameOf(this->line_.of(this->text_));
   do
@@ -83,18 +83,22 @@ bool NastranCards::next(NastranCard& card)
   return true;
 }
 
-void NastranCards::addFields(NastranCard& card, Span line) const
+void NastranCards::addFields(NastranCard& card, Span line)
 {
   if (!card.isFree)
   {
     this->addFixed(card, line);
     return;
   }
-  std::vector<NumberField> all = freeFields(this->text_, line, 0);
   const std::size_t most = card.isLarge ? 4 : 8;
+  std::vector<NumberField>& all = this->free_;
+  freeFields(this->text_, line, 1 + most, all);
   // A name, the fields, the name of the next line. Where there are more, the line continues itself.
   const std::size_t lines = all.size() > most + 2 ? (all.size() - 2) / most + 1 : 1;
-  all = freeFields(this->text_, line, 1 + most * lines);
+  if (lines > 1)
+  {
+    freeFields(this->text_, line, 1 + most * lines, all);
+  }
   const auto first = all.begin() + 1;
   card.fields.insert(card.fields.end(), first, first + static_cast<std::ptrdiff_t>(most * lines));
 }

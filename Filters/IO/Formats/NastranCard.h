@@ -38,13 +38,14 @@ public:
 
 private:
   bool nextLine();
-  void addFields(NastranCard& card, Span line) const;
+  void addFields(NastranCard& card, Span line);
   void addFixed(NastranCard& card, Span line) const;
   bool continues() const;
 
   std::string_view text_;
   Lines lines_;
   Span line_;
-  bool isHeld_ = false; ///< line_ was read already
+  std::vector<NumberField> free_; ///< of a line between commas
+  bool isHeld_ = false;           ///< line_ was read already
 };
 }

@@ -4,6 +4,7 @@
 #include "Files/ReadFile.h"
 #include "Formats/AbaqusKeyword.h"
 #include "Formats/NastranCard.h"
+#include "Formats/Numbering.h"
 #include "Formats/TextFile.h"
 
 #include <algorithm>
@@ -144,7 +145,7 @@ private:
   std::map<Index, System> systems_;
   std::vector<Index> systemOf_; ///< of each node; -1: that of GRDSET
   Index defaultSystem_ = 0;
-  std::unordered_map<Index, Index> positions_; ///< of node numbers
+  Numbering nodes_;
   std::set<std::string> unknownTypes_;
 };
 
@@ -363,13 +364,13 @@ std::size_t NastranFile::frameOf(Index id, int depth)
       continue;
     }
     const Index number = system.nodes[static_cast<std::size_t>(k)];
-    const auto node = this->positions_.find(number);
-    if (node == this->positions_.end())
+    const Index node = this->nodes_.find(number);
+    if (node < 0)
     {
       this->failAt(system.part, system.at,
         name + " needs the node " + std::to_string(number) + ", which is not defined.");
     }
-    points.col(k) = this->positionOf(static_cast<std::size_t>(node->second), depth + 1);
+    points.col(k) = this->positionOf(static_cast<std::size_t>(node), depth + 1);
   }
   // The second point is on the third axis, the last one in the plane of the first and third.
   const auto axes = axesOf(points.col(0), points.col(1), points.col(2));
@@ -405,20 +406,21 @@ void NastranFile::takeElement(std::size_t part, const NastranCard& card, const K
   element.property = this->integerIn(part, card, 1);
   const std::size_t most = kind.cellTypes.rbegin()->first;
   const std::size_t corners = kind.cellTypes.begin()->first;
+  std::vector<Index> nodes(most);
   for (std::size_t i = 0; i < most; ++i)
   {
-    element.nodes.push_back(this->integerIn(part, card, kind.firstNode + i));
+    nodes[i] = this->integerIn(part, card, kind.firstNode + i);
   }
   // A blank or 0 stands for a node between corners that is left out.
-  const auto middles = element.nodes.begin() + static_cast<std::ptrdiff_t>(corners);
-  if (const auto corner = std::find(element.nodes.begin(), middles, 0); corner != middles)
+  const auto middles = nodes.begin() + static_cast<std::ptrdiff_t>(corners);
+  if (const auto corner = std::find(nodes.begin(), middles, 0); corner != middles)
   {
     this->failAt(part, card.at,
       card.name + " " + std::to_string(element.number) + " lacks its corner " +
-        std::to_string(corner - element.nodes.begin() + 1) + ".");
+        std::to_string(corner - nodes.begin() + 1) + ".");
   }
-  const bool isLinear = std::all_of(middles, element.nodes.end(), [](Index n) { return n == 0; });
-  element.nodes.resize(isLinear ? corners : most);
+  const bool isLinear = std::all_of(middles, nodes.end(), [](Index n) { return n == 0; });
+  element.nodes.assign(nodes.begin(), isLinear ? middles : nodes.end());
   element.type = kind.cellTypes.at(element.nodes.size());
   toVtkOrder(element.type, element.nodes);
   this->elements_.push_back(std::move(element));
@@ -470,12 +472,12 @@ void NastranFile::addLink(const Element& link)
 {
   for (std::size_t i = 0; i + 1 < link.nodes.size(); i += 2)
   {
-    const auto first = this->positions_.find(link.nodes[i]);
-    const auto second = this->positions_.find(link.nodes[i + 1]);
-    if (first != this->positions_.end() && second != this->positions_.end())
+    const Index first = this->nodes_.find(link.nodes[i]);
+    const Index second = this->nodes_.find(link.nodes[i + 1]);
+    if (first >= 0 && second >= 0)
     {
       // Its number may be that of another element.
-      this->mesh_.addCell(Line, { first->second, second->second }, -1);
+      this->mesh_.addCell(Line, { first, second }, -1);
     }
   }
 }
@@ -486,8 +488,7 @@ void NastranFile::finish()
   {
     this->fail("it has no GRID.");
   }
-  this->positions_ = positionsOf(this->mesh_.nodeNumbers, "node", this->path());
-  const auto& positions = this->positions_;
+  this->nodes_ = Numbering(this->mesh_.nodeNumbers, "node", this->path());
   std::vector<double> basic;
   for (std::size_t node = 0; node < this->places_.size(); ++node)
   {
@@ -507,24 +508,18 @@ void NastranFile::finish()
     }
     for (const Index number : element.nodes)
     {
-      if (number == 0)
-      {
-        nodes.push_back(-1);
-        continue;
-      }
-      const auto found = positions.find(number);
-      if (found == positions.end())
+      nodes.push_back(number == 0 ? -1 : this->nodes_.find(number));
+      if (number != 0 && nodes.back() < 0)
       {
         this->failAt(element.part, element.at,
           "element " + std::to_string(element.number) + " has the node " + std::to_string(number) +
             ", which is not defined.");
       }
-      nodes.push_back(found->second);
     }
     properties[element.property].push_back(
       this->mesh_.addCell(element.type, nodes, element.number));
   }
-  positionsOf(this->mesh_.cellNumbers, "element", this->path());
+  Numbering(this->mesh_.cellNumbers, "element", this->path()); // there is none twice
   for (auto& [property, cells] : properties)
   {
     this->mesh_.set("PID " + std::to_string(property)).cells = std::move(cells);

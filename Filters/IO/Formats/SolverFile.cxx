@@ -9,6 +9,7 @@
 #include "Formats/GmshFile.h"
 #include "Formats/LsDynaFile.h"
 #include "Formats/NastranFile.h"
+#include "Formats/Numbering.h"
 #include "Formats/OpenFoamMesh.h"
 #include "Formats/Su2File.h"
 #include "Support/Error.h"
@@ -102,19 +103,19 @@ std::vector<double> inOrder(
     throw Error(start + "the file has " + std::to_string(mesh.nodes()) + " nodes, and the mesh " +
                 std::to_string(numbers.size()) + ". Give the mesh that was read from it.");
   }
-  const auto positions = positionsOf(mesh.nodeNumbers, "node", file.path());
+  const Numbering nodes(mesh.nodeNumbers, "node", file.path());
   std::vector<double> result(coordinates.size());
   std::vector<std::uint8_t> isGiven(numbers.size(), 0);
   std::vector<Index> wrong, notFinite;
   for (std::size_t i = 0; i < numbers.size(); ++i)
   {
-    const auto found = positions.find(numbers[i]);
-    if (found == positions.end() || isGiven[static_cast<std::size_t>(found->second)])
+    const Index node = nodes.find(numbers[i]);
+    if (node < 0 || isGiven[static_cast<std::size_t>(node)])
     {
       wrong.push_back(numbers[i]);
       continue;
     }
-    const auto position = static_cast<std::size_t>(found->second);
+    const auto position = static_cast<std::size_t>(node);
     isGiven[position] = 1;
     for (std::size_t j = 0; j < 3; ++j)
     {
@@ -235,11 +236,11 @@ std::vector<double> requireOwnCoordinates(const std::string& original,
   {
     if (elsewhere(added).empty())
     {
-      const auto positions = positionsOf(mesh.nodeNumbers, "node", original);
+      const Numbering nodes(mesh.nodeNumbers, "node", original);
       std::vector<double> exact;
       for (const Index number : numbers)
       {
-        const auto first = static_cast<std::size_t>(3 * positions.at(number));
+        const auto first = static_cast<std::size_t>(3 * nodes.find(number));
         for (std::size_t i = first; i < first + 3; ++i)
         {
           exact.push_back(mesh.coordinates[i] + added[i]);

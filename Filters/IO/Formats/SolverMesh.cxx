@@ -202,27 +202,6 @@ SolverMesh partOf(
   return part;
 }
 
-std::unordered_map<Index, Index> positionsOf(
-  const std::vector<Index>& numbers, const char* what, const std::string& file)
-{
-  std::unordered_map<Index, Index> positions;
-  positions.reserve(numbers.size());
-  std::vector<Index> twice;
-  for (std::size_t i = 0; i < numbers.size(); ++i)
-  {
-    if (numbers[i] >= 0 && !positions.emplace(numbers[i], static_cast<Index>(i)).second)
-    {
-      twice.push_back(numbers[i]);
-    }
-  }
-  if (!twice.empty())
-  {
-    throw Error("Cannot read " + file + ": it defines more than one " + what +
-                " with the numbers " + listIds(twice) + ".");
-  }
-  return positions;
-}
-
 int dimensionOf(std::uint8_t type)
 {
   const CellShape* shape = cellShape(type);

@@ -7,7 +7,6 @@
 
 #include <set>
 #include <string>
-#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -70,11 +69,6 @@ Mesh coreMesh(const SolverMesh& mesh);
 /// one pass over the nodes, the cells and the sets' members.
 SolverMesh partOf(
   const SolverMesh& mesh, const std::vector<Index>& nodes, const std::vector<Index>& cells);
-
-/// The position of each number. Throws Error where two nodes or elements have one number; `what`:
-/// "node". `file`: for the message.
-std::unordered_map<Index, Index> positionsOf(
-  const std::vector<Index>& numbers, const char* what, const std::string& file);
 
 /// Of a cell of VTK's type: 0 to 3.
 int dimensionOf(std::uint8_t type);

@@ -107,20 +107,25 @@ NumberField tabbedField(std::string_view text, Span line, std::size_t column, st
   return field;
 }
 
-std::vector<NumberField> freeFields(std::string_view text, Span line, std::size_t least)
+void freeFields(
+  std::string_view text, Span line, std::size_t least, std::vector<NumberField>& fields)
 {
-  std::vector<Span> parts;
-  splitAtCommas(text, line, parts);
-  std::vector<NumberField> fields(std::max(least, parts.size()));
-  for (std::size_t i = 0; i < fields.size(); ++i)
+  fields.clear();
+  for (std::size_t begin = line.begin; begin <= line.end;)
   {
-    const bool isThere = i < parts.size();
-    fields[i].span = isThere ? parts[i] : Span{ parts.back().end, parts.back().end };
-    fields[i].place.begin = fields[i].span.begin;
-    fields[i].place.length = static_cast<std::uint32_t>(fields[i].span.size());
-    fields[i].place.missing = isThere ? 0 : 1;
+    const std::size_t comma = std::min(text.substr(0, line.end).find(',', begin), line.end);
+    NumberField field;
+    field.span = trimmed(text, { begin, comma });
+    field.place.begin = field.span.begin;
+    field.place.length = static_cast<std::uint32_t>(field.span.size());
+    fields.push_back(field);
+    begin = comma + 1;
   }
-  return fields;
+  NumberField beyond;
+  beyond.place.begin = fields.back().span.end;
+  beyond.place.missing = 1;
+  beyond.span = { beyond.place.begin, beyond.place.begin };
+  fields.resize(std::max(least, fields.size()), beyond);
 }
 
 std::string withNumbers(

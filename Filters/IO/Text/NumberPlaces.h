@@ -30,8 +30,9 @@ struct NumberField
 NumberField fixedField(std::string_view text, Span line, std::size_t column, std::size_t width);
 /// The same in a line with tabs, each of which goes on to the next column that 8 divides.
 NumberField tabbedField(std::string_view text, Span line, std::size_t column, std::size_t width);
-/// The fields of a line between commas; those beyond it are empty, up to `least` of them.
-std::vector<NumberField> freeFields(std::string_view text, Span line, std::size_t least);
+/// Sets the fields of a line between commas; those beyond it are empty, up to `least` of them.
+void freeFields(
+  std::string_view text, Span line, std::size_t least, std::vector<NumberField>& fields);
 
 /// How the numbers of a text may be written.
 struct NumberRules
