@@ -327,7 +327,7 @@ BadCells badCells(const Mesh& mesh, const std::vector<std::int8_t>& expected,
   BadCells bad;
   for (Index c = 0; c < mesh.numberOfCells(); ++c)
   {
-    if (numberOfCorners(cellShape(mesh, c)->shape) == 0)
+    if (!hasCorners(mesh, c))
     {
       continue;
     }

@@ -3,6 +3,7 @@
 
 #include "Energies/MeshEnergy.h"
 #include "Mesh/KRing.h"
+#include "Mesh/SimplicialDecomposition.h"
 #include "Mesh/SubMesh.h"
 #include "Optimization/Minimizers.h"
 
@@ -130,7 +131,7 @@ bool Untangling::run(std::vector<Index> seeds, const Aim& aim, bool nearOnly, Po
       ring.cells.clear();
       for (Index c = 0; c < this->mesh_.numberOfCells(); ++c)
       {
-        if (numberOfCorners(cellShape(this->mesh_, c)->shape) > 0)
+        if (hasCorners(this->mesh_, c))
         {
           ring.cells.push_back(c);
         }
