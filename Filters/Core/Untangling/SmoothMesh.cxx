@@ -4,8 +4,8 @@
 #include "Energies/MeshEnergy.h"
 #include "Energies/UntangleEnergy.h"
 #include "Mesh/CellEdges.h"
+#include "Mesh/HigherOrderNodes.h"
 #include "Mesh/KRing.h"
-#include "Mesh/SharedHigherOrderNodes.h"
 #include "Mesh/SimplicialDecomposition.h"
 #include "Optimization/Minimizers.h"
 #include "Quality/ScaledJacobian.h"
@@ -337,23 +337,6 @@ bool isWorse(const Mesh& mesh, const std::vector<std::int8_t>& orientation, cons
   const double now = minimumOf(after, communicator), then = minimumOf(before, communicator);
   return more > 0 || (more == 0 && !(now >= then));
 }
-
-void carryFollowers(const Mesh& rest, const NodePartition& partition, Points& points,
-  const Communicator& communicator)
-{
-  SharedHigherOrderNodes higherOrderNodes;
-  higherOrderNodes.prepare(rest, partition, communicator);
-  if (higherOrderNodes.empty())
-  {
-    return;
-  }
-  Points displacement = points - rest.points;
-  higherOrderNodes.apply(displacement);
-  for (Index node : partition.higherOrderNodes)
-  {
-    points.row(node) = rest.points.row(node) + displacement.row(node);
-  }
-}
 }
 
 SmoothingReport smoothMesh(const Mesh& rest, const std::vector<std::int8_t>& orientation,
@@ -376,7 +359,9 @@ SmoothingReport smoothMesh(const Mesh& rest, const std::vector<std::int8_t>& ori
   {
     smoothed.row(node) = result.row(node);
   }
-  carryFollowers(rest, partition, smoothed, communicator);
+  HigherOrderNodes followers;
+  followers.prepare(rest, partition, communicator);
+  followers.carry(rest.points, smoothed);
   report.wasKept =
     options.neverWorse && isWorse(rest, orientation, smoothed, points, monitor, communicator);
   if (!report.wasKept)

@@ -72,15 +72,7 @@ bool Smoothing::isIdentity(const Points& prescribed, Monitor& monitor) const
 
 Quality Smoothing::measure(Points& points, Monitor& monitor) const
 {
-  if (!this->followers_.empty())
-  {
-    Points displacement = points - this->own_->mesh().points;
-    this->followers_.apply(displacement);
-    for (Index node : this->own_->partition().higherOrderNodes)
-    {
-      points.row(node) = this->own_->mesh().points.row(node) + displacement.row(node);
-    }
-  }
+  this->followers_.carry(this->own_->mesh().points, points);
   Quality quality =
     measureQuality(this->own_->mesh(), points, this->own_->orientation(), {}, monitor);
   quality.inverted = this->own_->communicator().sum(quality.inverted);

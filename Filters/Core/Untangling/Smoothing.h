@@ -2,8 +2,8 @@
 #pragma once
 
 #include "LinearMethods/FemWarp.h"
+#include "Mesh/HigherOrderNodes.h"
 #include "Mesh/OwnCells.h"
-#include "Mesh/SharedHigherOrderNodes.h"
 #include "Mesh/Topology.h"
 #include "Morpher/Morpher.h"
 #include "Morpher/ShellFits.h"
@@ -62,8 +62,8 @@ private:
 
   SmoothingOptions options_;
   std::unique_ptr<OwnCells> own_;
-  ConnectedComponents bodies_;       ///< of own_
-  SharedHigherOrderNodes followers_; ///< of own_
+  ConnectedComponents bodies_; ///< of own_
+  HigherOrderNodes followers_; ///< of own_
   /// Where nodes of a curved shell start; null for other meshes. They then move in tangent planes,
   /// so that the surface has to be where it belongs.
   std::unique_ptr<FemWarp> membrane_;
