@@ -88,12 +88,6 @@ double unitScale(const std::vector<double>& edgeLength, const Communicator& comm
 }
 
 /// Infinite without a measured cell.
-double minimumOf(const Quality& quality, const Communicator& communicator)
-{
-  return communicator.minimum(
-    quality.measured > 0 ? quality.minimum : std::numeric_limits<double>::infinity());
-}
-
 class Smoother
 {
 public:
@@ -297,7 +291,7 @@ private:
   Quality measure(const Points& points) const
   {
     Quality quality = measureCorners(this->mesh_, points, this->orientation_, {}, this->monitor_);
-    quality.minimum = minimumOf(quality, this->communicator_);
+    quality.minimum = minimumOfAll(quality, this->communicator_);
     return quality;
   }
 
@@ -334,7 +328,7 @@ bool isWorse(const Mesh& mesh, const std::vector<std::int8_t>& orientation, cons
   const Quality after = measureQuality(mesh, result, orientation, {}, monitor);
   const Quality before = measureQuality(mesh, start, orientation, {}, monitor);
   const Index more = communicator.sum(after.inverted - before.inverted);
-  const double now = minimumOf(after, communicator), then = minimumOf(before, communicator);
+  const double now = minimumOfAll(after, communicator), then = minimumOfAll(before, communicator);
   return more > 0 || (more == 0 && !(now >= then));
 }
 }

@@ -8,8 +8,6 @@
 #include "Quality/BoundaryDetermined.h"
 #include "Untangling/KeepMinimum.h"
 
-#include <limits>
-
 namespace morph
 {
 namespace
@@ -77,8 +75,7 @@ Quality Smoothing::measure(Points& points, Monitor& monitor) const
     measureQuality(this->own_->mesh(), points, this->own_->orientation(), {}, monitor);
   quality.inverted = this->own_->communicator().sum(quality.inverted);
   quality.degenerate = this->own_->communicator().sum(quality.degenerate);
-  quality.minimum = this->own_->communicator().minimum(
-    quality.measured > 0 ? quality.minimum : std::numeric_limits<double>::infinity());
+  quality.minimum = minimumOfAll(quality, this->own_->communicator());
   return quality;
 }
 
