@@ -371,6 +371,9 @@ TEST_P(MorphFilters, PointsOfNoCellMayBeAnything)
   EXPECT_EQ(filter->GetMorphStatus(), std::string("Valid"));
   const morph::Points rest = grids::points(grid), x = grids::points(filter->GetOutput());
   EXPECT_TRUE(std::isnan(x(point, 0)) && std::isinf(x(point, 1)) && x(point, 2) == 1);
+  double by[3];
+  filter->GetOutput()->GetPointData()->GetArray("MorphDisplacement")->GetTuple(point, by);
+  EXPECT_EQ(grids::Row(by[0], by[1], by[2]), grids::Row(0, 0, 0));
   for (morph::Index n = 0; n < point; ++n)
   {
     EXPECT_LT((x.row(n) - grids::affine(rest.row(n))).norm(), 1e-9) << n;

@@ -703,6 +703,7 @@ class SolverFiles(unittest.TestCase):
             ("m.k", dyna.replace("1.,0.,0.", "1.,x,0."), "line 4: 'x' is no number"),
             ("m.k", dyna.replace("4,4,4,4", "44,44,44,44"), "element 1 has the node 44"),
             ("m.k", dyna.replace("4,4,4,4", ""), "line 8: element 1 has 3 nodes"),
+            ("m.k", dyna + "1,8,1,2,3,4,4,4,4,4\n", "more than one element of one kind .* 1"),
             ("m.k", "*PARAMETER\nR X, 1.\n" + dyna, "line 1: it has .PARAMETER"),
             ("m.k", "*INCLUDE_TRANSFORM\na.k\n" + dyna, "line 1: it has .INCLUDE_TRANSFORM"),
             ("m.k", "*INCLUDE\nm.k\n", "20 levels deep"), ("m.k", "*KEYWORD\n", "no .NODE"),

@@ -68,7 +68,8 @@ struct Written
         for (morph::Index i = 3 * first; i < 3 * last; ++i)
         {
           to[i] = static_cast<Value>(x[i]);
-          by[i] = static_cast<Value>(static_cast<double>(to[i]) - from[i]);
+          const double difference = static_cast<double>(to[i]) - from[i];
+          by[i] = static_cast<Value>(std::isnan(difference) ? 0 : difference); // stayed at NaN
         }
       });
     written.IsWritable = isWritable;
