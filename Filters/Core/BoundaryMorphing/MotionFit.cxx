@@ -83,8 +83,9 @@ AffineFit MotionSums::rigidFit(const PrincipalDirections& directions) const
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(moment, Eigen::ComputeFullU | Eigen::ComputeFullV);
   const Eigen::Vector3d sign(
     1, 1, (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0 ? -1 : 1);
-  const Eigen::Matrix3d turn = svd.matrixU() * sign.asDiagonal() * svd.matrixV().transpose() - one;
-  return { this->center_, this->mean_, one, turn.transpose() };
+  const Eigen::Matrix3d change =
+    svd.matrixU() * sign.asDiagonal() * svd.matrixV().transpose() - one; // R - I
+  return { this->center_, this->mean_, one, change.transpose() };
 }
 
 void MotionAround::add(const MotionSums& sums, const PrincipalDirections& directions, double share)
