@@ -113,7 +113,7 @@ TEST(Progress, OfTheInversionFreeMorphIsSpreadOut)
   InversionFree method;
   method.prepare(mesh, partition, monitor);
   monitor.told.clear();
-  const Points moved = motions::moved(method, motions::targets(mesh, partition, waves), monitor);
+  Points moved = motions::moved(method, motions::targets(mesh, partition, waves), monitor);
   const auto within = std::count_if(monitor.told.begin(), monitor.told.end(),
     [](double fraction) { return fraction > 0.1 && fraction < 0.95; });
   EXPECT_GE(within, 4);
