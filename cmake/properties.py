@@ -190,6 +190,39 @@ def comment(row):
     return f"  ///@{{\n  /**\n{text}\n   */\n"
 
 
+def results():
+    """The rows of Results.txt: class, name, kind, value without a result, field, and text."""
+    cls, made = "", []
+    for line in (MODULE / "Results.txt").read_text(encoding="utf-8").splitlines():
+        words = line.split(maxsplit=6)
+        if line.startswith("["):
+            cls = line.strip("[]")
+        elif words and words[0] != "#" and words[1] != "counts":
+            made.append((cls, *words[:4], words[6]))
+    return made
+
+
+def getters(cls, inherited):
+    """The getters of the results of a class but those that a superclass declares."""
+    sections = (cls, "vtkMorphAlgorithm") if cls == "vtkMorphMesh" else (cls,)
+    made = ""
+    for section, name, kind, none, _, text in results():
+        if section not in sections or f" Get{name}()" in inherited:
+            continue
+        without = none.replace("nan", "NaN")
+        said = "" if none == "kept" else f" Of the last execution; {without} without a result."
+        lines = "\n".join(f"   * {line}" for line in textwrap.wrap(text + said, 95))
+        made += f"  /**\n{lines}\n   */\n" + {
+            "double": f"  double Get{name}() const {{ return this->GetNumber(\"{name}\"); }}\n",
+            "id": f"  vtkIdType Get{name}() const {{ return this->GetInteger(\"{name}\"); }}\n",
+            "int": f"  int Get{name}() const\n"
+                   f"  {{\n    return static_cast<int>(this->GetInteger(\"{name}\"));\n  }}\n",
+            "text": f"  const char* Get{name}() const {{ return this->GetText(\"{name}\"); }}\n",
+            "count": f"  vtkIdType Get{name}() const {{ return this->GetCount(\"{name}\"); }}\n",
+        }[kind] + "\n"
+    return made.rstrip("\n")
+
+
 def declarations(row):
     name = row.name
     if row.kind == "own":
@@ -282,7 +315,7 @@ def definitions(cls, options, row):
 
 
 def make_cxx(folder):
-    table = read()
+    table, superclasses = read(), bases()
     structs, sources, headers = [], [], []
     # Defaults that a class has on its own, where its superclass has the property.
     others = {}
@@ -305,7 +338,11 @@ def make_cxx(folder):
         if not kept or text.count("@Properties@\n") != 1 or not own:
             raise SystemExit(f"{template}: it needs @Properties@, options, and rows in the table")
         made = "".join(declarations(row) for row in own).rstrip("\n")
-        write(folder / f"{cls}.h", text.replace("@Properties@", made))
+        inherited = "".join((MODULE / f"vtk{base}.h.in").read_text(encoding="utf-8")
+                            for base in superclasses[cls[3:]]
+                            if (MODULE / f"vtk{base}.h.in").exists())
+        write(folder / f"{cls}.h", text.replace("@Properties@", made).replace(
+            "@Results@", getters(cls, inherited)))
         headers.append(f'#include "{cls}.h"\n')
         structs.append(struct(kept[1], own))
         print_one = "  Property::Print(os, indent, {0}, this->{1}->{2});\n"
@@ -632,16 +669,9 @@ inline const std::vector<Row> Rows = {
 
 
 def make_result_tests(path):
-    lines, cls = [], ""
-    for line in (MODULE / "Results.txt").read_text(encoding="utf-8").splitlines():
-        words = line.split()
-        if line.startswith("["):
-            cls = line.strip("[]")
-        elif words and words[0] != "#" and words[1] != "counts":
-            name, kind, none, field = words[:4]
-            lines.append(
-                f'  {{ "{cls}", "{name}", "{kind}", "{none}", "{field}", [](vtkObject* o)\n'
-                f"    {{ return vtkVariant({cls}::SafeDownCast(o)->Get{name}()); }} }},\n")
+    lines = [f'  {{ "{cls}", "{name}", "{kind}", "{none}", "{field}", [](vtkObject* o)\n'
+             f"    {{ return vtkVariant({cls}::SafeDownCast(o)->Get{name}()); }} }},\n"
+             for cls, name, kind, none, field, _ in results()]
     includes = "".join(f"#include <{cls}.h>\n" for cls in dict.fromkeys(
         line.split('"')[1] for line in lines))
     write(path, "// Made by cmake/properties.py from Results.txt.\n#pragma once\n\n" + includes +

@@ -3,19 +3,18 @@
 
 #include "Mesh/Topology.h"
 #include "Morpher/IncrementalMorph.h"
-#include "Private/Compare/BoundarySeries.h"
 #include "Private/Compare/Comparison.h"
-#include "Private/Compare/Follower.h"
 #include "Private/Compare/PeakMemory.h"
 #include "Private/Data/GridMesh.h"
 #include "Private/Data/Quality.h"
+#include "Private/Data/Results.h"
 #include "Private/Distributed/OnRanks.h"
+#include "Private/GridMorpher/GridMorpher.h"
 #include "Private/Options.h"
+#include "Private/Pipeline/Execution.h"
 #include "Private/Pipeline/Input.h"
-#include "Private/Pipeline/Monitor.h"
 #include "Private/Pipeline/Ports.h"
 #include "Private/Pipeline/Ranks.h"
-#include "Private/Pipeline/Steps.h"
 #include "Quality/ScaledJacobian.h"
 #include "Support/Error.h"
 #include "Support/ProgressRange.h"
@@ -39,6 +38,7 @@
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
 #include <vtkPointSet.h>
+#include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
 #include <vtkStreamingDemandDrivenPipeline.h>
 #include <vtkTable.h>
@@ -76,6 +76,12 @@ struct vtkCompareMorphMethods::vtkInternals
     }
     return times;
   }
+  /// Takes the steps of a method, until the first that fails. Each message becomes one warning,
+  /// with the first step that raised it. All `processes` call it.
+  void Run(vtkMorphAlgorithm* method, vtkUnstructuredGrid* grid,
+    const std::vector<vtkSmartPointer<vtkDataObject>>& boundaries,
+    const morph::CompareMorphMethodsOptions& options, const filters::RankGroup& processes,
+    filters::MethodRun& run, morph::Monitor& monitor) const;
 };
 
 namespace
@@ -109,8 +115,6 @@ vtkIdType badCells(
                                   .size());
 }
 
-/// Runs `filter` through its steps, until the first that fails. Each message becomes one warning,
-/// with the first step that raised it. All `processes` call it.
 /// A column for each number that vtkScaledJacobian has of each of `criteria`.
 std::vector<std::pair<std::string, double>> measureCriteria(
   vtkUnstructuredGrid* grid, const std::string& criteria)
@@ -132,47 +136,6 @@ std::vector<std::pair<std::string, double>> measureCriteria(
     }
   }
   return result;
-}
-
-void follow(vtkMorphAlgorithm* filter, const std::vector<double>& times, double percentile,
-  const std::string& criteria, const filters::RankGroup& processes, filters::MethodRun& run,
-  morph::Monitor& monitor)
-{
-  const auto check = [&] { processes.Together([&] { monitor.check(); }); };
-  const filters::PeakMemory memory;
-  std::set<std::string> told;
-  const double number = static_cast<double>(times.size());
-  for (std::size_t i = 0; i < times.size(); ++i)
-  {
-    check();
-    const double done = static_cast<double>(i);
-    morph::ProgressRange part(monitor, done / number, (done + 1) / number);
-    filters::Follower follower(filter, part);
-    filter->UpdateTimeStep(times[i]);
-    check();
-    const bool failed = std::string(filter->GetMorphStatus()) == "Failed";
-    std::vector<std::string> messages = follower.Errors();
-    messages.insert(messages.end(), follower.Warnings().begin(), follower.Warnings().end());
-    for (const std::string& message : messages)
-    {
-      if (told.insert(message).second)
-      {
-        monitor.warn(run.Title() + ", step " + std::to_string(i) + ": " + message);
-      }
-    }
-    if (failed)
-    {
-      run.Failure = follower.Errors().empty() ? "" : follower.Errors().front();
-      processes.Share(run.Failure); // one process tells it
-      break;
-    }
-    run.Steps.push_back(filters::Comparison::Measure(filter, times[i], percentile, processes));
-    if (!criteria.empty())
-    {
-      run.Steps.back().Criteria = measureCriteria(filter->GetOutput(), criteria);
-    }
-  }
-  run.PeakMegabytes = processes.Maximum(memory.Megabytes());
 }
 }
 
@@ -278,19 +241,88 @@ int vtkCompareMorphMethods::RequestData(
 void vtkCompareMorphMethods::Configure(vtkMorphAlgorithm* filter) const
 {
   filter->SetValidityToNone();
-  filter->SetNumberOfSteps(this->Options->NumberOfSteps);
   filter->SetStepMemoryLimit(0); // steps are taken in order
   filter->SetBoundaryIdArray(this->Options->BoundaryIdArray.c_str());
   filter->SetDisplacementArray(this->Options->DisplacementArray.c_str());
   filter->SetScaleFactor(this->Options->ScaleFactor);
   filter->SetMatchTolerance(this->Options->MatchTolerance);
   filter->SetFixUnnamedBoundary(this->Options->FixUnnamedBoundary);
-  filter->SetNumberOfThreads(this->Options->NumberOfThreads);
   if (auto* stiff = vtkFEMWarpMorph::SafeDownCast(filter))
   {
     stiff->SetStiffness(this->Options->Stiffness);
     stiff->SetStiffnessExponent(this->Options->StiffnessExponent);
   }
+}
+
+void vtkCompareMorphMethods::vtkInternals::Run(vtkMorphAlgorithm* method, vtkUnstructuredGrid* grid,
+  const std::vector<vtkSmartPointer<vtkDataObject>>& boundaries,
+  const morph::CompareMorphMethodsOptions& options, const filters::RankGroup& processes,
+  filters::MethodRun& run, morph::Monitor& monitor) const
+{
+  const auto check = [&] { processes.Together([&] { monitor.check(); }); };
+  // As the method's own filter: on the one process with cells, or on all.
+  const bool isHere = grid->GetNumberOfCells() > 0;
+  const bool isDistributed =
+    processes.IsOfAll() &&
+    (filters::Ranks::Count(isHere) > 1 ||
+      filters::Ranks::Count(!isHere && filters::Input::HasPoints(boundaries.front())) > 0);
+  filters::Results results(filters::ResultTables::vtkMorphAlgorithm());
+  filters::GridMorpher morpher(method, results);
+  vtkNew<vtkUnstructuredGrid> mesh, inverted;
+  vtkNew<vtkPolyData> surface;
+  filters::GridMorpher::Motion motion;
+  motion.Steps = this->Steps;
+  if (motion.Steps.FromBoundary())
+  {
+    motion.Boundary = [&](int step) { return boundaries[step].Get(); };
+  }
+  const filters::PeakMemory memory;
+  std::set<std::string> told;
+  const double number = motion.Steps.Number();
+  for (motion.Step = 0; motion.Step < motion.Steps.Number(); ++motion.Step)
+  {
+    check();
+    morph::QuietRange part(monitor, motion.Step / number, (motion.Step + 1) / number);
+    results.Reset();
+    std::vector<std::string> messages;
+    const auto work = [&]
+    {
+      if (isDistributed || isHere)
+      {
+        vtkDataObject* boundary = boundaries[motion.Boundary ? motion.Step : 0];
+        filters::RankGroup(isDistributed).Together([&] { method->TakeInputs(grid, boundary); });
+        morpher.Morph(grid, boundary, isDistributed, motion,
+          { method->GetOptions(), [method] { return method->CreateMorpher(); } },
+          { mesh, inverted, surface }, part);
+      }
+    };
+    const filters::Execution::Outcome outcome = filters::Execution::Run(
+      method, "morph this mesh", work, [] {},
+      [&](const std::string& problem) { messages.push_back(problem); });
+    check();
+    run.Failure = messages.empty() ? "" : messages.front();
+    const std::vector<std::string> warnings = part.take();
+    messages.insert(messages.end(), warnings.begin(), warnings.end());
+    for (const std::string& message : messages)
+    {
+      if (told.insert(message).second)
+      {
+        monitor.warn(run.Title() + ", step " + std::to_string(motion.Step) + ": " + message);
+      }
+    }
+    if (outcome != filters::Execution::Outcome::Done)
+    {
+      processes.Share(run.Failure); // one process tells it
+      break;
+    }
+    run.Steps.push_back(filters::Comparison::Measure(
+      results, mesh, motion.Steps.Time(motion.Step), options.Percentile, processes));
+    if (!options.Criteria.empty())
+    {
+      run.Steps.back().Criteria = measureCriteria(mesh, options.Criteria);
+    }
+  }
+  run.PeakMegabytes = processes.Maximum(memory.Megabytes());
 }
 
 void vtkCompareMorphMethods::Compare(vtkUnstructuredGrid* grid,
@@ -326,11 +358,6 @@ void vtkCompareMorphMethods::Compare(vtkUnstructuredGrid* grid,
   filters::Quality::ReadCriteria(this->Options->Criteria); // an error before the work
   vtkInternals& kept = *this->Internals;
   const std::vector<double> times = kept.Times();
-  vtkNew<filters::BoundarySeries> source;
-  source->SetBoundaries(kept.Steps.FromBoundary() ? times : std::vector<double>(), boundaries);
-  vtkNew<vtkUnstructuredGrid> rest;
-  rest->ShallowCopy(grid);
-
   const vtkIdType badAtRest = badCells(grid, processes, monitor);
   if (badAtRest > 0 && processes.IsFirst())
   {
@@ -354,14 +381,11 @@ void vtkCompareMorphMethods::Compare(vtkUnstructuredGrid* grid,
       run.Method = method.Name;
       run.Stepping = relative ? "Relative" : "Absolute";
       run.BadAtRest = badAtRest;
-      auto filter = method.Make();
-      filter->SetInputData(rest);
-      filter->SetBoundaryConnection(source->GetOutputPort());
+      const auto filter = method.Make();
       this->Configure(filter);
       filter->SetStepping(
         relative ? vtkMorphAlgorithm::STEPPING_RELATIVE : vtkMorphAlgorithm::STEPPING_ABSOLUTE);
-      follow(
-        filter, times, this->Options->Percentile, this->Options->Criteria, processes, run, part);
+      kept.Run(filter, grid, boundaries, *this->Options, processes, run, part);
       runs.push_back(std::move(run));
     }
   }

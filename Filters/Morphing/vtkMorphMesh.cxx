@@ -209,8 +209,7 @@ vtkMorphAlgorithm* vtkMorphMesh::GetMethodFilter()
 
 vtkMTimeType vtkMorphMesh::GetMTime()
 {
-  const vtkMTimeType time = this->Superclass::GetMTime();
-  return this->Morphing->Method ? std::max(time, this->Morphing->Method->GetMTime()) : time;
+  return std::max(this->Superclass::GetMTime(), this->GetMethodFilter()->GetMTime());
 }
 
 vtkTypeBool vtkMorphMesh::ProcessRequest(
@@ -639,11 +638,6 @@ void vtkMorphMesh::vtkMorphing::SummarizeOnRanks(const std::vector<morph::Index>
   std::tie(distance.Max, distance.Mean) = summarize("TargetDistance");
 }
 
-const char* vtkMorphMesh::GetMorphStatus() const
-{
-  return this->Morphing->Results.Text("MorphStatus").c_str();
-}
-
 vtkStringArray* vtkMorphMesh::GetMessages()
 {
   return this->Morphing->Messages;
@@ -659,45 +653,20 @@ bool vtkMorphMesh::GetQuiet() const
   return this->Morphing->IsQuiet;
 }
 
-const char* vtkMorphMesh::GetAdvice() const
+double vtkMorphMesh::GetNumber(const char* name) const
 {
-  return this->Morphing->Results.Text("Advice").c_str();
+  return this->Morphing->Results.Number(name);
 }
 
-#define morphResultMacro(name, type, kind)                         \
-  type vtkMorphMesh::Get##name() const                             \
-  {                                                                \
-    return static_cast<type>(this->Morphing->Results.kind(#name)); \
-  }
-morphResultMacro(MinScaledJacobian, double, Number);
-morphResultMacro(MeanScaledJacobian, double, Number);
-morphResultMacro(WorstMeanScaledJacobian, double, Number);
-morphResultMacro(BoundaryMinimum, double, Number);
-morphResultMacro(InvertedCells, vtkIdType, Integer);
-morphResultMacro(DegenerateCells, vtkIdType, Integer);
-morphResultMacro(InvertedBefore, vtkIdType, Integer);
-morphResultMacro(NewInvertedCells, vtkIdType, Integer);
-morphResultMacro(CrossingFaces, vtkIdType, Integer);
-morphResultMacro(WorstCellId, vtkIdType, Integer);
-morphResultMacro(SurfaceInvertedCells, vtkIdType, Integer);
-morphResultMacro(BoundaryInvertedCells, vtkIdType, Integer);
-morphResultMacro(MirroredBodies, vtkIdType, Integer);
-morphResultMacro(CertifiedCells, vtkIdType, Integer);
-morphResultMacro(UncertifiedCells, vtkIdType, Integer);
-morphResultMacro(UndecidedCells, vtkIdType, Integer);
-morphResultMacro(LargestValidStep, double, Number);
-morphResultMacro(PrepareSeconds, double, Number);
-morphResultMacro(EvaluateSeconds, double, Number);
-morphResultMacro(SubSteps, vtkIdType, Integer);
-morphResultMacro(PrepareCount, int, Integer);
-morphResultMacro(PrescribedPoints, vtkIdType, Integer);
-morphResultMacro(UnmatchedPoints, vtkIdType, Integer);
-morphResultMacro(AttachedPoints, vtkIdType, Integer);
-morphResultMacro(SolverIterations, int, Integer);
-morphResultMacro(MaxTargetDistanceBefore, double, Number);
-morphResultMacro(MeanTargetDistanceBefore, double, Number);
-morphResultMacro(MaxTargetDistance, double, Number);
-morphResultMacro(MeanTargetDistance, double, Number);
+vtkIdType vtkMorphMesh::GetInteger(const char* name) const
+{
+  return this->Morphing->Results.Integer(name);
+}
+
+const char* vtkMorphMesh::GetText(const char* name) const
+{
+  return this->Morphing->Results.Text(name).c_str();
+}
 
 void vtkMorphMesh::PrintSelf(ostream& os, vtkIndent indent)
 {

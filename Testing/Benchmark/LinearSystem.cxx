@@ -114,8 +114,11 @@ void writeSystem(const morph::Mesh& mesh, const std::string& path, bool withEige
 {
   morph::Monitor monitor;
   const std::vector<Index> outer = morph::boundaryFaces(mesh, monitor).nodes;
-  const std::unique_ptr<morph::Morpher> morpher =
-    morph::morpherForCells(mesh, {}, std::make_unique<morph::FemWarp>());
+  std::unique_ptr<morph::Morpher> morpher = std::make_unique<morph::FemWarp>();
+  if (morph::needsPieces(mesh, {}))
+  {
+    morpher = morph::morpherForPolyhedra(std::move(morpher));
+  }
   morpher->prepare(mesh, morph::partitionNodes(mesh, outer), monitor);
   const auto& method = static_cast<const morph::FemWarp&>(morph::methodOf(*morpher));
   const Points& rest = method.restPoints();

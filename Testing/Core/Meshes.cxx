@@ -294,27 +294,25 @@ Mesh layered(Mesh (*box)(int, int, int), int n, double first, double growth)
   return mesh;
 }
 
-Mesh ring(int around, int height, double first)
+Mesh closedAlongY(const Mesh& open, int around,
+  const std::function<Eigen::RowVector3d(const Eigen::RowVector3d&)>& place)
 {
-  const std::vector<double> radii = gradedLine(first, 1.2);
-  const Mesh open = hexes(static_cast<int>(radii.size()) - 1, around, height);
-  // The last row of nodes along y is the first one.
   Mesh mesh;
   mesh.offsets.push_back(0);
+  std::map<std::array<Index, 3>, Index> known;
   std::vector<Index> nodeOf(open.points.rows());
   std::vector<Eigen::RowVector3d> points;
   for (Index i = 0; i < open.points.rows(); ++i)
   {
-    const double angle = 2 * M_PI * open.points(i, 1) / around;
-    const double radius = 1 + radii[std::lround(open.points(i, 0))];
-    if (std::lround(open.points(i, 1)) == around)
+    const Eigen::RowVector3d x = open.points.row(i);
+    const auto [at, isNew] = known.emplace(
+      std::array<Index, 3>{ std::lround(x[0]), std::lround(x[1]) % around, std::lround(x[2]) },
+      static_cast<Index>(points.size()));
+    nodeOf[i] = at->second;
+    if (isNew)
     {
-      nodeOf[i] = nodeOf[i - around * static_cast<Index>(radii.size())];
-      continue;
+      points.push_back(place(x));
     }
-    nodeOf[i] = static_cast<Index>(points.size());
-    points.emplace_back(
-      radius * std::cos(angle), radius * std::sin(angle), 0.8 * open.points(i, 2) / height);
   }
   mesh.points.resize(static_cast<Index>(points.size()), 3);
   for (std::size_t i = 0; i < points.size(); ++i)
@@ -331,6 +329,18 @@ Mesh ring(int around, int height, double first)
     add(mesh, open.types[c], nodes);
   }
   return mesh;
+}
+
+Mesh ring(int around, int height, double first)
+{
+  const std::vector<double> radii = gradedLine(first, 1.2);
+  const Mesh open = hexes(static_cast<int>(radii.size()) - 1, around, height);
+  return closedAlongY(open, around,
+    [&](const Eigen::RowVector3d& x) -> Eigen::RowVector3d
+    {
+      const double angle = 2 * M_PI * x[1] / around, radius = 1 + radii[std::lround(x[0])];
+      return { radius * std::cos(angle), radius * std::sin(angle), 0.8 * x[2] / height };
+    });
 }
 
 void jitterInterior(Mesh& mesh, double amount, unsigned seed)

@@ -55,6 +55,10 @@ std::vector<std::pair<std::string, Mesh>> all(int nx, int ny, int nz);
 /// tets, ... above.
 Mesh layered(Mesh (*box)(int, int, int), int n, double first, double growth);
 
+/// Hexahedra whose last row of nodes along y, that of y = `around`, is the first one. `open`:
+/// hexes(); `place`: where its nodes go.
+Mesh closedAlongY(const Mesh& open, int around,
+  const std::function<Eigen::RowVector3d(const Eigen::RowVector3d&)>& place);
 /// The ring 1 <= r <= 2, `height` layers over 0 <= z <= 0.8, in hexahedra that grow outwards by 1.2
 /// from the length `first`.
 Mesh ring(int around, int height, double first);

@@ -115,6 +115,20 @@ std::vector<Index> shuffledNumbers(Index n)
   return order;
 }
 
+Points moved(const Morpher& method, const ConstPoints& target, Monitor& monitor)
+{
+  Points result;
+  method.evaluate(target, result, monitor);
+  return result;
+}
+
+Points morphed(Morpher& method, const Mesh& mesh, const NodePartition& partition,
+  const ConstPoints& target, Monitor& monitor)
+{
+  method.prepare(mesh, partition, monitor);
+  return moved(method, target, monitor);
+}
+
 double difference(const Points& a, const Points& b)
 {
   return (a - b).cwiseAbs().maxCoeff();

@@ -46,6 +46,13 @@ std::vector<morph::Index> images(const morph::Points& points, const Eigen::Matri
 /// 0, 1, ... n - 1 in random order.
 std::vector<morph::Index> shuffledNumbers(morph::Index n);
 
+/// The mesh as a prepared method moves it. `target`: #prescribed x 3.
+morph::Points moved(
+  const morph::Morpher& method, const morph::ConstPoints& target, morph::Monitor& monitor);
+/// The same, after preparing the method.
+morph::Points morphed(morph::Morpher& method, const morph::Mesh& mesh,
+  const morph::NodePartition& partition, const morph::ConstPoints& target, morph::Monitor& monitor);
+
 /// The largest absolute difference of two sets of points.
 double difference(const morph::Points& a, const morph::Points& b);
 /// Equal to the last bit, signs of zeros included.

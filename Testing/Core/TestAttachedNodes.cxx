@@ -13,10 +13,7 @@
 
 namespace
 {
-using morph::AttachedNodes;
-using morph::Index;
-using morph::Mesh;
-using morph::Points;
+using namespace morph;
 using Row = Eigen::RowVector3d;
 
 Index addNode(Mesh& mesh, const Row& x)

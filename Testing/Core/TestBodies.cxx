@@ -22,9 +22,7 @@
 
 namespace
 {
-using morph::Index;
-using morph::Points;
-using morph::Session;
+using namespace morph;
 using motions::Row;
 
 constexpr double Gap = 0.01;

@@ -14,9 +14,7 @@
 
 namespace
 {
-using morph::BoundaryModel;
-using morph::Index;
-using morph::Points;
+using namespace morph;
 using Row = Eigen::RowVector3d;
 
 /// With a node set TOP where z is largest.

@@ -75,9 +75,7 @@ Layer turned(Kind kind, double exponent = 1)
   FemWarp method;
   method.setStiffness({ kind, exponent, walls, {} });
   meshes::ThreadedMonitor monitor(2);
-  method.prepare(mesh, partition, monitor);
-  Points moved;
-  method.evaluate(target, moved, monitor);
+  Points moved = motions::morphed(method, mesh, partition, target, monitor);
   Layer result;
   result.height = 1;
   result.inverted = MovableQuality(mesh, cellSigns(mesh, connectedComponents(mesh)), partition.free)

@@ -5,6 +5,7 @@
 #include "Quality/Certificate.h"
 #include "Quality/ScaledJacobian.h"
 #include "Support/Error.h"
+#include "Support/Lists.h"
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
@@ -40,12 +41,12 @@ const Volume Volumes[] = { { Tetra, &RightTet }, { Hexahedron, &Cube }, { Wedge,
 
 Certificate certified(std::uint8_t type, const Cell& cell)
 {
-  double x[8][3];
-  for (std::size_t k = 0; k < cell.size(); ++k)
-  {
-    std::copy(cell[k].data(), cell[k].data() + 3, x[k]);
-  }
-  return certifyCell(type, x);
+  Mesh mesh;
+  mesh.offsets = { 0 };
+  mesh.points = Eigen::Map<const Points>(cell[0].data(), static_cast<Index>(cell.size()), 3);
+  meshes::add(mesh, type, consecutive(cellShape(type)->numberOfNodes));
+  Monitor monitor;
+  return certify(mesh, mesh.points, {}, {}, monitor).cells[0];
 }
 
 double scaledJacobianOf(std::uint8_t type, const Cell& cell)

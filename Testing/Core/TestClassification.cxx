@@ -448,7 +448,6 @@ TEST(Classification, OpenSurface)
   meshes::ThreadedMonitor monitor;
   const BoundaryFaces all = boundaryFaces(mesh, monitor);
   BoundaryFaces open;
-  open.offsets.push_back(0);
   for (std::size_t f = 0; f < all.cells.size(); ++f)
   {
     const auto first = all.connectivity.begin() + all.offsets[f];

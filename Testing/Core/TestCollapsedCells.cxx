@@ -15,9 +15,7 @@
 
 namespace
 {
-using morph::Index;
-using morph::Mesh;
-using morph::Points;
+using namespace morph;
 
 /// One cell with the corners of a box, and the middle of its top.
 Mesh cellOf(std::uint8_t type, const std::vector<Index>& nodes)

@@ -46,8 +46,7 @@ void expectSameBits(Morpher& method, const Motion& motion = twisted)
     [&](int t)
     {
       Monitor own;
-      Points moved;
-      method.evaluate(target[t], moved, own);
+      const Points moved = motions::moved(method, target[t], own);
       different += !motions::identical(moved, expected[t]);
     });
   EXPECT_EQ(different, 0);

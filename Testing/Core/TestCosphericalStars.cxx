@@ -76,10 +76,7 @@ Points morphed(const Mesh& mesh, const NodePartition& partition, const Points& t
 {
   Monitor monitor;
   SimplexLinear method;
-  method.prepare(mesh, partition, monitor);
-  Points moved;
-  method.evaluate(target, moved, monitor);
-  return moved;
+  return motions::morphed(method, mesh, partition, target, monitor);
 }
 
 /// How far sites lie on both sides of the plane of the face opposite corner k, the lesser of the

@@ -15,9 +15,7 @@
 
 namespace
 {
-using morph::Index;
-using morph::Mesh;
-using morph::Points;
+using namespace morph;
 using Row = Eigen::RowVector3d;
 using Map = std::function<Row(const Row&)>;
 

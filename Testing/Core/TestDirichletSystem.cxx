@@ -395,9 +395,7 @@ TEST(InversionFree, AFinsTipMoves)
     [](const motions::Row& x) { return motions::Row(x + motions::Row(.3, .2, -.1)); });
   meshes::ThreadedMonitor monitor;
   InversionFree method;
-  method.prepare(mesh, partition, monitor);
-  Points moved;
-  method.evaluate(target, moved, monitor);
+  Points moved = motions::morphed(method, mesh, partition, target, monitor);
   EXPECT_TRUE(identical(meshes::rows(moved, partition.prescribed), target));
   EXPECT_LT((meshes::rows(moved, partition.free) - meshes::rows(mesh.points, partition.free))
               .cwiseAbs()
@@ -559,18 +557,10 @@ TYPED_TEST(GuessOf, TheSolverIsOfAnySize)
 TEST(IndexLimits, SayWhatIsTooLarge)
 {
   const Index large = Index(1) << 31;
-  requireIndexable(MeshCounts{ large - (1 << 20) - 1, 5, 5 });
-  motions::expectError([&] { requireIndexable(MeshCounts{ large, 5, 5 }); }, "2147483648 nodes");
-  motions::expectError(
-    [&] {
-      requireIndexable(MeshCounts{ 5, 3 * large, 5 });
-    },
-    "6442450944 cells");
-  motions::expectError(
-    [&] {
-      requireIndexable(MeshCounts{ 5, 5, large - 1 });
-    },
-    "2147483647 corners of cells");
+  requireIndexable(large - (1 << 20) - 1, 5, 5);
+  motions::expectError([&] { requireIndexable(large, 5, 5); }, "2147483648 nodes");
+  motions::expectError([&] { requireIndexable(5, 3 * large, 5); }, "6442450944 cells");
+  motions::expectError([&] { requireIndexable(5, 5, large - 1); }, "2147483647 corners of cells");
   requireEntries(large - 1);
   EXPECT_THROW(requireEntries(large), Error);
 }

@@ -37,9 +37,7 @@ Points morphed(const Mesh& mesh, const NodePartition& partition, const Points& t
   meshes::ThreadedMonitor monitor(threads);
   FemWarp method;
   method.setTolerance(tolerance);
-  method.prepare(mesh, partition, monitor);
-  Points result;
-  method.evaluate(target, result, monitor);
+  Points result = motions::morphed(method, mesh, partition, target, monitor);
   EXPECT_TRUE(monitor.warnings.empty()) << monitor.warnings.front();
   return result;
 }
@@ -217,9 +215,8 @@ TEST(FemWarp, ThreadsAndHistoryDoNotShow)
   }
   Monitor monitor;
   FemWarp method;
-  method.prepare(mesh, partition, monitor);
-  Points result;
-  method.evaluate(targets(mesh, partition, affine), result, monitor);
+  Points result =
+    motions::morphed(method, mesh, partition, targets(mesh, partition, affine), monitor);
   method.evaluate(target, result, monitor);
   EXPECT_TRUE(motions::identical(one, result));
 }
@@ -294,8 +291,7 @@ TEST(FemWarp, BadCellsWarnAndTheRestStillWorks)
     ASSERT_EQ(monitor.warnings.size(), 1u);
     EXPECT_NE(monitor.warnings[0].find("62"), std::string::npos) << monitor.warnings[0];
     EXPECT_NE(monitor.warnings[0].find(kind), std::string::npos) << monitor.warnings[0];
-    Points result;
-    method.evaluate(target, result, monitor);
+    const Points result = motions::moved(method, target, monitor);
     EXPECT_TRUE(result.allFinite());
     EXPECT_LT(meshes::size(result), 2 * meshes::size(good.points));
   }
@@ -334,8 +330,7 @@ TEST(FemWarp, CellsInvertedAtACornerAloneAreNamedToo)
   EXPECT_NE(monitor.warnings[0].find("9 inverted cells: ids " + listIds(bad)), std::string::npos)
     << monitor.warnings[0];
   EXPECT_EQ(monitor.warnings[0].find("approximately"), std::string::npos) << monitor.warnings[0];
-  Points result;
-  method.evaluate(targets(mesh, partition, affine), result, monitor);
+  const Points result = motions::moved(method, targets(mesh, partition, affine), monitor);
   EXPECT_LT(motions::difference(result, motions::mapped(mesh.points, affine)), 1e-10);
 }
 

@@ -12,7 +12,7 @@ using namespace morph;
 
 namespace
 {
-constexpr Index BandRows = 65536; // of the smallest band, see ElementMatrices.h
+constexpr Index BandRows = 65536;
 
 /// Adds a cell's stiffness to the rows of the nodes in `wanted`.
 void addCell(const Mesh& mesh, Index cell, std::map<Index, std::map<Index, double>>& wanted)

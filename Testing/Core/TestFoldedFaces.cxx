@@ -11,9 +11,7 @@
 
 namespace
 {
-using morph::Index;
-using morph::Mesh;
-using morph::Points;
+using namespace morph;
 using Row = Eigen::RowVector3d;
 
 struct Boundary

@@ -15,10 +15,7 @@
 
 namespace
 {
-using morph::Index;
-using morph::Mesh;
-using morph::NodePartition;
-using morph::Points;
+using namespace morph;
 
 /// Places free nodes at random in the box, or all in its middle.
 void scramble(Mesh& mesh, const NodePartition& partition, double spread)
@@ -69,9 +66,8 @@ TEST(GraphLaplace, MeshesWithInnerNodesAnywhereComeOutValid)
       scramble(mesh, partition, spread);
       meshes::ThreadedMonitor monitor(2);
       morph::InversionFree method;
-      method.prepare(mesh, partition, monitor);
-      Points moved;
-      method.evaluate(meshes::rows(rest.points, partition.prescribed), moved, monitor);
+      Points moved = motions::morphed(
+        method, mesh, partition, meshes::rows(rest.points, partition.prescribed), monitor);
       const morph::Quality quality = morph::measureCorners(rest, moved, signsOf(rest), {}, monitor);
       EXPECT_EQ(quality.inverted + quality.degenerate, 0);
       EXPECT_GT(quality.minimum, 0.3);

@@ -28,11 +28,7 @@
 
 namespace
 {
-using morph::HangingNodes;
-using morph::Index;
-using morph::Mesh;
-using morph::Points;
-using morph::Session;
+using namespace morph;
 using motions::Row;
 
 /// The octree, and what a session needs with it.

@@ -12,9 +12,7 @@
 
 namespace
 {
-using morph::Index;
-using morph::Mesh;
-using morph::Points;
+using namespace morph;
 
 using Corners = Eigen::Matrix<double, 5, 3>;
 

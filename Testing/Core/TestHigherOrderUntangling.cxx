@@ -11,10 +11,7 @@
 
 namespace
 {
-using morph::Certificate;
-using morph::Index;
-using morph::Mesh;
-using morph::Points;
+using namespace morph;
 
 std::vector<std::int8_t> signsOf(const Mesh& mesh)
 {

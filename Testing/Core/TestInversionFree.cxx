@@ -20,10 +20,7 @@
 
 namespace
 {
-using morph::Index;
-using morph::InversionFree;
-using morph::Mesh;
-using morph::Points;
+using namespace morph;
 
 struct Morphed
 {

@@ -23,7 +23,6 @@ struct Strip
   Strip(Index n, double width)
     : points(2 * n + 2, 3)
   {
-    this->faces.offsets.push_back(0);
     for (Index i = 0; i <= n; ++i)
     {
       const double x = static_cast<double>(i);

@@ -34,9 +34,7 @@ protected:
   {
     meshes::ThreadedMonitor monitor(threads);
     const auto method = GetParam().make();
-    method->prepare(mesh, partition, monitor);
-    Points result;
-    method->evaluate(target, result, monitor);
+    Points result = motions::morphed(*method, mesh, partition, target, monitor);
     EXPECT_TRUE(monitor.warnings.empty()) << monitor.warnings.front();
     return result;
   }
@@ -56,8 +54,7 @@ TEST_P(LinearMorphers, SharedMeshesAreNotCopiedAndGiveTheSameBits)
   method->prepare(mesh, partition, monitor);
   EXPECT_EQ(method->restPoints().data(), mesh->points.data());
   EXPECT_EQ(&method->partition(), partition.get());
-  Points result;
-  method->evaluate(target, result, monitor);
+  const Points result = motions::moved(*method, target, monitor);
   EXPECT_TRUE(identical(result, morphed(*mesh, *partition, target)));
 }
 
@@ -308,9 +305,7 @@ TEST_P(LinearMorphers, AnObjectCanBePreparedAgain)
   method->prepare(first, outerPartition(first), monitor);
   const NodePartition partition = outerPartition(second);
   const Points target = targets(second, partition, twistOf(4));
-  method->prepare(second, partition, monitor);
-  Points result;
-  method->evaluate(target, result, monitor);
+  Points result = motions::morphed(*method, second, partition, target, monitor);
   EXPECT_TRUE(identical(result, morphed(second, partition, target)));
 }
 
@@ -384,9 +379,8 @@ TEST_P(LinearMorphers, WithoutAFreeNodeTheTargetsAreTheResult)
     ASSERT_TRUE(partition.free.empty());
     meshes::ThreadedMonitor monitor;
     const auto method = GetParam().make();
-    method->prepare(mesh, partition, monitor);
-    Points moved;
-    method->evaluate(motions::targets(mesh, partition, motions::affine), moved, monitor);
+    Points moved = motions::morphed(
+      *method, mesh, partition, motions::targets(mesh, partition, motions::affine), monitor);
     EXPECT_LT(
       motions::difference(moved, motions::mapped(mesh.points, motions::affine)), 1e-14 * 10);
     EXPECT_TRUE(motions::identical(meshes::rows(moved, partition.prescribed),

@@ -29,9 +29,7 @@ Points morphed(const Mesh& mesh, const NodePartition& partition, const Points& t
   ThreadedMonitor monitor(threads);
   LogBarrierWarp method;
   method.setTolerance(tolerance);
-  method.prepare(mesh, partition, monitor);
-  Points result;
-  method.evaluate(target, result, monitor);
+  Points result = motions::morphed(method, mesh, partition, target, monitor);
   EXPECT_TRUE(monitor.warnings.empty()) << monitor.warnings.front();
   return result;
 }
@@ -225,9 +223,8 @@ TEST(LogBarrierWarp, FreeNodesOnTheEdgesOfGrowingLayersAreInTheirHull)
     const NodePartition partition = partitionNodes(mesh, ends);
     Monitor monitor;
     LogBarrierWarp method;
-    method.prepare(mesh, partition, monitor);
-    Points moved;
-    method.evaluate(motions::targets(mesh, partition, motions::affine), moved, monitor);
+    Points moved = motions::morphed(
+      method, mesh, partition, motions::targets(mesh, partition, motions::affine), monitor);
     EXPECT_LT(motions::difference(moved, motions::mapped(mesh.points, motions::affine)), 1e-12)
       << growth;
   }

@@ -17,9 +17,7 @@
 
 namespace
 {
-using morph::Index;
-using morph::Mesh;
-using morph::Points;
+using namespace morph;
 
 struct Setting
 {

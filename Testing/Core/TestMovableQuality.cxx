@@ -12,9 +12,7 @@
 
 namespace
 {
-using morph::Index;
-using morph::MovableQuality;
-using morph::Points;
+using namespace morph;
 
 std::vector<std::int8_t> orientationOf(const morph::Mesh& mesh)
 {

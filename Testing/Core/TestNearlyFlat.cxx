@@ -66,9 +66,7 @@ struct Cube
   Points morphed(Morpher& method) const
   {
     Monitor monitor;
-    method.prepare(this->mesh, this->partition, monitor);
-    Points moved;
-    method.evaluate(this->target, moved, monitor);
+    Points moved = motions::morphed(method, this->mesh, this->partition, this->target, monitor);
     return moved - this->mesh.points;
   }
 };
@@ -248,9 +246,8 @@ TEST(NearlyFlat, AffineMotionsOfBoundariesAroundTheMeshStayExact)
     const NodePartition partition = motions::outerPartition(mesh);
     WeightedResidual method;
     Monitor monitor;
-    method.prepare(mesh, partition, monitor);
-    Points moved;
-    method.evaluate(motions::targets(mesh, partition, motions::affine), moved, monitor);
+    Points moved = motions::morphed(
+      method, mesh, partition, motions::targets(mesh, partition, motions::affine), monitor);
     EXPECT_LT(motions::difference(moved, motions::mapped(mesh.points, motions::affine)), 1e-11);
   }
 }

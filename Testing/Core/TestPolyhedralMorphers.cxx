@@ -40,10 +40,7 @@ Points morphed(const Make& make, const Mesh& mesh, const NodePartition& partitio
   {
     method = morpherForPolyhedra(std::move(method), cutsAll);
   }
-  method->prepare(mesh, partition, monitor);
-  Points result;
-  method->evaluate(target, result, monitor);
-  return result;
+  return motions::morphed(*method, mesh, partition, target, monitor);
 }
 
 /// The linear methods, and those that are not, under options that keep affine motions exact.

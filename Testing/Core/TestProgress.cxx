@@ -91,8 +91,8 @@ TEST(Progress, RisesFromZeroToOneForEveryMethod)
       const auto morpher = method.make();
       morpher->prepare(mesh, partition, monitor);
       monitor.expectRise(method.name + " prepare");
-      Points moved;
-      morpher->evaluate(motions::targets(mesh, partition, map), moved, monitor);
+      const Points moved =
+        motions::moved(*morpher, motions::targets(mesh, partition, map), monitor);
       monitor.expectRise(method.name + " evaluate");
       if (auto* linear = dynamic_cast<LinearMorpher*>(morpher.get()))
       {
@@ -113,8 +113,7 @@ TEST(Progress, OfTheInversionFreeMorphIsSpreadOut)
   InversionFree method;
   method.prepare(mesh, partition, monitor);
   monitor.told.clear();
-  Points moved;
-  method.evaluate(motions::targets(mesh, partition, waves), moved, monitor);
+  Points moved = motions::moved(method, motions::targets(mesh, partition, waves), monitor);
   const auto within = std::count_if(monitor.told.begin(), monitor.told.end(),
     [](double fraction) { return fraction > 0.1 && fraction < 0.95; });
   EXPECT_GE(within, 4);

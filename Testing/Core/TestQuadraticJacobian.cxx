@@ -30,11 +30,6 @@ JacobianProof proof(std::uint8_t type, const Cell& cell)
   return proveJacobian(type, cell.data());
 }
 
-Certificate certificate(std::uint8_t type, const Cell& cell)
-{
-  return certifyCell(type, reinterpret_cast<const double(*)[3]>(cell.data()));
-}
-
 Mesh meshOf(std::uint8_t type, const std::vector<Cell>& cells)
 {
   Mesh mesh;
@@ -52,6 +47,13 @@ Mesh meshOf(std::uint8_t type, const std::vector<Cell>& cells)
   }
   mesh.points = Eigen::Map<const Points>(points[0].data(), static_cast<Index>(points.size()), 3);
   return mesh;
+}
+
+Certificate certificate(std::uint8_t type, const Cell& cell)
+{
+  const Mesh mesh = meshOf(type, { cell });
+  Monitor monitor;
+  return certify(mesh, mesh.points, {}, {}, monitor).cells[0];
 }
 
 Point pointOf(const JacobianProof& proof)

@@ -14,10 +14,7 @@
 
 namespace
 {
-using morph::Index;
-using morph::Mesh;
-using morph::MovableQuality;
-using morph::Points;
+using namespace morph;
 
 /// A node of the top that comes near the diagonal of a face: a place with a low bound.
 const motions::Row Spoilt(2, 4, 6);
@@ -166,8 +163,7 @@ TEST(QualityRaising, TheMeanFallsForAMuchHigherMinimumAlone)
   for (const double angle : { 0.5, 0.8, 1.2, 1.6 })
   {
     const auto twist = [&](const motions::Row& x) { return motions::twist(x, 6, 6, angle); };
-    Points start;
-    femWarp.evaluate(motions::targets(mesh, partition, twist), start, monitor);
+    const Points start = motions::moved(femWarp, motions::targets(mesh, partition, twist), monitor);
     Points points = start;
     const MovableQuality::Bounds bounds = quality.bounds(start);
     raise(

@@ -47,9 +47,8 @@ Points morphed(const Mesh& mesh, const NodePartition& partition, const Options& 
   meshes::ThreadedMonitor monitor(2);
   RadialBasis method;
   configure(method, options);
-  method.prepare(mesh, partition, monitor);
-  Points result;
-  method.evaluate(motions::targets(mesh, partition, bend), result, monitor);
+  Points result =
+    motions::morphed(method, mesh, partition, motions::targets(mesh, partition, bend), monitor);
   if (residual)
   {
     *residual = method.largestResidual();
@@ -171,9 +170,8 @@ TEST(RadialBasis, IsExactAtStronglyGradedSites)
   }
   meshes::ThreadedMonitor monitor;
   RadialBasis method;
-  method.prepare(mesh, partition, monitor);
-  Points moved;
-  method.evaluate(motions::targets(mesh, partition, motions::affine), moved, monitor);
+  Points moved = motions::morphed(
+    method, mesh, partition, motions::targets(mesh, partition, motions::affine), monitor);
   const Points expected = motions::mapped(mesh.points, motions::affine);
   EXPECT_LT(difference(moved, expected), 1e-10 * meshes::size(expected));
 }
@@ -212,8 +210,7 @@ TEST(RadialBasis, TheResidualIsThatOfTheCentersAlone)
   method.prepare(mesh, partition, monitor);
   EXPECT_EQ(method.centers(), 30);
   EXPECT_EQ(method.correctedSites(), sites.rows() - 30);
-  Points moved;
-  method.evaluate(motions::targets(mesh, partition, bend), moved, monitor);
+  const Points moved = motions::moved(method, motions::targets(mesh, partition, bend), monitor);
 
   // Only the centers prescribed: no correction.
   RadialBasis coarse;
@@ -230,9 +227,7 @@ TEST(RadialBasis, TheResidualIsThatOfTheCentersAlone)
       few.free.push_back(i);
     }
   }
-  coarse.prepare(mesh, few, monitor);
-  Points followed;
-  coarse.evaluate(motions::targets(mesh, few, bend), followed, monitor);
+  Points followed = motions::morphed(coarse, mesh, few, motions::targets(mesh, few, bend), monitor);
   const double expected =
     (followed - motions::mapped(mesh.points, bend))(partition.prescribed, allColumns)
       .rowwise()
@@ -298,8 +293,7 @@ TEST(RadialBasis, SitesThatNearlyCoincideAreCorrected)
   method.prepare(mesh, partition, monitor);
   EXPECT_EQ(method.centers(), n);
   EXPECT_EQ(method.correctedSites(), n);
-  Points moved;
-  method.evaluate(motions::targets(mesh, partition, bend), moved, monitor);
+  const Points moved = motions::moved(method, motions::targets(mesh, partition, bend), monitor);
   const Mesh alone = shapes::ball(4);
   const Points expected = morphed(alone, motions::outerPartition(alone));
   EXPECT_LT(difference(moved.topRows(expected.rows()), expected), 1e-6);

@@ -16,10 +16,7 @@
 
 namespace
 {
-using morph::Index;
-using morph::Points;
-using morph::Session;
-using morph::Validity;
+using namespace morph;
 
 constexpr double Deep = 4;
 

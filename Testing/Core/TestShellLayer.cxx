@@ -125,10 +125,8 @@ struct Shell
   }
   Points moved(morph::Morpher& method, const motions::Map& map)
   {
-    method.prepare(mesh, partition, monitor);
-    Points result;
-    method.evaluate(motions::targets(mesh, partition, map), result, monitor);
-    return result;
+    return motions::morphed(
+      method, mesh, partition, motions::targets(mesh, partition, map), monitor);
   }
   Points front(const Points& points) const { return points.topRows(faces.numberOfNodes()); }
   morph::Quality quality(const Points& points) { return qualityOf(mesh, points); }

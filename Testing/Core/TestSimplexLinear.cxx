@@ -195,8 +195,7 @@ TEST(SimplexLinear, PrescribedNodesInOnePlaceMoveTheOthersByTheirMean)
   {
     target(static_cast<Index>(i), 0) += partition.prescribed[i] >= mesh.numberOfNodes() / 2 ? 1 : 0;
   }
-  Points moved;
-  method.evaluate(target, moved, monitor);
+  const Points moved = motions::moved(method, target, monitor);
   EXPECT_TRUE(motions::identical(meshes::rows(moved, partition.prescribed), target));
   const WeightMatrix& weights = method.weights();
   Points step = method.sites().coordinates();

@@ -26,10 +26,7 @@ Points morphed(const Mesh& mesh, const NodePartition& partition, const Points& t
 {
   Monitor monitor;
   SimplexNaturalNeighbor method;
-  method.prepare(mesh, partition, monitor);
-  Points moved;
-  method.evaluate(target, moved, monitor);
-  return moved;
+  return motions::morphed(method, mesh, partition, target, monitor);
 }
 
 }

@@ -51,9 +51,7 @@ Points morphed(
   ThreadedMonitor monitor(threads);
   Smoothing method;
   method.setOptions(options);
-  method.prepare(mesh, outerPartition(mesh), monitor);
-  Points result;
-  method.evaluate(target, result, monitor);
+  Points result = motions::morphed(method, mesh, outerPartition(mesh), target, monitor);
   EXPECT_TRUE(monitor.warnings.empty()) << monitor.warnings.front();
   return result;
 }
@@ -418,9 +416,8 @@ TEST(Smoothing, ABodyHeldByAPlaneOrALineTurnsWithIt)
     Smoothing method;
     method.setOptions(toTarget(SmoothingTarget::Initial));
     ThreadedMonitor monitor;
-    method.prepare(mesh, partition, monitor);
-    Points result;
-    method.evaluate(targets(mesh, partition, move), result, monitor);
+    Points result =
+      motions::morphed(method, mesh, partition, targets(mesh, partition, move), monitor);
     EXPECT_TRUE(monitor.warnings.empty());
     EXPECT_NEAR(qualityOf(mesh, result).minimum, 1, 1e-9) << planes;
     EXPECT_LT(
@@ -563,9 +560,7 @@ TEST(Smoothing, WhatCannotBeUntangledComesWithAWarning)
     targets(mesh, partition, [](const Row& x) { return Row(-x[0], x[1], x[2]); });
   ThreadedMonitor monitor;
   Smoothing method;
-  method.prepare(mesh, partition, monitor);
-  Points result;
-  method.evaluate(target, result, monitor);
+  Points result = motions::morphed(method, mesh, partition, target, monitor);
   ASSERT_FALSE(monitor.warnings.empty());
   EXPECT_NE(monitor.warnings.back().find("could not untangle"), std::string::npos);
   EXPECT_TRUE(identical(rows(result, partition.prescribed), target));

@@ -13,10 +13,7 @@
 
 namespace
 {
-using morph::Index;
-using morph::Mesh;
-using morph::Points;
-using morph::StiffenedDistortion;
+using namespace morph;
 
 StiffenedDistortion distortion(const Mesh& mesh, const Points& start)
 {

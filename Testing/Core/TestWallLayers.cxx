@@ -71,43 +71,16 @@ Mesh oGrid(int around, int span, double first)
   }
   const int layers = static_cast<int>(heights.size()) - 1;
   const Mesh open = meshes::hexes(layers, around, span);
-  Mesh mesh;
-  mesh.offsets.push_back(0);
-  std::vector<Index> nodeOf(open.points.rows());
-  std::vector<Row> points;
-  for (Index i = 0; i < open.points.rows(); ++i)
-  {
-    if (std::lround(open.points(i, 1)) == around)
+  return meshes::closedAlongY(open, around,
+    [&](const Row& x) -> Row
     {
-      nodeOf[i] = nodeOf[i - around * static_cast<Index>(heights.size())];
-      continue;
-    }
-    // The section is the image of a circle under a rounded Joukowski-like map: an ellipse-like nose
-    // and a rounded trailing edge. Lines leave it along its normals, and turn into rays.
-    const double t = 2 * M_PI * open.points(i, 1) / around;
-    const double x = 0.5 * std::cos(t), y = 0.06 * std::sin(t) * (1 - 0.6 * std::cos(t));
-    const double dx = -0.5 * std::sin(t), dy = 0.06 * (std::cos(t) * (1 - 0.6 * std::cos(t)) +
-                                                        0.6 * std::sin(t) * std::sin(t));
-    const double size = std::hypot(dx, dy);
-    const double h = heights[std::lround(open.points(i, 0))];
-    nodeOf[i] = static_cast<Index>(points.size());
-    points.emplace_back(x + h * dy / size, y - h * dx / size, 0.2 * open.points(i, 2));
-  }
-  mesh.points.resize(static_cast<Index>(points.size()), 3);
-  for (std::size_t i = 0; i < points.size(); ++i)
-  {
-    mesh.points.row(static_cast<Index>(i)) = points[i];
-  }
-  for (Index c = 0; c < open.numberOfCells(); ++c)
-  {
-    std::vector<Index> nodes(open.cell(c), open.cell(c) + 8);
-    for (Index& node : nodes)
-    {
-      node = nodeOf[node];
-    }
-    meshes::add(mesh, open.types[c], nodes);
-  }
-  return mesh;
+      // The section is the image of a circle under a rounded Joukowski-like map: an ellipse-like
+      // nose and a rounded trailing edge. Lines leave it along its normals, and turn into rays.
+      const double t = 2 * M_PI * x[1] / around, c = std::cos(t), s = std::sin(t);
+      const double dx = -0.5 * s, dy = 0.06 * (c * (1 - 0.6 * c) + 0.6 * s * s);
+      const double size = std::hypot(dx, dy), h = heights[std::lround(x[0])];
+      return { 0.5 * c + h * dy / size, 0.06 * s * (1 - 0.6 * c) - h * dx / size, 0.2 * x[2] };
+    });
 }
 
 struct Figures
@@ -149,9 +122,8 @@ Figures kept(const Mesh& mesh, const std::function<bool(const Row&)>& isWall,
     prescribed.insert(prescribed.end(), some.columns.values.begin(), some.columns.values.end());
   }
   const NodePartition partition = partitionNodes(mesh, prescribed);
-  method.prepare(mesh, partition, monitor);
-  Points moved;
-  method.evaluate(meshes::rows(target, partition.prescribed), moved, monitor);
+  Points moved =
+    motions::morphed(method, mesh, partition, meshes::rows(target, partition.prescribed), monitor);
 
   Figures figures;
   figures.inverted =

@@ -34,9 +34,7 @@ Points morphed(
   meshes::ThreadedMonitor monitor;
   WeightedResidual method;
   method.setNumberOfNeighbors(neighbors);
-  method.prepare(mesh, partition, monitor);
-  Points result;
-  method.evaluate(target, result, monitor);
+  Points result = motions::morphed(method, mesh, partition, target, monitor);
   EXPECT_TRUE(monitor.warnings.empty()) << monitor.warnings.front();
   return result;
 }
@@ -219,9 +217,8 @@ TEST(WeightedResidual, AFitThatTurnsTheMeshInsideOutIsToldOf)
   const NodePartition partition = outerPartition(mesh);
   meshes::ThreadedMonitor monitor;
   WeightedResidual method;
-  method.prepare(mesh, partition, monitor);
-  Points result;
-  method.evaluate(targets(mesh, partition, bend), result, monitor);
+  Points result =
+    motions::morphed(method, mesh, partition, targets(mesh, partition, bend), monitor);
   method.evaluate(targets(mesh, partition,
                     [](const Row& x) -> Row
                     {
@@ -254,8 +251,8 @@ TEST(WeightedResidual, AModeIsNoMotionToWarnOf)
   fields.leftCols<3>() = mode;
   method.fields(fields, monitor);
   EXPECT_TRUE(monitor.warnings.empty()) << monitor.warnings.front();
-  Points moved;
-  method.evaluate(meshes::rows(mesh.points, partition.prescribed) + mode, moved, monitor);
+  const Points moved =
+    motions::moved(method, meshes::rows(mesh.points, partition.prescribed) + mode, monitor);
   EXPECT_EQ(monitor.warnings.size(), 1u);
 }
 

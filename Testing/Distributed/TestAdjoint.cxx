@@ -50,9 +50,7 @@ Points gradientOf(vtkMorphAlgorithm* filter, vtkUnstructuredGrid* grid, vtkPolyD
   adjoint->SetInputData(grid);
   adjoint->SetBoundaryData(boundary);
   adjoint->SetGradientArray("Gradient");
-  grids::Listener listener(adjoint);
-  adjoint->Update();
-  EXPECT_TRUE(listener.Errors.empty()) << listener.Errors.front();
+  grids::update(adjoint);
   vtkDataArray* array = adjoint->GetOutput()->GetPointData()->GetArray("MorphGradient");
   Points result = Points::Zero(boundary->GetNumberOfPoints(), 3);
   for (Index i = 0; array && i < result.rows(); ++i)
@@ -207,8 +205,7 @@ TEST(RankAdjoint, NamesAMethodThatIsNotLinear)
   adjoint->SetInputData(grid);
   adjoint->SetBoundaryData(grids::boundary(grid, grids::twist));
   adjoint->SetGradientArray("Gradient");
-  grids::Listener listener(adjoint);
-  adjoint->Update();
+  const grids::Run listener(adjoint);
   ASSERT_EQ(listener.Errors.size(), ranks.rank() == 0 ? 1u : 0u);
   if (ranks.rank() == 0)
   {

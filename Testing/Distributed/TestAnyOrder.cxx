@@ -17,10 +17,7 @@
 
 namespace
 {
-using morph::Index;
-using morph::Mesh;
-using morph::Monitor;
-using morph::Points;
+using namespace morph;
 using morph::distributed::Ranks;
 
 /// Two cells wide: tetrahedra, hexahedra and wedges of order 3, those of 27 and 18 nodes, and

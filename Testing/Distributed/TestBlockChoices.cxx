@@ -100,8 +100,7 @@ TEST(RankBlockChoices, ZonesAreBlocksThatOtherRanksHave)
     filter->SetInputDataObject(data);
     filter->SetMovingToSelection();
     filter->SetSelectionData(upperPointsOfB(data));
-    filter->SetDisplacementToVector();
-    filter->SetVector(0.02, -0.03, 0.05);
+    grids::moveBy(filter, 0.02, -0.03, 0.05);
     isFrozen ? filter->AddFixedZone("C") : filter->AddSoftZone("C");
     vtkFEMWarpMorph::SafeDownCast(filter->GetMethodFilter())->SetTolerance(1e-12);
   };
@@ -132,8 +131,7 @@ TEST(RankBlockChoices, SurfacesOfBlocksSlideInRounds)
     filter->SetInputDataObject(data);
     filter->SetMovingToSelection();
     filter->SetSelectionData(upperPointsOfB(data));
-    filter->SetDisplacementToVector();
-    filter->SetVector(0.02, -0.03, 0);
+    grids::moveBy(filter, 0.02, -0.03, 0);
     for (const char* name : { "Surface 1", "Surface 2", "Surface 3", "Surface 4" })
     {
       filter->AddSlidingSurface(name);
@@ -165,8 +163,7 @@ TEST(RankBlockChoices, AZoneThatNoRankHasIsOneError)
   filter->SetMovingToSelection();
   filter->SetSelectionData(upperPointsOfB(mine));
   filter->AddFixedZone("Nowhere");
-  grids::Listener listener(filter);
-  filter->Update();
+  const grids::Run listener(filter);
   EXPECT_EQ(ranks.sum(static_cast<morph::Index>(listener.Errors.size())), 1);
   for (const std::string& error : listener.Errors)
   {
@@ -185,8 +182,7 @@ TEST(RankBlockChoices, SelectionsAreOfEachRanksPartOfABlock)
     filter->SetInputDataObject(data);
     filter->SetMovingToSelection();
     filter->SetSelectionData(upperPointsOfB(data));
-    filter->SetDisplacementToVector();
-    filter->SetVector(0.02, -0.03, 0.05);
+    grids::moveBy(filter, 0.02, -0.03, 0.05);
     if (handles)
     {
       filter->SetMovingToEverything();

@@ -170,8 +170,7 @@ TEST(RankBoundary, ClassifyHasTheSerialSurfacesAndCurves)
     serial->SetInputData(whole);
     rank_grids::alone([&] { serial->Update(); });
     filter->SetInputData(rank_grids::part(ranks, whole, mesh, ++seed));
-    grids::Listener listener(filter);
-    filter->Update();
+    const grids::Run listener(filter);
     expectNoErrors(listener);
     EXPECT_EQ(filter->GetNumberOfVertices(), serial->GetNumberOfVertices());
     EXPECT_EQ(filter->GetNumberOfCurves(), serial->GetNumberOfCurves());
@@ -247,8 +246,7 @@ TEST(RankBoundary, DisplacementMovesWhatItMovesOnOneRank)
       {
         filter->SetMovingToArray();
         filter->SetMovingArray("Marked");
-        filter->SetDisplacementToVector();
-        filter->SetVector(0.1, 0.1, 0.2);
+        grids::moveBy(filter, 0.1, 0.1, 0.2);
         filter->SetSurroundingsToFade();
       } },
     { "target",
@@ -328,8 +326,7 @@ TEST(RankBoundary, DisplacementMovesWhatItMovesOnOneRank)
         filter->SetFieldData(vtkNew<vtkPolyData>());
       }
       filter->SetInputData(rank_grids::part(ranks, whole, mesh, ++seed));
-      grids::Listener listener(filter);
-      filter->Update();
+      const grids::Run listener(filter);
       expectNoErrors(listener);
       // One rank speaks for all.
       EXPECT_EQ(listener.Warnings.size(), ranks.rank() == 0 ? serialListener.Warnings.size() : 0);
@@ -381,8 +378,7 @@ TEST(RankBoundary, EachRankSelectsInItsPiece)
   const auto configure = [](vtkBoundaryDisplacement* filter)
   {
     filter->SetMovingToSelection();
-    filter->SetDisplacementToVector();
-    filter->SetVector(0, 0, 1);
+    grids::moveBy(filter, 0, 0, 1);
   };
   vtkNew<vtkBoundaryDisplacement> serial, filter;
   configure(serial);
@@ -392,8 +388,7 @@ TEST(RankBoundary, EachRankSelectsInItsPiece)
   configure(filter);
   filter->SetInputData(piece);
   filter->SetSelectionData(select(piece, true));
-  grids::Listener listener(filter);
-  filter->Update();
+  const grids::Run listener(filter);
   expectNoErrors(listener);
   EXPECT_EQ(filter->GetMovingPoints(), 5 * 4);
   expectSameSurface(
@@ -413,8 +408,7 @@ TEST(RankBoundary, MorphBoundaryMovesTheRestAsOnOneRank)
   const auto moved = [](vtkUnstructuredGrid* grid)
   {
     // Surface 1 alone is told where to go.
-    vtkNew<vtkBoundaryDisplacement> displace;
-    displace->SetInputData(grid);
+    auto displace = grids::of<vtkBoundaryDisplacement>(grid);
     displace->SetMovingToSurfaces();
     displace->AddSurface("Surface 1");
     displace->SetDisplacementToTranslateRotateScale();
@@ -462,8 +456,7 @@ TEST(RankBoundary, MorphBoundaryMovesTheRestAsOnOneRank)
           {
             of->SetTargetData(ball->GetOutput());
           }
-          grids::Listener listener(of);
-          of->Update();
+          const grids::Run listener(of);
           expectNoErrors(listener);
           return listener.Warnings.size();
         };
@@ -522,11 +515,9 @@ TEST(RankBoundary, MorphBoundaryTakesCopiesAndPositionsAndNamesUnknownIds)
   auto strange = grids::cloud(rest);
   grids::addIds(
     strange, "MorphPointId", std::vector<Index>(static_cast<std::size_t>(rest.rows()), 12345));
-  vtkNew<vtkMorphBoundary> filter;
-  filter->SetInputData(piece);
+  auto filter = grids::of<vtkMorphBoundary>(piece);
   filter->SetBoundaryData(strange);
-  grids::Listener listener(filter);
-  filter->Update();
+  const grids::Run listener(filter);
   EXPECT_EQ(ranks.sum(static_cast<Index>(listener.Errors.size())), 1);
   if (!listener.Errors.empty())
   {
@@ -542,10 +533,8 @@ TEST(RankBoundary, WhatNeedsOneRankSaysSoOnce)
     GTEST_SKIP() << "needs several ranks";
   }
   const auto piece = rank_grids::piece(ranks, meshes::hexes(4, 3, 3));
-  vtkNew<vtkBoundaryDisplacement> filter;
-  filter->SetInputData(grids::boundary(piece, grids::affine));
-  grids::Listener listener(filter);
-  filter->Update();
+  auto filter = grids::of<vtkBoundaryDisplacement>(grids::boundary(piece, grids::affine));
+  const grids::Run listener(filter);
   EXPECT_EQ(ranks.sum(static_cast<Index>(listener.Errors.size())), 1);
   for (const std::string& error : listener.Errors)
   {

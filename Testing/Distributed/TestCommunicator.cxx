@@ -15,10 +15,7 @@
 
 namespace
 {
-using morph::Index;
-using morph::Monitor;
-using morph::OwnCells;
-using morph::Points;
+using namespace morph;
 using morph::distributed::DistributedMesh;
 using morph::distributed::Ranks;
 

@@ -116,9 +116,7 @@ TEST(RankCompare, HasTheTablesOfOneRank)
       });
     EXPECT_EQ(table(serial, 0)->GetNumberOfRows(), 4 * 2 * 8);
     configure(filter, rank_grids::part(ranks, whole, mesh, ++seed));
-    grids::Listener listener(filter);
-    filter->Update();
-    EXPECT_TRUE(listener.Errors.empty()) << listener.Errors.front();
+    grids::update(filter);
     compare(ranks, filter, serial);
     compareTables(ranks, filter);
     EXPECT_NE(std::string(filter->GetBestMethod()), "");
@@ -138,9 +136,7 @@ TEST(RankCompare, TakesAMeshThatOneRankHas)
     });
   vtkNew<vtkUnstructuredGrid> none;
   configure(filter, ranks.rank() == ranks.count() - 1 ? whole.Get() : none.Get());
-  grids::Listener listener(filter);
-  filter->Update();
-  EXPECT_TRUE(listener.Errors.empty()) << listener.Errors.front();
+  grids::update(filter);
   compare(ranks, filter, serial);
   compareTables(ranks, filter);
 }
@@ -159,8 +155,7 @@ TEST(RankCompare, GivesOneErrorWithoutABoundary)
     {
       filter->SetBoundaryData(nullptr);
     }
-    grids::Listener listener(filter);
-    filter->Update();
+    const grids::Run listener(filter);
     EXPECT_EQ(ranks.sum(static_cast<Index>(listener.Errors.size())), isBoundaryThere ? 0 : 1);
     EXPECT_EQ(table(filter, 2)->GetNumberOfRows(), isBoundaryThere ? 8 : 0);
   }
@@ -174,8 +169,6 @@ TEST(RankCompare, AnAbortOnOneRankEndsAllWithoutAMessage)
   vtkNew<vtkCompareMorphMethods> filter;
   configure(filter, piece);
   rank_grids::abortOnLastRank(ranks, filter);
-  grids::Listener listener(filter);
-  filter->Update();
-  EXPECT_TRUE(listener.Errors.empty());
+  grids::update(filter);
   EXPECT_EQ(table(filter, 0)->GetNumberOfRows(), 0);
 }

@@ -54,8 +54,7 @@ Row wave(const Row& x)
 
 vtkSmartPointer<vtkPolyData> moved(vtkDataObject* mesh, const grids::Map& map)
 {
-  vtkNew<vtkExtractMorphBoundary> extract;
-  extract->SetInputDataObject(mesh);
+  auto extract = grids::of<vtkExtractMorphBoundary>(mesh);
   extract->Update();
   auto result = vtkSmartPointer<vtkPolyData>::New();
   result->ShallowCopy(extract->GetOutput());
@@ -66,8 +65,7 @@ vtkSmartPointer<vtkPolyData> moved(vtkDataObject* mesh, const grids::Map& map)
 /// The faces of the ring's outer wall as a side set.
 vtkSmartPointer<vtkPolyData> wallOf(vtkUnstructuredGrid* whole)
 {
-  vtkNew<vtkExtractMorphBoundary> extract;
-  extract->SetInputData(whole);
+  auto extract = grids::of<vtkExtractMorphBoundary>(whole);
   rank_grids::alone([&] { extract->Update(); });
   vtkPolyData* all = extract->GetOutput();
   const morph::Points x = grids::points(all);
@@ -182,8 +180,7 @@ TEST(RankComposite, AllMethodsMoveBlocksAsOnOneRank)
         const Tree part = rank_trees::part(ranks, tree, ++seed);
         filter->SetInputDataObject(part);
         filter->SetBoundaryData(moved(part, wave));
-        grids::Listener listener(filter);
-        filter->Update();
+        const grids::Run listener(filter);
         EXPECT_TRUE(listener.Errors.empty()) << listener.Errors[0];
         EXPECT_TRUE(listener.Warnings.empty()) << listener.Warnings[0];
         vtkDataObject* output = filter->GetOutputDataObject(0);
@@ -226,8 +223,7 @@ TEST(RankComposite, SetsAreNamesAndFollowNodesOfOtherRanks)
     vtkFEMWarpMorph::SafeDownCast(filter->GetMethodFilter())->SetTolerance(1e-12);
     filter->SetInputDataObject(data);
     filter->AddSurface("wall");
-    filter->SetDisplacementToVector();
-    filter->SetVector(-0.05, 0.03, 0.02);
+    grids::moveBy(filter, -0.05, 0.03, 0.02);
     return filter;
   };
   auto serial = configured(tree);
@@ -241,8 +237,7 @@ TEST(RankComposite, SetsAreNamesAndFollowNodesOfOtherRanks)
     SCOPED_TRACE(ofSets);
     const Tree part = rank_trees::part(ranks, tree, meshes::seed() + 100, ofSets);
     auto filter = configured(part);
-    grids::Listener listener(filter);
-    filter->Update();
+    const grids::Run listener(filter);
     EXPECT_TRUE(listener.Errors.empty()) << listener.Errors[0];
     EXPECT_TRUE(listener.Warnings.empty()) << listener.Warnings[0];
     vtkDataObject* output = filter->GetOutputDataObject(0);
@@ -288,9 +283,7 @@ TEST(RankComposite, ASetAloneOnARankMovesWithTheMeshOnAnother)
     });
   filter->SetInputDataObject(part);
   filter->SetBoundaryData(moved(part, wave));
-  grids::Listener listener(filter);
-  filter->Update();
-  EXPECT_TRUE(listener.Errors.empty()) << listener.Errors[0];
+  grids::update(filter);
   vtkDataObject* output = filter->GetOutputDataObject(0);
   vtkDataObject* expected = serial->GetOutputDataObject(0);
   EXPECT_LT(distance(ranks, output, blocks::pointsByNumber(expected)), 1e-8);
@@ -371,9 +364,7 @@ TEST(RankComposite, CellsThatTwoRanksHaveCountOnce)
   rank_grids::alone([&] { serial->Update(); });
   // Each rank has all blocks.
   filter->SetInputDataObject(tree);
-  grids::Listener listener(filter);
-  filter->Update();
-  EXPECT_TRUE(listener.Errors.empty()) << listener.Errors[0];
+  grids::update(filter);
   EXPECT_EQ(filter->GetMeasuredCells(), whole->GetNumberOfCells());
   EXPECT_EQ(filter->GetMinScaledJacobian(), serial->GetMinScaledJacobian());
   EXPECT_NEAR(filter->GetMeanScaledJacobian(), serial->GetMeanScaledJacobian(), 1e-12);
@@ -402,8 +393,7 @@ TEST(RankComposite, ABoundaryAndAGradientMayBeCompositeToo)
     filter->SetTolerance(1e-12);
     filter->SetInputDataObject(data);
     filter->SetInputDataObject(1, copyOf(data));
-    grids::Listener listener(filter);
-    filter->Update();
+    const grids::Run listener(filter);
     EXPECT_TRUE(listener.Errors.empty()) << listener.Errors[0];
     vtkNew<vtkMorphAdjoint> adjoint;
     vtkNew<vtkFEMWarpMorph> method;
@@ -412,9 +402,7 @@ TEST(RankComposite, ABoundaryAndAGradientMayBeCompositeToo)
     adjoint->SetInputDataObject(0, data);
     adjoint->SetInputDataObject(1, moved(data, wave));
     adjoint->SetGradientArray("Gradient");
-    grids::Listener ofAdjoint(adjoint);
-    adjoint->Update();
-    EXPECT_TRUE(ofAdjoint.Errors.empty()) << ofAdjoint.Errors[0];
+    grids::update(adjoint);
     std::map<vtkIdType, Row> gradients;
     auto* points = vtkPointSet::SafeDownCast(adjoint->GetOutputDataObject(0));
     vtkDataArray* array = points ? points->GetPointData()->GetArray("MorphGradient") : nullptr;
@@ -448,8 +436,7 @@ TEST(RankComposite, OneRanksBadBlockEndsAllWithOneErrorThatNamesIt)
   const auto errorOf = [&](vtkAlgorithm* filter, vtkDataObject* data)
   {
     filter->SetInputDataObject(0, data);
-    grids::Listener listener(filter);
-    filter->Update();
+    const grids::Run listener(filter);
     EXPECT_EQ(ranks.sum(static_cast<Index>(listener.Errors.size())), 1);
     // The rank that tells is the first.
     return listener.Errors.empty() ? std::string() : listener.Errors.front();

@@ -16,9 +16,7 @@
 
 namespace
 {
-using morph::Index;
-using morph::Mesh;
-using morph::Monitor;
+using namespace morph;
 using morph::distributed::DistributedMesh;
 using morph::distributed::Piece;
 using morph::distributed::Ranks;

@@ -39,11 +39,9 @@ TEST(DistributedFilters, PrepareOnceAndTellAllRanksTheSame)
 {
   const Ranks ranks = pieces::world();
   const auto grid = piece(ranks);
-  vtkNew<vtkFEMWarpMorph> filter;
-  filter->SetInputData(grid);
+  auto filter = grids::of<vtkFEMWarpMorph>(grid);
   filter->SetBoundaryData(grids::boundary(grid, grids::twist));
-  grids::Listener listener(filter);
-  filter->Update();
+  const grids::Run listener(filter);
   filter->SetBoundaryData(grids::boundary(grid, grids::affine));
   filter->Update();
   EXPECT_EQ(filter->GetPrepareCount(), 1);
@@ -69,11 +67,9 @@ TEST(DistributedFilters, AMirroredBodyIsNamedByItsFirstCellOfAllRanks)
   morph::Mesh whole = meshes::hexes(6, 5, 4);
   whole.points.col(0) *= -1;
   const auto grid = rank_grids::piece(ranks, whole);
-  vtkNew<vtkFEMWarpMorph> filter;
-  filter->SetInputData(grid);
+  auto filter = grids::of<vtkFEMWarpMorph>(grid);
   filter->SetBoundaryData(grids::boundary(grid, grids::twist));
-  grids::Listener listener(filter);
-  filter->Update();
+  const grids::Run listener(filter);
   EXPECT_EQ(filter->GetMirroredBodies(), 1);
   ASSERT_EQ(listener.Warnings.size(), ranks.rank() == 0 ? 1u : 0u);
   for (const std::string& warning : listener.Warnings)
@@ -100,11 +96,9 @@ TEST(DistributedFilters, ShellsFollowTheVolumeAcrossRanks)
   const auto grid = rank_grids::piece(ranks, whole);
   const grids::Map rigid = [](const grids::Row& x)
   { return grids::Row(0.6 * x[0] - 0.8 * x[2], x[1] + 2, 0.8 * x[0] + 0.6 * x[2]); };
-  vtkNew<vtkFEMWarpMorph> filter;
-  filter->SetInputData(grid);
+  auto filter = grids::of<vtkFEMWarpMorph>(grid);
   filter->SetBoundaryData(grids::boundary(grid, rigid));
-  grids::Listener listener(filter);
-  filter->Update();
+  const grids::Run listener(filter);
   EXPECT_TRUE(listener.Errors.empty() && listener.Warnings.empty());
   EXPECT_EQ(filter->GetAttachedPoints(), 7);
   EXPECT_LT((grids::points(filter->GetOutput()) - grids::mapped(grids::points(grid), rigid))
@@ -123,11 +117,9 @@ TEST(DistributedFilters, APlaneMeshOnSeveralRanksIsOneError)
   square.points.col(0).array() += ranks.rank();
   meshes::add(square, VTK_QUAD, { 0, 1, 2, 3 });
   const auto grid = grids::make(square);
-  vtkNew<vtkFEMWarpMorph> filter;
-  filter->SetInputData(grid);
+  auto filter = grids::of<vtkFEMWarpMorph>(grid);
   filter->SetBoundaryData(grids::cloud(square.points));
-  grids::Listener listener(filter);
-  filter->Update();
+  const grids::Run listener(filter);
   EXPECT_EQ(ranks.sum(static_cast<morph::Index>(listener.Errors.size())), ranks.count() > 1);
   for (const std::string& error : listener.Errors)
   {
@@ -139,13 +131,10 @@ TEST(DistributedFilters, AnAbortOnOneRankEndsAllWithoutAMessage)
 {
   const Ranks ranks = pieces::world();
   const auto grid = piece(ranks);
-  vtkNew<vtkFEMWarpMorph> filter;
-  filter->SetInputData(grid);
+  auto filter = grids::of<vtkFEMWarpMorph>(grid);
   filter->SetBoundaryData(grids::boundary(grid, grids::twist));
   rank_grids::abortOnLastRank(ranks, filter);
-  grids::Listener listener(filter);
-  filter->Update();
-  EXPECT_TRUE(listener.Errors.empty());
+  grids::update(filter);
   EXPECT_STREQ(filter->GetMorphStatus(), "Cancelled");
   EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), grid->GetNumberOfPoints());
   EXPECT_EQ(grids::points(filter->GetOutput()), grids::points(grid));
@@ -160,9 +149,7 @@ TEST(DistributedFilters, SmoothingIsAsGoodAsOnOneRank)
   {
     filter->SetInputData(grid);
     filter->SetBoundaryData(grids::boundary(grid, grids::twist));
-    grids::Listener listener(filter);
-    filter->Update();
-    EXPECT_TRUE(listener.Errors.empty()) << listener.Errors.front();
+    grids::update(filter);
   };
   for (const int target : { 0, 1 })
   {
@@ -189,8 +176,7 @@ TEST(DistributedFilters, CrossingsAreThoseOfOneRank)
   {
     filter->SetInputData(grid);
     filter->SetBoundaryData(grids::boundary(grid, rank_grids::intoTheGap(way)));
-    grids::Listener listener(filter);
-    filter->Update();
+    const grids::Run listener(filter);
     EXPECT_TRUE(listener.Errors.empty());
     return listener.Warnings;
   };
@@ -216,11 +202,9 @@ TEST(DistributedFilters, BadCoordinatesOfOneRankAreOneErrorThatNamesTheRank)
   {
     grid->GetPoints()->SetPoint(3, std::nan(""), 0, 0);
   }
-  vtkNew<vtkFEMWarpMorph> filter;
-  filter->SetInputData(grid);
+  auto filter = grids::of<vtkFEMWarpMorph>(grid);
   filter->SetBoundaryData(grids::boundary(piece(ranks), grids::affine));
-  grids::Listener listener(filter);
-  filter->Update();
+  const grids::Run listener(filter);
   EXPECT_STREQ(filter->GetMorphStatus(), "Failed");
   ASSERT_EQ(listener.Errors.size(), ranks.rank() == 0 ? 1u : 0u);
   const std::string whose = "Ids are those of MPI rank " + std::to_string(last);

@@ -137,9 +137,7 @@ TEST_P(RankHangingFilters, StepsAndShapesAreThoseOfOneRank)
     shapes->AddShapeData(grids::boundary(grid, bent));
     shapes->SetTolerance(1e-12);
     shapes->SetWeight(0, 0.5);
-    const grids::Listener listener(shapes);
-    shapes->Update();
-    EXPECT_TRUE(listener.Errors.empty()) << listener.Errors.front();
+    grids::update(shapes);
     return shapes;
   };
   vtkSmartPointer<vtkMorphShapes> alone;
@@ -201,9 +199,7 @@ TEST_P(RankHangingFilters, MorphMeshMovesSurfacesAsOnOneRank)
     filter->SetTranslation(0.05, 0.1, 0.05);
     filter->SetRotation(3, 0, 5);
     filter->SetValidity(vtkMorphAlgorithm::VALIDITY_REPORT);
-    const grids::Listener listener(filter);
-    filter->Update();
-    EXPECT_TRUE(listener.Errors.empty()) << listener.Errors.front();
+    grids::update(filter);
     return filter;
   };
   vtkSmartPointer<vtkMorphMesh> alone;

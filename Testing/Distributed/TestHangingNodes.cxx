@@ -18,11 +18,7 @@
 
 namespace
 {
-using morph::HangingNodes;
-using morph::Index;
-using morph::Monitor;
-using morph::NodePartition;
-using morph::Points;
+using namespace morph;
 using morph::distributed::DistributedMesh;
 using morph::distributed::Ranks;
 using motions::Row;
@@ -53,7 +49,7 @@ protected:
     const std::vector<Index> outer = morph::boundaryFaces(whole, this->Hanging, this->Quiet).nodes;
     this->Partition = morph::partitionNodes(whole, this->Hanging, this->Hanging.without(outer));
     this->Serial.reset(dynamic_cast<morph::LinearMorpher*>(
-      morph::morpherForCells(whole, this->Hanging, method.make()).release()));
+      morph::morpherForPolyhedra(method.make(), false, this->Hanging).release()));
     this->Serial->prepare(whole, this->Partition, this->Quiet);
     this->Mesh =
       std::make_unique<DistributedMesh>(pieces::distribute(this->Processes, whole, 1, seed));

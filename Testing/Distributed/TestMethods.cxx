@@ -23,11 +23,7 @@
 
 namespace
 {
-using morph::Index;
-using morph::Mesh;
-using morph::Monitor;
-using morph::Morpher;
-using morph::Points;
+using namespace morph;
 using morph::distributed::DistributedMesh;
 using morph::distributed::HypreSolver;
 using morph::distributed::Ranks;

@@ -93,8 +93,7 @@ TEST(RankMorphMesh, MovesSurfacesAsOnOneRank)
       {
         filter->AddSurface("Surface 1");
         filter->AddSlidingSurface("Surface 0");
-        filter->SetDisplacementToVector();
-        filter->SetVector(0.1, 0, 0.2);
+        grids::moveBy(filter, 0.1, 0, 0.2);
       } },
     { "target", [&](vtkMorphMesh* filter)
       {
@@ -122,9 +121,7 @@ TEST(RankMorphMesh, MovesSurfacesAsOnOneRank)
       withFemWarp(filter);
       configure(filter);
       filter->SetInputData(rank_grids::part(ranks, whole, mesh, ++seed));
-      grids::Listener listener(filter);
-      filter->Update();
-      EXPECT_TRUE(listener.Errors.empty()) << listener.Errors.front();
+      grids::update(filter);
       EXPECT_LT(difference(vtkUnstructuredGrid::SafeDownCast(filter->GetOutputDataObject(0)),
                   vtkUnstructuredGrid::SafeDownCast(serial->GetOutputDataObject(0))),
         1e-8);
@@ -152,16 +149,14 @@ TEST(RankMorphMesh, ReproducesAffineMotions)
 {
   const Ranks ranks = pieces::world();
   const morph::Mesh mesh = meshes::tets(4, 3, 3);
-  vtkNew<vtkMorphMesh> filter;
-  filter->SetInputData(rank_grids::piece(ranks, mesh));
+  auto filter = grids::of<vtkMorphMesh>(rank_grids::piece(ranks, mesh));
   filter->SetMovingToEverything();
   filter->SetDisplacementToTranslateRotateScale();
   filter->SetTranslation(1, 2, 3);
   filter->SetRotation(20, 30, 40);
   filter->SetScale(1.2, 0.8, 1.1);
   filter->Update();
-  vtkNew<vtkMorphMesh> serial;
-  serial->SetInputData(grids::make(mesh));
+  auto serial = grids::of<vtkMorphMesh>(grids::make(mesh));
   serial->SetMovingToEverything();
   serial->SetDisplacementToTranslateRotateScale();
   serial->SetTranslation(1, 2, 3);
@@ -178,10 +173,8 @@ TEST(RankMorphMesh, ShowsItsSurfacesAndKeepsWhatADragNeeds)
   const Ranks ranks = pieces::world();
   const morph::Mesh mesh = meshes::hexes(5, 4, 3);
   const auto piece = rank_grids::piece(ranks, mesh);
-  vtkNew<vtkMorphMesh> filter;
-  filter->SetInputData(piece);
-  grids::Listener listener(filter);
-  filter->Update();
+  auto filter = grids::of<vtkMorphMesh>(piece);
+  const grids::Run listener(filter);
   // Nothing is chosen: the output is the boundary, to look at.
   auto* shown = vtkUnstructuredGrid::SafeDownCast(filter->GetOutputDataObject(0));
   EXPECT_EQ(shown->GetNumberOfPoints(), piece->GetNumberOfPoints());
@@ -220,11 +213,8 @@ TEST(RankMorphMesh, RepairsByDefault)
     filter->SetInputData(grid);
     filter->AddSurface("Surface 1");
     filter->SetSurroundings(vtkBoundaryDisplacement::SURROUNDINGS_STAY);
-    filter->SetDisplacementToVector();
-    filter->SetVector(0.1, 0, 0.1);
-    grids::Listener listener(filter);
-    filter->Update();
-    EXPECT_TRUE(listener.Errors.empty());
+    grids::moveBy(filter, 0.1, 0, 0.1);
+    grids::update(filter);
   };
   vtkNew<vtkMorphMesh> serial, filter;
   rank_grids::alone([&] { run(serial, grids::make(mesh)); });
@@ -268,8 +258,7 @@ TEST(RankMorphMesh, OneErrorEndsAllRanks)
     vtkNew<vtkMorphMesh> filter;
     configure(filter);
     filter->SetInputData(piece);
-    grids::Listener listener(filter);
-    filter->Update();
+    const grids::Run listener(filter);
     EXPECT_EQ(ranks.sum(static_cast<Index>(listener.Errors.size())), isSeveral ? 1 : 0);
     if (!listener.Errors.empty())
     {
@@ -290,9 +279,7 @@ TEST(RankMorphMesh, AnAbortOnOneRankEndsAllWithoutAMessage)
   turnAndShift(filter);
   filter->SetInputData(piece);
   rank_grids::abortOnLastRank(ranks, filter);
-  grids::Listener listener(filter);
-  filter->Update();
-  EXPECT_TRUE(listener.Errors.empty());
+  grids::update(filter);
   EXPECT_STREQ(filter->GetMorphStatus(), "Cancelled");
 }
 
@@ -307,9 +294,7 @@ TEST(RankMorphMesh, MovesAMeshThatOneRankHas)
   turnAndShift(filter);
   vtkNew<vtkUnstructuredGrid> none;
   filter->SetInputData(ranks.rank() == 0 ? whole.Get() : none.Get());
-  grids::Listener listener(filter);
-  filter->Update();
-  EXPECT_TRUE(listener.Errors.empty()) << listener.Errors.front();
+  grids::update(filter);
   auto* output = vtkUnstructuredGrid::SafeDownCast(filter->GetOutputDataObject(0));
   if (ranks.rank() == 0)
   {

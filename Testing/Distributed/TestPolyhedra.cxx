@@ -22,11 +22,7 @@
 
 namespace
 {
-using morph::Index;
-using morph::Mesh;
-using morph::Monitor;
-using morph::Morpher;
-using morph::Points;
+using namespace morph;
 using morph::distributed::CutMesh;
 using morph::distributed::DistributedMesh;
 using morph::distributed::Ranks;

@@ -90,9 +90,7 @@ void run(vtkMorphAlgorithm* serial, vtkMorphAlgorithm* mine, vtkUnstructuredGrid
     });
   mine->SetInputData(part);
   mine->SetBoundaryData(grids::boundary(part, map));
-  grids::Listener listener(mine);
-  mine->Update();
-  EXPECT_TRUE(listener.Errors.empty()) << listener.Errors.front();
+  grids::update(mine);
 }
 }
 
@@ -202,9 +200,7 @@ TEST(RankPolyhedra, ShapesBlendAsOnOneRank)
       shapes->SetTolerance(1e-12);
       shapes->SetWeight(0, 0.25);
       shapes->SetWeight(1, -0.5);
-      grids::Listener listener(shapes);
-      shapes->Update();
-      EXPECT_TRUE(listener.Errors.empty()) << listener.Errors.front();
+      grids::update(shapes);
       return shapes;
     };
     vtkSmartPointer<vtkMorphShapes> serial;
@@ -266,13 +262,11 @@ TEST(RankPolyhedra, InversionFreeRepairAndSmoothingAreAsValidAsOnOneRank)
           {
             serial->SetInputData(whole);
             serial->SetBoundaryData(grids::boundary(whole, map));
-            grids::Listener quiet(serial);
-            serial->Update();
+            const grids::Run quiet(serial);
           });
         mine->SetInputData(part);
         mine->SetBoundaryData(grids::boundary(part, map));
-        grids::Listener listener(mine);
-        mine->Update();
+        const grids::Run listener(mine);
         if (ranks.rank() == 0)
         {
           std::cout << what << ", " << name << (hard ? ", hard" : "") << ": minimum "
@@ -315,8 +309,7 @@ TEST(RankPolyhedra, BlocksOfThemMoveAsOnOneRank)
   }
   const auto moved = [](vtkDataObject* mesh)
   {
-    vtkNew<vtkExtractMorphBoundary> extract;
-    extract->SetInputDataObject(mesh);
+    auto extract = grids::of<vtkExtractMorphBoundary>(mesh);
     extract->Update();
     auto result = vtkSmartPointer<vtkPolyData>::New();
     result->ShallowCopy(extract->GetOutput());
@@ -336,9 +329,7 @@ TEST(RankPolyhedra, BlocksOfThemMoveAsOnOneRank)
   const auto part = rank_trees::part(ranks, tree, meshes::seed() + 160);
   mine->SetInputDataObject(part);
   mine->SetBoundaryData(moved(part));
-  grids::Listener listener(mine);
-  mine->Update();
-  EXPECT_TRUE(listener.Errors.empty()) << listener.Errors.front();
+  grids::update(mine);
   const auto expected = blocks::pointsByNumber(serial->GetOutputDataObject(0));
   for (const auto& [number, x] : blocks::pointsByNumber(mine->GetOutputDataObject(0)))
   {

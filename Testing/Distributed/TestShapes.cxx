@@ -183,9 +183,7 @@ TEST(RankShapes, AgreeWithOneRank)
         });
       const auto filter = shapesOf(rank_grids::part(ranks, whole, mesh, ++seed));
       filter->SetMethod(method);
-      grids::Listener listener(filter);
-      filter->Update();
-      EXPECT_TRUE(listener.Errors.empty()) << listener.Errors.front();
+      grids::update(filter);
       compare(ranks, filter, serial);
       EXPECT_TRUE(std::isfinite(serial->GetHighestWeight(0)));
       EXPECT_EQ(filter->GetSolveCount(), 4); // one a shape, and two for the rotation
@@ -239,8 +237,7 @@ TEST(RankShapes, TheirSurfaceIsThatOfTheWholeMesh)
   // After an error it is that of the undeformed mesh.
   filter->SetMethod(vtkMorphShapes::METHOD_FEMWARP);
   filter->SetMotion(2, vtkMorphShapes::MOTION_AS_ROTATION);
-  grids::Listener listener(filter);
-  filter->Update();
+  const grids::Run listener(filter);
   EXPECT_EQ(ranks.sum(static_cast<Index>(listener.Errors.size())), 1);
   EXPECT_STREQ(filter->GetMorphStatus(), "Failed");
   surface = vtkPolyData::SafeDownCast(filter->GetOutputDataObject(2));
@@ -274,8 +271,7 @@ TEST(RankShapes, AndTheMethodsDrawTheFeatureLinesOfOneRank)
     filter->FeatureLinesOff();
     filter->Update();
     EXPECT_TRUE(linesOf(ranks, filter->GetOutputDataObject(2)).empty());
-    vtkNew<vtkFEMWarpMorph> method;
-    method->SetInputData(piece);
+    auto method = grids::of<vtkFEMWarpMorph>(piece);
     method->SetBoundaryData(grids::boundary(piece, grids::affine));
     method->FeatureLinesOn();
     method->Update();
@@ -311,8 +307,7 @@ TEST(RankShapes, TakeDesignsThatOneRankHas)
   EXPECT_EQ(information->Length(vtkStreamingDemandDrivenPipeline::TIME_STEPS()), 3);
   filter->SetTableData(none);
   filter->Modified(); // on the other ranks
-  grids::Listener listener(filter);
-  filter->Update();
+  const grids::Run listener(filter);
   EXPECT_EQ(ranks.sum(static_cast<Index>(listener.Errors.size())), 1);
 }
 
@@ -336,9 +331,7 @@ TEST(RankShapes, HaveTheDerivativesOfOneRank)
     adjoint->SetMorphShapes(shapes);
     adjoint->SetInputData(grid);
     adjoint->SetGradientArray("Gradient");
-    grids::Listener listener(adjoint);
-    adjoint->Update();
-    EXPECT_TRUE(listener.Errors.empty()) << listener.Errors.front();
+    grids::update(adjoint);
     std::vector<double> result(3, 0.);
     vtkDataArray* values = adjoint->GetOutput()->GetFieldData()->GetArray("ShapeGradient");
     for (int i = 0; values && i < 3; ++i)
@@ -364,8 +357,7 @@ TEST(RankShapes, OneErrorEndsAllRanks)
   const auto piece = rank_grids::part(ranks, grids::make(mesh), mesh, meshes::seed());
   const auto expectOne = [&](vtkMorphShapes* filter, const std::string& message)
   {
-    grids::Listener listener(filter);
-    filter->Update();
+    const grids::Run listener(filter);
     EXPECT_EQ(ranks.sum(static_cast<Index>(listener.Errors.size())), 1);
     if (!listener.Errors.empty())
     {
@@ -388,9 +380,7 @@ TEST(RankShapes, OneErrorEndsAllRanks)
 
   const auto stopped = shapesOf(piece);
   rank_grids::abortOnLastRank(ranks, stopped);
-  grids::Listener listener(stopped);
-  stopped->Update();
-  EXPECT_TRUE(listener.Errors.empty());
+  grids::update(stopped);
   EXPECT_STREQ(stopped->GetMorphStatus(), "Cancelled");
 }
 
@@ -407,9 +397,7 @@ TEST(RankShapes, TakeAMeshThatOneRankHas)
     });
   vtkNew<vtkUnstructuredGrid> none;
   const auto filter = shapesOf(ranks.rank() == 0 ? whole.Get() : none.Get());
-  grids::Listener listener(filter);
-  filter->Update();
-  EXPECT_TRUE(listener.Errors.empty()) << listener.Errors.front();
+  grids::update(filter);
   if (ranks.rank() == 0)
   {
     EXPECT_EQ(grids::points(outputOf(filter)), grids::points(outputOf(serial)));

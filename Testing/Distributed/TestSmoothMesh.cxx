@@ -18,9 +18,7 @@
 
 namespace
 {
-using morph::Index;
-using morph::Mesh;
-using morph::Points;
+using namespace morph;
 using morph::distributed::DistributedMesh;
 using morph::distributed::Ranks;
 

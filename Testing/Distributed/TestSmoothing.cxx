@@ -22,14 +22,7 @@
 
 namespace
 {
-using morph::Index;
-using morph::Mesh;
-using morph::NodePartition;
-using morph::Points;
-using morph::Smoothing;
-using morph::SmoothingObjective;
-using morph::SmoothingOptions;
-using morph::SmoothingTarget;
+using namespace morph;
 using morph::distributed::Ranks;
 
 struct Result

@@ -61,8 +61,7 @@ Result morphed(
   filter->SetInputData(grid);
   filter->SetBoundaryData(grids::boundary(grid, map));
   set(filter);
-  grids::Listener listener(filter);
-  filter->Update();
+  const grids::Run listener(filter);
   if (time >= 0)
   {
     filter->UpdateTimeStep(time);
@@ -220,8 +219,7 @@ TEST(RankSteps, InversionFreeIsValidWhereTheSerialOneIs)
     }
     const auto run = [&](vtkUnstructuredGrid* grid)
     {
-      vtkNew<vtkInversionFreeMorph> filter;
-      filter->SetInputData(grid);
+      auto filter = grids::of<vtkInversionFreeMorph>(grid);
       filter->SetBoundaryData(grids::boundary(grid, motion));
       filter->Update();
       return std::pair(
@@ -250,8 +248,7 @@ TEST(RankSteps, PostSmoothIsAsGoodAsOnOneRank)
   const morph::Mesh whole = block();
   const auto run = [&](vtkUnstructuredGrid* grid)
   {
-    vtkNew<vtkFEMWarpMorph> filter;
-    filter->SetInputData(grid);
+    auto filter = grids::of<vtkFEMWarpMorph>(grid);
     filter->SetBoundaryData(grids::boundary(grid, waves));
     filter->PostSmoothOn();
     filter->Update();

@@ -20,11 +20,7 @@
 
 namespace
 {
-using morph::CellStiffness;
-using morph::Index;
-using morph::Mesh;
-using morph::Monitor;
-using morph::Points;
+using namespace morph;
 using morph::distributed::DistributedMesh;
 using morph::distributed::Ranks;
 

@@ -9,7 +9,6 @@
 #include <vtkExtractMorphBoundary.h>
 #include <vtkMorphMesh.h>
 #include <vtkMultiProcessController.h>
-#include <vtkNew.h>
 
 #include <gtest/gtest.h>
 
@@ -20,8 +19,7 @@ namespace
 /// Expects one error on all ranks together.
 void expectOneError(vtkAlgorithm* filter, const std::string& text)
 {
-  grids::Listener listener(filter);
-  filter->Update();
+  const grids::Run listener(filter);
   vtkMultiProcessController* ranks = vtkMultiProcessController::GetGlobalController();
   const int mine = static_cast<int>(listener.Errors.size());
   int all = 0;
@@ -50,14 +48,11 @@ TEST(WithoutMpi, AMeshOnTwoRanksIsOneError)
     expectOneError(filter, text);
     EXPECT_STREQ(filter->GetMorphStatus(), "Failed");
   }
-  vtkNew<vtkExtractMorphBoundary> extract;
-  extract->SetInputData(grid);
+  auto extract = grids::of<vtkExtractMorphBoundary>(grid);
   expectOneError(extract, text);
-  vtkNew<vtkMorphMesh> mesh;
-  mesh->SetInputData(grid);
+  auto mesh = grids::of<vtkMorphMesh>(grid);
   expectOneError(mesh, text);
-  vtkNew<vtkCompareMorphMethods> compare;
-  compare->SetInputData(grid);
+  auto compare = grids::of<vtkCompareMorphMethods>(grid);
   compare->SetBoundaryData(grid);
   expectOneError(compare, "This plugin was built without MPI or hypre");
 }

@@ -126,8 +126,7 @@ void compare(const Ranks& ranks, const std::string& name, const morph::Mesh& mes
   configure(filter);
   const auto part = rank_grids::part(ranks, whole, mesh, seed);
   filter->SetInputData(part);
-  grids::Listener listener(filter);
-  filter->Update();
+  const grids::Run listener(filter);
   EXPECT_TRUE(listener.Errors.empty()) << listener.Errors.front();
   auto* output = vtkUnstructuredGrid::SafeDownCast(filter->GetOutputDataObject(0));
   auto* expected = vtkUnstructuredGrid::SafeDownCast(serial->GetOutputDataObject(0));
@@ -297,9 +296,7 @@ TEST(RankZones, SelectionsAreOfEachRanksPiece)
       configure(serial, whole);
       rank_grids::alone([&] { serial->Update(); });
       configure(filter, rank_grids::part(ranks, whole, mesh, meshes::seed()));
-      grids::Listener listener(filter);
-      filter->Update();
-      EXPECT_TRUE(listener.Errors.empty()) << listener.Errors.front();
+      grids::update(filter);
       EXPECT_LT(rank_grids::distance(ranks,
                   vtkUnstructuredGrid::SafeDownCast(filter->GetOutputDataObject(0)),
                   vtkUnstructuredGrid::SafeDownCast(serial->GetOutputDataObject(0))),
@@ -465,8 +462,7 @@ TEST(RankZones, OneErrorEndsAllRanks)
     bump(filter);
     configure(filter);
     filter->SetInputData(rank_grids::part(ranks, gridOf(*mesh), *mesh, meshes::seed()));
-    grids::Listener listener(filter);
-    filter->Update();
+    const grids::Run listener(filter);
     EXPECT_EQ(ranks.sum(static_cast<Index>(listener.Errors.size())), 1);
     if (!listener.Errors.empty())
     {

@@ -61,8 +61,7 @@ std::vector<morph::Index> nodesWhere(
 std::string surfaceName(
   vtkBoundaryDisplacement* filter, const std::function<bool(const grids::Row&)>& is)
 {
-  vtkNew<vtkBoundaryDisplacement> still;
-  still->SetInputDataObject(filter->GetInputDataObject(0, 0));
+  auto still = grids::of<vtkBoundaryDisplacement>(filter->GetInputDataObject(0, 0));
   still->Update();
   vtkPolyData* output = still->GetOutput();
   const morph::Points rest = restPositions(output);

@@ -226,8 +226,7 @@ TEST(AffineHandleOf, IsThereForEveryAffineMotionAndNoOther)
   EXPECT_TRUE(described() && reproduces());
   filter->SetScaleFactor(-0.7);
   EXPECT_TRUE(described() && reproduces());
-  filter->SetDisplacementToVector();
-  filter->SetVector(0, 0, 0.2);
+  grids::moveBy(filter, 0, 0, 0.2);
   EXPECT_TRUE(described() && reproduces());
   filter->SetDisplacementToTranslateRotateScale();
   filter->SetTranslation(0.1, 0, 0.1);
@@ -310,8 +309,7 @@ TEST(AffineHandleOf, CurvedWallsIsUsedForMotionsThatTheyFollowLinearly)
     filter->Update();
     return filter->GetOutput()->GetPointData()->HasArray(Fields) == 1;
   };
-  filter->SetDisplacementToVector();
-  filter->SetVector(0, 0, 0.2);
+  grids::moveBy(filter, 0, 0, 0.2);
   EXPECT_TRUE(described());
   filter->SetDisplacementToTranslateRotateScale();
   filter->SetRotation(0, 0, 20);

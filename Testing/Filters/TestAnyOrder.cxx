@@ -189,8 +189,7 @@ TEST(AnyOrder, FacesAreDividedBetweenAllNodes)
     for (const Index order : { 1, 2, 3, 5 })
     {
       const auto grid = grids::make(ofOrder(linear, order, morph::LagrangeTetrahedron));
-      vtkNew<vtkExtractMorphBoundary> extract;
-      extract->SetInputData(grid);
+      auto extract = grids::of<vtkExtractMorphBoundary>(grid);
       vtkNew<vtkTriangleFilter> triangles;
       triangles->SetInputConnection(extract->GetOutputPort());
       triangles->Update();
@@ -252,8 +251,7 @@ TEST(AnyOrder, NodesOfACollapsedFaceAreOnTheEdgeThatItIs)
 TEST(AnyOrder, AMotionOfZeroOfASurfaceMovesNothing)
 {
   const auto grid = grids::make(ofOrder(meshes::tets(2, 2, 2), 3, morph::LagrangeTetrahedron));
-  vtkNew<vtkMorphMesh> filter;
-  filter->SetInputData(grid);
+  auto filter = grids::of<vtkMorphMesh>(grid);
   filter->AddSurface("Surface 0");
   grids::update(filter);
   EXPECT_EQ(grids::points(vtkUnstructuredGrid::SafeDownCast(filter->GetOutputDataObject(0))),

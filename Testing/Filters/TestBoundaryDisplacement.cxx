@@ -60,8 +60,7 @@ void expectMoved(vtkBoundaryDisplacement* filter, const std::function<bool(const
 vtkSmartPointer<vtkBoundaryDisplacement> movesUp(vtkDataObject* input)
 {
   auto filter = displaced::make(input);
-  filter->SetDisplacementToVector();
-  filter->SetVector(Up[0], Up[1], Up[2]);
+  grids::moveBy(filter, Up[0], Up[1], Up[2]);
   filter->SetSurroundingsToStay();
   return filter;
 }
@@ -117,8 +116,7 @@ TEST(BoundaryDisplacement, EverythingByATransformAndTheVolumeFollows)
     vtkPolyData* output = filter->GetOutput();
     EXPECT_EQ(grids::points(output), grids::mapped(restPositions(output), map));
 
-    vtkNew<vtkFEMWarpMorph> volume;
-    volume->SetInputData(grid);
+    auto volume = grids::of<vtkFEMWarpMorph>(grid);
     volume->SetBoundaryConnection(filter->GetOutputPort());
     volume->SetTolerance(1e-12);
     volume->Update();
@@ -218,8 +216,7 @@ TEST(BoundaryDisplacement, WaysToChoose)
   }
   {
     SCOPED_TRACE("cells and points of the boundary");
-    vtkNew<vtkExtractMorphBoundary> extract;
-    extract->SetInputData(grid);
+    auto extract = grids::of<vtkExtractMorphBoundary>(grid);
     extract->Update();
     std::vector<morph::Index> cells, points;
     for (vtkIdType c = 0; c < extract->GetOutput()->GetNumberOfCells(); ++c)
@@ -304,8 +301,7 @@ TEST(BoundaryDisplacement, ByAnArrayAndScaled)
     const morph::Points shift = grids::mapped(
       grids::points(grid), [](const Row& x) { return Row(x[1], -x[2], x[0] * x[0]); });
     grids::addVectors(grid, "Shift", shift);
-    vtkNew<vtkClassifyBoundary> classify;
-    classify->SetInputData(grid);
+    auto classify = grids::of<vtkClassifyBoundary>(grid);
     classify->Update();
     auto filter =
       displaced::make(asBoundary ? vtkDataObject::SafeDownCast(classify->GetSurfaces()) : grid);
@@ -368,13 +364,11 @@ TEST(BoundaryDisplacement, FollowsAsMorphBoundaryDoes)
       }
       auto given = grids::cloud(targets);
       grids::addIds(given, "MorphPointId", ids);
-      vtkNew<vtkMorphBoundary> reference;
-      reference->SetInputData(grid);
+      auto reference = grids::of<vtkMorphBoundary>(grid);
       reference->SetBoundaryData(given);
       reference->SetPrescribedDimension(2);
       reference->SetSurfaceMethod(method);
-      grids::Listener silence(reference);
-      reference->Update();
+      const grids::Run silence(reference);
       EXPECT_EQ(grids::points(output), grids::points(reference->GetOutput()));
       EXPECT_EQ(filter->GetFixedPoints(), reference->GetFixedVertices());
     }
@@ -514,11 +508,9 @@ TEST(BoundaryDisplacement, NodesBetweenAMovedAndAFixedCornerKeepTheirPart)
 TEST(BoundaryDisplacement, ABoundaryIsAsGoodAsTheMesh)
 {
   auto grid = grids::make(shapes::boxWithHole(16, 3, 3));
-  vtkNew<vtkExtractMorphBoundary> extract;
-  extract->SetInputData(grid);
+  auto extract = grids::of<vtkExtractMorphBoundary>(grid);
   extract->Update();
-  vtkNew<vtkClassifyBoundary> classify;
-  classify->SetInputData(grid);
+  auto classify = grids::of<vtkClassifyBoundary>(grid);
   classify->Update();
   for (int surroundings = 0; surroundings < 3; ++surroundings)
   {
@@ -552,8 +544,7 @@ TEST(BoundaryDisplacement, OneAfterTheOtherMoveTwoParts)
   second->SetInputConnection(first->GetOutputPort());
   second->SetMovingToSurfaces();
   second->AddSurface(surfaceName(first, [](const Row& x) { return x[0] == 0; }).c_str());
-  second->SetDisplacementToVector();
-  second->SetVector(-1, 0, 0);
+  grids::moveBy(second, -1, 0, 0);
   second->SetSurroundingsToStay();
   for (const double height : { 0.7, 1.5, 2.5 })
   {
@@ -573,8 +564,7 @@ TEST(BoundaryDisplacement, OneAfterTheOtherMoveTwoParts)
   EXPECT_EQ(first->GetClassifyCount(), 1);
   EXPECT_EQ(second->GetClassifyCount(), 1);
 
-  vtkNew<vtkFEMWarpMorph> volume;
-  volume->SetInputData(grid);
+  auto volume = grids::of<vtkFEMWarpMorph>(grid);
   volume->SetBoundaryConnection(second->GetOutputPort());
   volume->Update();
   EXPECT_EQ(volume->GetPrescribedPoints(), 98);
@@ -646,8 +636,7 @@ TEST(BoundaryDisplacement, NamesOfPatchesAreKnownBeforeAnExecution)
   EXPECT_EQ(filter->GetSurfaceList()->GetNumberOfArrays(), 1);
 
   // Data that an update would replace say nothing.
-  vtkNew<vtkExtractMorphBoundary> extract;
-  extract->SetInputData(grid);
+  auto extract = grids::of<vtkExtractMorphBoundary>(grid);
   auto second = displaced::make(nullptr);
   second->SetInputConnection(extract->GetOutputPort());
   second->UpdateInformation();

@@ -213,8 +213,7 @@ TEST(BoundaryDisplacementCaching, InputsAreComparedByContent)
   EXPECT_NE(other, moved);
 
   // The arrays that tell the geometry.
-  vtkNew<vtkClassifyBoundary> classify;
-  classify->SetInputData(grid);
+  auto classify = grids::of<vtkClassifyBoundary>(grid);
   classify->Update();
   filter->SetInputData(classify->GetOutput());
   EXPECT_LE((result(filter) - moved).cwiseAbs().maxCoeff(), 1e-13);
@@ -273,8 +272,7 @@ TEST(BoundaryDisplacementCaching, ASelectionThatChangesIsEvaluatedAgain)
   filter->SetSelectionData(selection);
   filter->Update();
   EXPECT_EQ(filter->GetMovingPoints(), 2);
-  filter->SetDisplacementToVector();
-  filter->SetVector(1, 0, 0);
+  grids::moveBy(filter, 1, 0, 0);
   filter->Update();
   EXPECT_EQ(filter->GetChooseCount(), 1);
   auto* ids = vtkIdTypeArray::SafeDownCast(selection->GetNode(0)->GetSelectionList());
@@ -304,8 +302,7 @@ TEST(BoundaryDisplacementCaching, AnotherExtractorEvaluatesTheSelectionAgain)
   const vtkMTimeType time = filter->GetMTime();
   filter->SetSelectionExtractor(extractor);
   EXPECT_EQ(filter->GetMTime(), time);
-  filter->SetDisplacementToVector();
-  filter->SetVector(1, 0, 0);
+  grids::moveBy(filter, 1, 0, 0);
   filter->Update();
   EXPECT_EQ(extractor->Executions, 1);
   filter->SetSelectionExtractor(nullptr);

@@ -60,8 +60,7 @@ void byArray(
 void expectError(vtkBoundaryDisplacement* filter, const std::string& telling)
 {
   SCOPED_TRACE(telling);
-  grids::Listener listener(filter);
-  filter->Update();
+  const grids::Run listener(filter);
   listener.ExpectError(telling);
   EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 0);
   EXPECT_EQ(filter->GetMovingPoints(), 0);
@@ -130,12 +129,7 @@ TEST(BoundaryDisplacementErrors, TheMotion)
         f->SetDisplacementToTranslateRotateScale();
         f->SetTranslation(1e60, 0, 0);
       } },
-    { "`Vector` moves nodes beyond 1e50",
-      [](auto* f)
-      {
-        f->SetDisplacementToVector();
-        f->SetVector(0, 1e60, 0);
-      } },
+    { "`Vector` moves nodes beyond 1e50", [](auto* f) { grids::moveBy(f, 0, 1e60, 0); } },
     { "`Distance` moves nodes beyond 1e50",
       [](auto* f)
       {
@@ -188,8 +182,7 @@ TEST(BoundaryDisplacementErrors, TheInput)
   line->SetPoints(points);
   const vtkIdType ends[] = { 0, 1 };
   line->InsertNextCell(VTK_LINE, 2, ends);
-  vtkNew<vtkClassifyBoundary> classify;
-  classify->SetInputData(grids::hexes(2));
+  auto classify = grids::of<vtkClassifyBoundary>(grids::hexes(2));
   classify->Update();
   auto moved = grids::boundary(grids::hexes(2), grids::affine);
   moved->GetPoints()->SetPoint(3, NAN, 0, 0);
@@ -220,8 +213,7 @@ TEST(BoundaryDisplacementErrors, ACollapseIsAllowedAndNamed)
   transform->Scale(0, 1, 1);
   filter->SetTransform(transform);
   filter->SetSurroundingsToStay();
-  grids::Listener listener(filter);
-  filter->Update();
+  const grids::Run listener(filter);
   EXPECT_TRUE(listener.Errors.empty());
   listener.ExpectWarning("without area");
   EXPECT_EQ(filter->GetMovingPoints(), 9);

@@ -90,15 +90,13 @@ TEST(BoundarySliding, PlanesOfSymmetryStayPlanarWhileAHoleGrows)
     {
       grid->GetPoints()->SetPoint(i, place->TransformPoint(grid->GetPoint(i)));
     }
-    vtkNew<vtkMorphMesh> filter;
-    filter->SetInputData(grid);
+    auto filter = grids::of<vtkMorphMesh>(grid);
     filter->AddSurface(hole.c_str());
     filter->SetDisplacementToAlongNormals();
     filter->SetDistance(-0.3); // against the normal that points out of the mesh
     filter->AddSlidingSurface(first.c_str());
     filter->AddSlidingSurface(second.c_str());
-    grids::Listener listener(filter);
-    filter->Update();
+    const grids::Run listener(filter);
     ASSERT_TRUE(listener.Errors.empty()) << listener.Errors[0];
     EXPECT_TRUE(listener.Warnings.empty()) << listener.Warnings[0];
     EXPECT_STREQ(filter->GetMorphStatus(), "Valid");
@@ -150,8 +148,7 @@ TEST(BoundarySliding, TheOuterWallStaysWhereAHoleGrows)
   vtkNew<vtkTransform> grow;
   grow->Scale(1.2, 1.2, 1);
   filter->SetTransform(grow);
-  grids::Listener listener(filter);
-  filter->Update();
+  const grids::Run listener(filter);
   EXPECT_TRUE(listener.Warnings.empty()) << listener.Warnings[0];
   vtkPolyData* output = filter->GetOutput();
   const morph::Points x = displaced::restPositions(output), y = grids::points(output);
@@ -183,8 +180,7 @@ TEST(BoundarySliding, ACylinderStaysACylinderWhereItsEndMoves)
   filter->SetTransform(turn);
   filter->AddSlidingSurface(surface(grid, onHole).c_str());
   filter->AddSlidingSurface(surface(grid, onOuterWall).c_str());
-  grids::Listener listener(filter);
-  filter->Update();
+  const grids::Run listener(filter);
   const morph::Points x = displaced::restPositions(filter->GetOutput());
   const morph::Points y = grids::points(filter->GetOutput());
   vtkIdType along = 0;
@@ -223,8 +219,7 @@ TEST(BoundarySliding, NodesOfABumpySurfaceStayWhereNothingMoves)
     filter->SetMovingToSurfaces();
     filter->AddSurface(surface(grid, [](const Row& x) { return x[0] == 6; }).c_str());
     filter->AddSlidingSurface(surface(grid, [](const Row& x) { return x[2] > 3.5; }).c_str());
-    filter->SetDisplacementToVector();
-    filter->SetVector(0, 1e-9, 0);
+    grids::moveBy(filter, 0, 1e-9, 0);
     filter->Update();
     const morph::Points x = displaced::restPositions(filter->GetOutput());
     const morph::Points y = grids::points(filter->GetOutput());
@@ -243,10 +238,8 @@ TEST(BoundarySliding, SaysHowFarASurfaceLeavesItsShape)
   auto filter = displaced::make(grid);
   filter->SetMovingToSurfaces();
   filter->AddSurface(surface(grid, [](const Row& x) { return x[2] == 4; }).c_str());
-  filter->SetDisplacementToVector();
-  filter->SetVector(0.3, 0, 0.4);
-  grids::Listener listener(filter);
-  filter->Update();
+  grids::moveBy(filter, 0.3, 0, 0.4);
+  const grids::Run listener(filter);
   // Two sides keep their planes, and two are pulled 0.3 out of theirs by 0.5.
   listener.ExpectWarning(" by 0.3 (60 % of the largest displacement), Surface ");
   filter->SetVector(0.003, 0, 0.4); // within 1 %: they slide, but for the edge that moves
@@ -264,8 +257,7 @@ TEST(BoundarySliding, AVertexIsNoTouchUnlessItMovesAlone)
   auto filter = displaced::make(grid);
   filter->SetMovingToSurfaces();
   filter->AddSurface(surface(grid, [](const Row& x) { return x[2] == 4; }).c_str());
-  filter->SetDisplacementToVector();
-  filter->SetVector(0, 0, 0.4);
+  grids::moveBy(filter, 0, 0, 0.4);
   filter->Update();
   const auto followers = [&](const std::function<bool(const Row&)>& is)
   {
@@ -286,21 +278,18 @@ TEST(BoundarySliding, AVertexIsNoTouchUnlessItMovesAlone)
   filter->SetSelectionData(displaced::indices(vtkSelectionNode::POINT,
     displaced::nodesWhere(grid, [](const Row& x) { return x.norm() == 0; })));
   filter->SetVector(-0.4, -0.4, -0.4);
-  grids::Listener silence(filter);
-  filter->Update();
+  const grids::Run silence(filter);
   EXPECT_GT(followers(isInBottom), 10);
 }
 
 TEST(BoundarySliding, TheRadiusOfAHoleIsOneNumber)
 {
   auto grid = sector(90, 5);
-  vtkNew<vtkMorphMesh> filter;
-  filter->SetInputData(grid);
+  auto filter = grids::of<vtkMorphMesh>(grid);
   filter->AddSurface(surface(grid, onHole).c_str());
   filter->SetDisplacementToRadius();
   filter->SetRadiusChange(0.3);
-  grids::Listener listener(filter);
-  filter->Update();
+  const grids::Run listener(filter);
   ASSERT_TRUE(listener.Errors.empty()) << listener.Errors[0];
   EXPECT_TRUE(listener.Warnings.empty()) << listener.Warnings[0];
   const morph::Points x = grids::points(grid), y = grids::points(filter->GetOutput());
@@ -322,8 +311,7 @@ TEST(BoundarySliding, TheRadiusOfAHoleIsOneNumber)
 TEST(BoundarySliding, TheRadiusOfASphereIsOneNumber)
 {
   auto grid = grids::make(shapes::hollowBall(8));
-  vtkNew<vtkMorphMesh> filter;
-  filter->SetInputData(grid);
+  auto filter = grids::of<vtkMorphMesh>(grid);
   const double hole = 0.5;
   const auto isHole = [&](const Row& x) { return isAt(x.norm(), hole); };
   filter->AddSurface(surface(grid, isHole).c_str());
@@ -401,8 +389,7 @@ TEST(BoundarySliding, ANonlinearTransformAboutTheCenterOfWhatMoves)
 {
   auto grid = grids::make(meshes::hexes(4, 4, 4));
   vtkNew<vtkCylindricalTransform> polar; // (r, phi, z) to (r cos(phi), r sin(phi), z)
-  vtkNew<vtkMorphMesh> filter;
-  filter->SetInputData(grid);
+  auto filter = grids::of<vtkMorphMesh>(grid);
   filter->SetMovingToEverything();
   filter->SetTransform(polar);
   filter->SetScaleFactor(0.05);
@@ -427,13 +414,11 @@ TEST(BoundarySliding, NodesOfFreeSurfacesAreSolvedWithTheInterior)
   const auto isAtEnd = [](const Row& x) { return isAt(x[2], 0) || isAt(x[2], 1); };
   const auto isInside = [](const Row& x)
   { return radius(x) > 1.01 && radius(x) < 1.99 && x[0] > 0.01 && x[1] > 0.01; };
-  vtkNew<vtkMorphMesh> filter;
-  filter->SetInputData(grid);
+  auto filter = grids::of<vtkMorphMesh>(grid);
   filter->AddSurface(surface(grid, onHole).c_str());
   filter->SetDisplacementToRadius();
   filter->SetRadiusChange(0.3);
-  grids::Listener listener(filter);
-  filter->Update();
+  const grids::Run listener(filter);
   const morph::Points x = grids::points(grid), followed = grids::points(filter->GetOutput());
   const vtkIdType prescribed = filter->GetPrescribedPoints();
   for (const double end : { 0., 1. })
@@ -474,8 +459,7 @@ TEST(BoundarySliding, NodesOfFreeSurfacesAreSolvedWithTheInterior)
   auto displace = displaced::make(grid);
   displace->SetMovingToSurfaces();
   displace->AddSurface(surface(grid, onHole).c_str());
-  displace->SetDisplacementToVector();
-  displace->SetVector(0, 0, 0.1);
+  grids::moveBy(displace, 0, 0, 0.1);
   displace->AddFreeSurface(surface(grid, [](const Row& at) { return isAt(at[2], 1); }).c_str());
   displace->Update();
   EXPECT_EQ(displace->GetFreePoints(), freed / 2);
@@ -513,8 +497,7 @@ TEST(BoundarySliding, ABoundaryThatIsAllFreeIsAnError)
 
 TEST(BoundarySliding, NamesWhatDoesNotExist)
 {
-  vtkNew<vtkMorphMesh> filter;
-  filter->SetInputData(grids::make(meshes::hexes(2, 2, 2)));
+  auto filter = grids::of<vtkMorphMesh>(grids::make(meshes::hexes(2, 2, 2)));
   filter->SetMovingToEverything();
   filter->AddSlidingSurface("Curve 1");
   grids::expectError(filter, "`SlidingSurfaces` names 'Curve 1'");
@@ -526,10 +509,8 @@ TEST(BoundarySliding, SurfacesThatFoldAsTheyFollowSlideUntilTheyDoNot)
   auto filter = displaced::make(grid);
   filter->SetMovingToSurfaces();
   filter->AddSurface(displaced::surfaceName(filter, onHole).c_str());
-  filter->SetDisplacementToVector();
-  filter->SetVector(0.85, 0, 0);
-  const grids::Listener listener(filter);
-  filter->Update();
+  grids::moveBy(filter, 0.85, 0, 0);
+  const grids::Run listener(filter);
 
   ASSERT_EQ(listener.Warnings.size(), 1);
   EXPECT_NE(listener.Warnings[0].find("folded as they followed"), std::string::npos)

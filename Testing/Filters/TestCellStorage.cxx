@@ -159,16 +159,14 @@ INSTANTIATE_TEST_SUITE_P(, CellStorage, testing::ValuesIn(grids::morphFilters())
 TEST(CellStorageOfScaledJacobian, EveryStorageGivesTheSameQuality)
 {
   const auto grid = grids::hexes(4);
-  vtkNew<vtkScaledJacobian> expected;
-  expected->SetInputData(grid);
+  auto expected = grids::of<vtkScaledJacobian>(grid);
   expected->Update();
   for (const auto& [name, convert] : gridStorages())
   {
     SCOPED_TRACE(name);
     const auto other = grids::copy(grid);
     convert(other);
-    vtkNew<vtkScaledJacobian> filter;
-    filter->SetInputData(other);
+    auto filter = grids::of<vtkScaledJacobian>(other);
     filter->Update();
     EXPECT_GT(filter->GetMinScaledJacobian(), 0);
     EXPECT_EQ(filter->GetMinScaledJacobian(), expected->GetMinScaledJacobian());
@@ -181,8 +179,7 @@ TEST(CellStorageOfSurfaces, EveryStorageOfAMovedBoundaryMovesTheOthersAlike)
   const auto grid = grids::hexes(4);
   const auto run = [&](vtkPolyData* moved)
   {
-    vtkNew<vtkMorphBoundary> filter;
-    filter->SetInputData(grid);
+    auto filter = grids::of<vtkMorphBoundary>(grid);
     filter->SetBoundaryData(moved);
     filter->SetPrescribedDimension(1);
     filter->Update();
@@ -209,8 +206,7 @@ TEST(CellStorageOfSurfaces, EveryStorageOfATargetIsTheSameSurface)
   plane->Update();
   const auto run = [&](vtkPolyData* target)
   {
-    vtkNew<vtkMorphMesh> filter;
-    filter->SetInputData(grid);
+    auto filter = grids::of<vtkMorphMesh>(grid);
     filter->SetTargetData(target);
     filter->SetDisplacementToTarget();
     filter->Update();

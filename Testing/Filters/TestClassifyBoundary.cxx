@@ -116,8 +116,7 @@ TEST(ClassifyBoundary, SurfacesAreTheBoundaryThatTravels)
   auto grid = grids::make(meshes::quadraticTets(3, 2, 2));
   auto filter = classifier(grid);
   filter->Update();
-  vtkNew<vtkExtractMorphBoundary> extract;
-  extract->SetInputData(grid);
+  auto extract = grids::of<vtkExtractMorphBoundary>(grid);
   extract->Update();
   vtkPolyData* surfaces = filter->GetSurfaces();
   ASSERT_EQ(surfaces->GetNumberOfCells(), extract->GetOutput()->GetNumberOfCells());
@@ -152,8 +151,7 @@ TEST(ClassifyBoundary, SurfacesAreTheBoundaryThatTravels)
   EXPECT_EQ(ids, (std::set<double>{ 0, 1, 2, 3, 4, 5 }));
 
   // A morph takes them as they are.
-  vtkNew<vtkFEMWarpMorph> morph;
-  morph->SetInputData(grid);
+  auto morph = grids::of<vtkFEMWarpMorph>(grid);
   morph->SetBoundaryConnection(filter->GetOutputPort(1));
   grids::update(morph);
   EXPECT_EQ(grids::points(morph->GetOutput()), grids::points(grid));
@@ -243,8 +241,7 @@ TEST(ClassifyBoundary, GeometryArraysComeBack)
   classified->ShallowCopy(filter->GetOutput());
 
   auto again = classifier(classified);
-  grids::Listener listener(again);
-  again->Update();
+  const grids::Run listener(again);
   EXPECT_EQ(counts(again), fine);
   EXPECT_TRUE(listener.Warnings.empty());
   for (vtkIdType n = 0; n < classified->GetNumberOfPoints(); ++n)

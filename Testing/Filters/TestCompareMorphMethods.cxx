@@ -118,8 +118,7 @@ TEST_F(CompareMorphMethods, RowsAreWhatTheFiltersThemselvesGive)
         EXPECT_EQ(this->Number(0, row, "PrepareSeconds") > 0, relative ? step != 1 : step == 0);
         inverted = inverted || filter->GetInvertedCells() > 0;
 
-        vtkNew<vtkScaledJacobian> measure;
-        measure->SetInputData(filter->GetOutput());
+        auto measure = grids::of<vtkScaledJacobian>(filter->GetOutput());
         measure->SetCriteria("Skewness=.3");
         measure->Update();
         for (const char* column : { "Limit", "Worst", "WorstCellId", "CellsBeyond" })
@@ -297,8 +296,7 @@ TEST_F(CompareMorphMethods, AMethodThatFailsEndsItsRun)
   this->Filter->SetInputData(this->Grid);
   this->Filter->SetBoundaryData(boundary);
   this->Filter->SetFixUnnamedBoundary(false);
-  grids::Listener listener(this->Filter);
-  this->Filter->Update();
+  const grids::Run listener(this->Filter);
   EXPECT_TRUE(listener.Errors.empty());
   ASSERT_EQ(listener.Warnings.size(), 2u);
   EXPECT_NE(listener.Warnings[0].find("Simplex-linear, Absolute, step 0: "), std::string::npos)
@@ -318,8 +316,7 @@ TEST_F(CompareMorphMethods, CellsThatAreInvertedAtRestCountForNoMethod)
   this->Filter->SetInputData(grid);
   this->Filter->SetBoundaryData(
     grids::boundary(grid, [](const grids::Row& x) { return grids::Row(1.2 * x[0], x[1], x[2]); }));
-  grids::Listener listener(this->Filter);
-  this->Filter->Update();
+  const grids::Run listener(this->Filter);
   ASSERT_FALSE(listener.Warnings.empty());
   EXPECT_NE(listener.Warnings[0].find("The undeformed mesh has "), std::string::npos)
     << listener.Warnings[0];
@@ -341,8 +338,7 @@ TEST_F(CompareMorphMethods, AMessageComesOnceARun)
     ->GetArray("MorphPointId")
     ->SetName("vtkOriginalPointIds"); // draws a warning
   this->Filter->SetBoundaryData(boundary);
-  grids::Listener listener(this->Filter);
-  this->Filter->Update();
+  const grids::Run listener(this->Filter);
   EXPECT_EQ(this->Rows(0), 5);
   listener.ExpectWarning("FEMWARP, Absolute, step 0: ");
 }

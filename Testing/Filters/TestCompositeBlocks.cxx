@@ -127,8 +127,7 @@ vtkSmartPointer<vtkMorphMesh> lifting(vtkDataObject* data)
   filter->SetInputDataObject(data);
   filter->SetMovingToArray();
   filter->SetMovingArray("Left");
-  filter->SetDisplacementToVector();
-  filter->SetVector(0, 0, 0.3);
+  grids::moveBy(filter, 0, 0, 0.3);
   return filter;
 }
 
@@ -159,8 +158,7 @@ void setIds(vtkDataSet* data, vtkIdType first)
 
 vtkIdType boundaryFaces(vtkDataObject* data, int coincident)
 {
-  vtkNew<vtkExtractMorphBoundary> extract;
-  extract->SetInputDataObject(data);
+  auto extract = grids::of<vtkExtractMorphBoundary>(data);
   extract->SetCoincidentPoints(coincident);
   extract->Update();
   return extract->GetOutput()->GetNumberOfCells();
@@ -169,8 +167,7 @@ vtkIdType boundaryFaces(vtkDataObject* data, int coincident)
 /// The one error of a filter with this input, and none of the executive's.
 std::string errorOf(vtkDataObject* data)
 {
-  vtkNew<vtkExtractMorphBoundary> extract;
-  extract->SetInputDataObject(data);
+  auto extract = grids::of<vtkExtractMorphBoundary>(data);
   const std::string error = grids::errorOf(extract);
   EXPECT_EQ(extract->GetOutput()->GetNumberOfPoints(), 0);
   return error;
@@ -307,8 +304,7 @@ TEST(CompositeBlocks, SetsMoveWithTheirNodes)
   data->GetMetaData(3u)->Set(vtkCompositeDataSet::NAME(), "sensor");
 
   auto filter = lifting(data);
-  grids::Listener listener(filter);
-  filter->Update();
+  grids::Run listener(filter);
   vtkDataObject* output = filter->GetOutputDataObject(0);
   EXPECT_EQ(pointsOf(output, 2), (grids::points(patch).rowwise() + Row(0, 0, 0.3)).eval());
   EXPECT_EQ(pointsOf(output, 3).row(0), Row(0, 1, 1.3));
@@ -338,14 +334,11 @@ TEST(CompositeBlocks, SetsAreNamesOfSurfaces)
   auto patch = sideOf(box(2, 2, 2));
   data->SetBlock(1, patch);
   data->GetMetaData(1u)->Set(vtkCompositeDataSet::NAME(), "inlet");
-  vtkNew<vtkMorphMesh> filter;
-  filter->SetInputDataObject(data);
+  auto filter = grids::of<vtkMorphMesh>(data);
   filter->AddSurface("inlet");
-  filter->SetDisplacementToVector();
-  filter->SetVector(-0.3, 0.1, 0);
+  grids::moveBy(filter, -0.3, 0.1, 0);
   filter->SetSurroundings(0);
-  grids::Listener listener(filter);
-  filter->Update();
+  const grids::Run listener(filter);
   ASSERT_TRUE(listener.Errors.empty()) << listener.Errors[0];
   EXPECT_STREQ(filter->GetSurfaceList()->GetArrayName(0), "inlet");
   EXPECT_EQ(filter->GetSurfaceSizes()->GetValue(1), "4");
@@ -377,8 +370,7 @@ TEST(CompositeBlocks, SetsAreNamesOfSurfaces)
 TEST(CompositeBlocks, SurfacesArePickedInBlocks)
 {
   auto data = touching();
-  vtkNew<vtkMorphMesh> filter;
-  filter->SetInputDataObject(data);
+  auto filter = grids::of<vtkMorphMesh>(data);
   filter->Update(); // shows the boundary
   const auto picked = [&](vtkDataObject* shown, int type, const std::vector<morph::Index>& ids)
   {
@@ -491,8 +483,7 @@ TEST(CompositeBlocks, StructuredBlocksMove)
     }
   }
   // A measure moves nothing, and the types stay.
-  vtkNew<vtkScaledJacobian> measure;
-  measure->SetInputDataObject(data);
+  auto measure = grids::of<vtkScaledJacobian>(data);
   measure->Update();
   EXPECT_EQ(measure->GetMinScaledJacobian(), 1);
   EXPECT_EQ(measure->GetMeasuredCells(), 32);
@@ -545,8 +536,7 @@ TEST(CompositeBlocks, CellsOfTwoBlocksAreOne)
   ghost->GetCellData()->AddArray(flags);
   auto data = withBlocks({ { "ghosts", ghost }, { "mesh", a }, { "zone", zone } });
   EXPECT_EQ(boundaryFaces(data, 0), 32);
-  vtkNew<vtkScaledJacobian> measure;
-  measure->SetInputDataObject(data);
+  auto measure = grids::of<vtkScaledJacobian>(data);
   measure->Update();
   EXPECT_EQ(measure->GetMeasuredCells(), 12);
   auto filter = lifting(marked(data));
@@ -589,8 +579,7 @@ TEST(CompositeBlocks, EmptyBlocksAndOneBlock)
            { "inner", vtkSmartPointer<vtkMultiBlockDataSet>::New() } }) })
   {
     auto filter = lifting(data);
-    grids::Listener listener(filter);
-    filter->Update();
+    const grids::Run listener(filter);
     for (const std::string& warning : listener.Warnings)
     {
       EXPECT_EQ(warning.find("lock"), std::string::npos) << warning;
@@ -658,8 +647,7 @@ TEST(CompositeBlocks, ErrorsNameTheBlock)
   auto data = marked(touching());
   auto filter = lifting(data);
   filter->SetMovingArray("No such array");
-  grids::Listener listener(filter);
-  filter->Update();
+  const grids::Run listener(filter);
   EXPECT_EQ(listener.Errors.size(), 1u);
   EXPECT_STREQ(filter->GetMorphStatus(), "Failed");
   vtkDataObject* output = filter->GetOutputDataObject(0);
@@ -672,8 +660,7 @@ TEST(CompositeBlocks, ErrorsNameTheBlock)
 
 TEST(CompositeBlocks, NothingTickedShowsTheFacesOfEachBlock)
 {
-  vtkNew<vtkMorphMesh> filter;
-  filter->SetInputDataObject(touching());
+  auto filter = grids::of<vtkMorphMesh>(touching());
   filter->Update();
   vtkDataObject* output = filter->GetOutputDataObject(0);
   for (std::size_t leaf = 0; leaf < 2; ++leaf)
@@ -697,11 +684,9 @@ TEST(CompositeBlocks, SelectionsOfBlocksMove)
     // Cell 0 of the second leaf, the corner (2, 0, 0) to (3, 1, 1), or its first point.
     auto selection = displaced::indices(fieldType, { 0 });
     selection->GetNode(0)->GetProperties()->Set(vtkSelectionNode::COMPOSITE_INDEX(), 4);
-    vtkNew<vtkMorphMesh> filter;
-    filter->SetInputDataObject(data);
+    auto filter = grids::of<vtkMorphMesh>(data);
     filter->SetSelectionData(selection);
-    filter->SetDisplacementToVector();
-    filter->SetVector(0, -0.2, 0);
+    grids::moveBy(filter, 0, -0.2, 0);
     filter->SetSurroundings(0);
     grids::update(filter);
     vtkDataObject* output = filter->GetOutputDataObject(0);

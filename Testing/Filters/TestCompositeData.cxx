@@ -51,8 +51,7 @@ Row wave(const Row& x)
 
 vtkSmartPointer<vtkPolyData> movedBoundary(vtkDataObject* mesh)
 {
-  vtkNew<vtkExtractMorphBoundary> extract;
-  extract->SetInputDataObject(mesh);
+  auto extract = grids::of<vtkExtractMorphBoundary>(mesh);
   extract->Update();
   auto result = vtkSmartPointer<vtkPolyData>::New();
   result->ShallowCopy(extract->GetOutput());

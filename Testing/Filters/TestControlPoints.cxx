@@ -254,8 +254,7 @@ TEST(Lattice, TakesTablesAndListsAndLeavesWhatIsOutside)
 TEST(Lattice, OfMorphMeshMovesEverythingInTheBox)
 {
   auto grid = grids::hexes();
-  vtkNew<vtkMorphMesh> mesh;
-  mesh->SetInputData(grid);
+  auto mesh = grids::of<vtkMorphMesh>(grid);
   mesh->SetDisplacementToLattice();
   mesh->SetLatticeSize(2, 2, 2);
   for (int corner = 0; corner < 8; ++corner)

@@ -67,8 +67,7 @@ std::vector<std::string> warningsOf(const grids::Map& map)
 {
   auto grid = directed();
   auto filter = grids::morphed<vtkFEMWarpMorph>(grid, map);
-  grids::Listener listener(filter);
-  filter->Update();
+  const grids::Run listener(filter);
   EXPECT_TRUE(listener.Errors.empty());
   return listener.Warnings;
 }
@@ -78,10 +77,8 @@ TEST(Directions, NormalsAreLeftOut)
 {
   auto grid = directed();
   auto volume = grids::morphed<vtkFEMWarpMorph>(grid, turn(90));
-  vtkNew<vtkBoundaryDisplacement> displaced;
-  displaced->SetInputData(grid);
-  vtkNew<vtkMorphBoundary> boundary;
-  boundary->SetInputData(grid);
+  auto displaced = grids::of<vtkBoundaryDisplacement>(grid);
+  auto boundary = grids::of<vtkMorphBoundary>(grid);
   boundary->SetBoundaryData(grids::boundary(grid, turn(90)));
   for (vtkAlgorithm* filter : { static_cast<vtkAlgorithm*>(volume),
          static_cast<vtkAlgorithm*>(displaced), static_cast<vtkAlgorithm*>(boundary) })

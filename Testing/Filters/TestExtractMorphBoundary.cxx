@@ -22,8 +22,7 @@ namespace
 {
 vtkSmartPointer<vtkPolyData> extract(vtkUnstructuredGrid* grid)
 {
-  vtkNew<vtkExtractMorphBoundary> filter;
-  filter->SetInputData(grid);
+  auto filter = grids::of<vtkExtractMorphBoundary>(grid);
   filter->Update();
   return filter->GetOutput();
 }
@@ -249,8 +248,7 @@ TEST(ExtractMorphBoundary, OneErrorAndNoOutput)
   for (const auto& [input, telling] : cases)
   {
     SCOPED_TRACE(telling);
-    vtkNew<vtkExtractMorphBoundary> filter;
-    filter->SetInputData(grids::hexes(2));
+    auto filter = grids::of<vtkExtractMorphBoundary>(grids::hexes(2));
     filter->Update();
     grids::Listener listener(filter);
     filter->SetInputDataObject(input);

@@ -205,8 +205,7 @@ TEST(FieldDisplacement, LeavesNodesWithoutAValueFreeOrWhereTheyAre)
   {
     filter->SetMissingValues(stay ? vtkBoundaryDisplacement::MISSING_VALUES_STAY
                                   : vtkBoundaryDisplacement::MISSING_VALUES_FREE);
-    grids::Listener listener(filter);
-    filter->Update();
+    const grids::Run listener(filter);
     ASSERT_EQ(listener.Warnings.size(), 1u) << listener.Warnings.back();
     const auto rest = displaced::restPositions(filter->GetOutput());
     const auto missing = (rest.col(0).array() > 2).count();

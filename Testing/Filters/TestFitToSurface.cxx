@@ -389,8 +389,7 @@ TEST(FitToSurface, TheSurfacesThatTheTargetBelongsToMove)
   EXPECT_LT(filter->GetMaxTargetDistance(), 1e-6);
 
   // The same where the surface is chosen.
-  vtkNew<vtkMorphMesh> chosen;
-  chosen->SetInputData(grid);
+  auto chosen = grids::of<vtkMorphMesh>(grid);
   chosen->SetTargetData(lid(3.4, 0.2));
   chosen->SetDisplacementToTarget();
   auto displace = displaced::make(grid);
@@ -554,8 +553,7 @@ TEST(FitToSurface, NodesThatMissTheTargetAlongADirectionFollowTheOthers)
   // To its very rim, in single precision, nodes are on it.
   auto exact = make(grid, lid(3.4, 0));
   exact->SetProjectAlongToZ();
-  grids::Listener other(exact);
-  exact->Update();
+  const grids::Run other(exact);
   EXPECT_TRUE(other.Warnings.empty()) << other.Warnings[0];
   EXPECT_LT(exact->GetMaxTargetDistance(), 1e-6);
 }
@@ -564,8 +562,7 @@ TEST(FitToSurface, WithoutATargetTheBoundaryIsShown)
 {
   auto grid = brick();
   auto filter = make(grid, nullptr);
-  grids::Listener listener(filter);
-  filter->Update();
+  const grids::Run listener(filter);
   EXPECT_TRUE(listener.Errors.empty()) << listener.Errors[0];
   EXPECT_STREQ(filter->GetMorphStatus(), "None");
   filter->SetMovingToEverything();

@@ -73,8 +73,7 @@ protected:
   {
     this->Filter->SetInputData(grid);
     this->Filter->SetBoundaryData(boundary);
-    grids::Listener listener(this->Filter);
-    this->Filter->Update();
+    const grids::Run listener(this->Filter);
     this->Errors = listener.Errors;
     this->Warnings = listener.Warnings;
     return grids::points(this->Filter->GetOutput());
@@ -172,13 +171,11 @@ TEST_F(GivenBoundaries, NodesWithoutAValueAreFreeInMorphMesh)
     by.row(n) = rest(n, 0) > 3 ? Row(NaN, 0, 0) : Row(0, 0.1 * rest(n, 0), 0);
   }
   grids::addVectors(grid, "By", by);
-  vtkNew<vtkMorphMesh> filter;
-  filter->SetInputData(grid);
+  auto filter = grids::of<vtkMorphMesh>(grid);
   filter->SetMovingToEverything();
   filter->SetDisplacementToArray();
   filter->SetDisplacementArray("By");
-  grids::Listener listener(filter);
-  filter->Update();
+  const grids::Run listener(filter);
   EXPECT_TRUE(names(listener.Warnings, "25 of the 98 nodes that are to move have no displacement"));
   const morph::Points moved = grids::points(filter->GetOutput());
   for (morph::Index n = 0; n < rest.rows(); ++n)
@@ -221,17 +218,14 @@ TEST_F(GivenBoundaries, AMeshThatNothingHoldsIsToldOf)
   auto boundary = grids::boundary(grid, [](const Row& x) { return Row(x + Row(1, 2, 3)); });
   this->Run(grid, boundary);
   EXPECT_TRUE(this->Warnings.empty()); // all of the boundary moves
-  vtkNew<vtkMorphMesh> filter;
-  filter->SetInputData(grid);
-  filter->SetDisplacementToVector();
-  filter->SetVector(0, 0, 0.125);
+  auto filter = grids::of<vtkMorphMesh>(grid);
+  grids::moveBy(filter, 0, 0, 0.125);
   filter->AddSurface("Surface 0");
   for (int s = 1; s < 6; ++s)
   {
     filter->AddFreeSurface(("Surface " + std::to_string(s)).c_str());
   }
-  grids::Listener listener(filter);
-  filter->Update();
+  const grids::Run listener(filter);
   EXPECT_TRUE(names(listener.Warnings, "Nothing holds the mesh"));
   filter->SetFreeSurfaceStatus("Surface 5", 0);
   filter->AddFixedSurface("Surface 5");

@@ -2,6 +2,7 @@
 #include "TestGrids.h"
 
 #include "Mesh/Polyhedra.h"
+#include "vtkDisplacementAlgorithm.h"
 #include "vtkExtractMorphBoundary.h"
 
 #include <vtkAlgorithm.h>
@@ -89,6 +90,12 @@ vtkSmartPointer<vtkUnstructuredGrid> hexes(int n)
   return make(mesh);
 }
 
+void moveBy(vtkDisplacementAlgorithm* filter, double x, double y, double z)
+{
+  filter->SetDisplacementToVector();
+  filter->SetVector(x, y, z);
+}
+
 vtkSmartPointer<vtkUnstructuredGrid> copy(vtkUnstructuredGrid* grid)
 {
   auto result = vtkSmartPointer<vtkUnstructuredGrid>::New();
@@ -98,8 +105,7 @@ vtkSmartPointer<vtkUnstructuredGrid> copy(vtkUnstructuredGrid* grid)
 
 vtkSmartPointer<vtkPolyData> boundary(vtkUnstructuredGrid* grid, const Map& map)
 {
-  vtkNew<vtkExtractMorphBoundary> extract;
-  extract->SetInputData(grid);
+  auto extract = of<vtkExtractMorphBoundary>(grid);
   extract->Update();
   auto result = vtkSmartPointer<vtkPolyData>::New();
   result->ShallowCopy(extract->GetOutput());
@@ -196,8 +202,7 @@ void addTexts(vtkDataSet* data, const char* name, const std::vector<std::string>
 
 std::string errorOf(vtkAlgorithm* filter)
 {
-  const Listener listener(filter);
-  filter->Update();
+  const Run listener(filter);
   EXPECT_EQ(listener.Errors.size(), 1u);
   EXPECT_TRUE(listener.ExecutiveErrors.empty()) << listener.ExecutiveErrors[0];
   return listener.Errors.empty() ? std::string() : listener.Errors[0];
@@ -205,23 +210,20 @@ std::string errorOf(vtkAlgorithm* filter)
 
 void expectError(vtkAlgorithm* filter, const std::string& part)
 {
-  const Listener listener(filter);
-  filter->Update();
+  const Run listener(filter);
   listener.ExpectError(part);
 }
 
 void expectWarning(vtkAlgorithm* filter, const std::string& part)
 {
-  const Listener listener(filter);
-  filter->Update();
+  const Run listener(filter);
   EXPECT_TRUE(listener.Errors.empty()) << listener.Errors[0];
   listener.ExpectWarning(part);
 }
 
 void update(vtkAlgorithm* filter)
 {
-  const Listener listener(filter);
-  filter->Update();
+  const Run listener(filter);
   EXPECT_TRUE(listener.Errors.empty()) << listener.Errors[0];
 }
 
@@ -319,5 +321,11 @@ Listener::~Listener()
   this->Observers->Filter->RemoveObserver(this->Observers->Command);
   this->Observers->Filter->GetExecutive()->RemoveObserver(this->Observers->ExecutiveCommand);
   delete this->Observers;
+}
+
+Run::Run(vtkAlgorithm* filter)
+  : Listener(filter)
+{
+  filter->Update();
 }
 }

@@ -13,6 +13,7 @@
 
 class vtkAlgorithm;
 class vtkDataSetAttributes;
+class vtkDisplacementAlgorithm;
 
 /// Grids and boundaries for the tests of the filters, and what a filter says.
 namespace grids
@@ -25,6 +26,16 @@ using Map = std::function<Row(const Row&)>;
 vtkSmartPointer<vtkUnstructuredGrid> make(const morph::Mesh& mesh, int pointType = VTK_DOUBLE);
 /// A jittered hexahedral grid of n x n x n cells: the default input.
 vtkSmartPointer<vtkUnstructuredGrid> hexes(int n = 4);
+/// A filter with that input.
+template <typename Filter>
+vtkSmartPointer<Filter> of(vtkDataObject* input)
+{
+  auto filter = vtkSmartPointer<Filter>::New();
+  filter->SetInputDataObject(input);
+  return filter;
+}
+/// Makes a filter move its boundary by a vector.
+void moveBy(vtkDisplacementAlgorithm* filter, double x, double y, double z);
 /// A copy whose arrays are its own.
 vtkSmartPointer<vtkUnstructuredGrid> copy(vtkUnstructuredGrid* grid);
 
@@ -82,5 +93,11 @@ public:
 private:
   struct Tags;
   Tags* Observers;
+};
+
+/// A filter's update, and what the filter says in it.
+struct Run : Listener
+{
+  explicit Run(vtkAlgorithm* filter);
 };
 }

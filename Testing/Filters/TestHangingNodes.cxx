@@ -49,8 +49,7 @@ Points morphedBy(vtkUnstructuredGrid* grid, const grids::Map& map)
 
 TEST_P(HangingNodesOfFilters, FollowShapesAsAMorph)
 {
-  vtkNew<vtkMorphShapes> shapes;
-  shapes->SetInputDataObject(this->Grid);
+  auto shapes = grids::of<vtkMorphShapes>(this->Grid);
   shapes->AddShapeData(grids::boundary(this->Grid, bulged));
   shapes->AddShapeData(grids::boundary(this->Grid, grids::affine));
   shapes->SetTolerance(1e-12);
@@ -86,8 +85,7 @@ TEST_P(HangingNodesOfFilters, LeaveNoGapInSteps)
 
 TEST_P(HangingNodesOfFilters, AreComparedAsTheMethodsMoveThem)
 {
-  vtkNew<vtkCompareMorphMethods> compare;
-  compare->SetInputData(this->Grid);
+  auto compare = grids::of<vtkCompareMorphMethods>(this->Grid);
   compare->SetBoundaryData(grids::boundary(this->Grid, bulged));
   compare->SetNumberOfSteps(1);
   compare->SetInversionFree(false);

@@ -65,11 +65,9 @@ TEST_P(HostileSelections, DoNotCrash)
       SCOPED_TRACE(std::to_string(content) + ", list " + std::to_string(i));
       auto filter = displaced::make(grid);
       filter->SetMovingToSelection();
-      filter->SetDisplacementToVector();
-      filter->SetVector(1, 0, 0);
+      grids::moveBy(filter, 1, 0, 0);
       filter->SetSelectionData(selection(this->GetParam(), content, lists[i]));
-      grids::Listener listener(filter);
-      filter->Update();
+      const grids::Run listener(filter);
       const bool moved = filter->GetMovingPoints() > 0;
       EXPECT_EQ(listener.Errors.size(), moved ? 0u : 1u);
     }

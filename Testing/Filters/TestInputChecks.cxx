@@ -293,8 +293,7 @@ TEST_F(MorphBoundaryInputs, PlacesAndTargetsOfAllSizes)
       this->Filter->SetTargetData(target);
       this->Filter->SetBoundaryData(grids::boundary(this->Grid, times(1 + scale)));
       this->Filter->SetTargetReach(10);
-      grids::Listener listener(this->Filter);
-      this->Filter->Update();
+      const grids::Run listener(this->Filter);
       const bool isFar = size > 1;
       EXPECT_LE(listener.Errors.size(), size == 0 || isFar ? 1u : 0u);
       EXPECT_TRUE(!isFar || listener.Errors.at(0).find("farther from the mesh than 100,000") !=
@@ -321,8 +320,7 @@ TEST(MorphBoundaryOutput, NodesThatFollowBeyondAllPlacesAreNamed)
 {
   // The inner sphere is given; the outer one follows its expansion, twice as far.
   auto grid = grids::make(shapes::hollowBall(8));
-  vtkNew<vtkExtractMorphBoundary> extract;
-  extract->SetInputData(grid);
+  auto extract = grids::of<vtkExtractMorphBoundary>(grid);
   extract->Update();
   const morph::Points x = grids::points(extract->GetOutput());
   vtkDataArray* numbers = extract->GetOutput()->GetPointData()->GetArray("MorphPointId");
@@ -344,12 +342,10 @@ TEST(MorphBoundaryOutput, NodesThatFollowBeyondAllPlacesAreNamed)
   {
     auto moved = grids::cloud(factor * inner);
     grids::addIds(moved, "MorphPointId", ids);
-    vtkNew<vtkMorphBoundary> filter;
-    filter->SetInputData(grid);
+    auto filter = grids::of<vtkMorphBoundary>(grid);
     filter->SetBoundaryData(moved);
     filter->SetPrescribedDimension(2);
-    grids::Listener listener(filter);
-    filter->Update();
+    const grids::Run listener(filter);
     if (factor < 1e50)
     {
       EXPECT_TRUE(listener.Errors.empty()) << listener.Errors.front();
@@ -377,16 +373,13 @@ TEST(SinglePrecision, PositionsBeyondItAreAnError)
   expectError(morph, { "Single precision does not hold", "`OutputPointsPrecision` to double" });
   expectFinite(morph->GetOutput());
 
-  vtkNew<vtkBoundaryDisplacement> displace;
-  displace->SetInputData(grid);
-  displace->SetDisplacementToVector();
-  displace->SetVector(1e40, 0, 0);
+  auto displace = grids::of<vtkBoundaryDisplacement>(grid);
+  grids::moveBy(displace, 1e40, 0, 0);
   displace->SetOutputPointsPrecision(vtkAlgorithm::SINGLE_PRECISION);
   expectError(displace, { "Single precision does not hold", "`OutputPointsPrecision` to double" });
   expectFinite(displace->GetOutput());
 
-  vtkNew<vtkMorphBoundary> boundary;
-  boundary->SetInputData(grid);
+  auto boundary = grids::of<vtkMorphBoundary>(grid);
   boundary->SetBoundaryData(grids::boundary(grid, times(1e40)));
   boundary->SetOutputPointsPrecision(vtkAlgorithm::SINGLE_PRECISION);
   expectError(boundary, { "Single precision does not hold", "`OutputPointsPrecision` to double" });
@@ -417,10 +410,8 @@ TEST(SinglePrecision, CellsThatRoundingInvertsAreSaid)
 TEST(BoundaryDisplacementInputs, HugeMotions)
 {
   auto grid = grids::hexes(3);
-  vtkNew<vtkBoundaryDisplacement> filter;
-  filter->SetInputData(grid);
-  filter->SetDisplacementToVector();
-  filter->SetVector(1e60, 0, 0);
+  auto filter = grids::of<vtkBoundaryDisplacement>(grid);
+  grids::moveBy(filter, 1e60, 0, 0);
   expectError(filter, { "`Vector` moves nodes beyond 1e50: point ids" });
   filter->SetVector(1e30, 0, 0);
   filter->SetScaleFactor(1e30);
@@ -431,8 +422,7 @@ TEST(BoundaryDisplacementInputs, SurfaceWithAnotherNumberOfPoints)
 {
   // The same polygons: only the sizes tell them apart.
   vtkSmartPointer<vtkPolyData> surface = grids::boundary(grids::hexes(3), times(1));
-  vtkNew<vtkBoundaryDisplacement> filter;
-  filter->SetInputData(surface);
+  auto filter = grids::of<vtkBoundaryDisplacement>(surface);
   filter->Update();
   auto longer = grids::cloud(grids::points(surface).replicate(2, 1));
   longer->SetPolys(surface->GetPolys());
@@ -461,8 +451,7 @@ TEST(EmptyBoundary, IsSaid)
   meshes::add(mesh, morph::Triangle, { 0, 1, 3 });
   meshes::add(mesh, morph::Triangle, { 1, 2, 3 });
   meshes::add(mesh, morph::Triangle, { 0, 3, 2 });
-  vtkNew<vtkExtractMorphBoundary> filter;
-  filter->SetInputData(grids::make(mesh));
+  auto filter = grids::of<vtkExtractMorphBoundary>(grids::make(mesh));
   grids::expectWarning(filter, "The boundary is empty");
   EXPECT_EQ(filter->GetOutput()->GetNumberOfCells(), 0);
 }

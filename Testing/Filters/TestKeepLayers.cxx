@@ -57,8 +57,7 @@ vtkSmartPointer<vtkUnstructuredGrid> channel()
 TEST(KeepLayers, SurfacesBesideThemFollowThem)
 {
   auto grid = channel();
-  vtkNew<vtkMorphMesh> filter;
-  filter->SetInputData(grid);
+  auto filter = grids::of<vtkMorphMesh>(grid);
   filter->SetMoving(vtkMorphMesh::MOVING_ARRAY);
   filter->SetMovingArray("Wall");
   filter->SetDisplacement(vtkMorphMesh::DISPLACEMENT_ARRAY);

@@ -102,8 +102,7 @@ TEST_P(MorphAdjoint, IsTheDerivativeThroughTheFilter)
     auto carrier = grids::copy(morph->GetOutput());
     grids::addVectors(carrier, "Gradient", grids::points(carrier) - targets);
     auto adjoint = adjointOf(morph, grid, boundary, carrier);
-    grids::Listener listener(adjoint);
-    adjoint->Update();
+    const grids::Run listener(adjoint);
     if (!GetParam().linear)
     {
       listener.ExpectError("not a linear method");
@@ -176,8 +175,7 @@ protected:
   /// The only message of an adjoint with these inputs, which has no output then.
   std::string ErrorOf(vtkMorphAdjoint* adjoint)
   {
-    grids::Listener listener(adjoint);
-    adjoint->Update();
+    const grids::Run listener(adjoint);
     EXPECT_EQ(listener.Errors.size(), 1u);
     EXPECT_EQ(adjoint->GetOutput()->GetNumberOfPoints(), 0);
     return listener.Errors.empty() ? "" : listener.Errors.front();

@@ -126,8 +126,7 @@ TEST_F(MorphBadCells, GoWithTheResult)
   this->Filter->Update();
   ASSERT_GT(badCells(this->Filter)->GetNumberOfCells(), 0);
   this->Filter->SetValidityToRefuse();
-  grids::Listener listener(this->Filter);
-  this->Filter->Update();
+  const grids::Run listener(this->Filter);
   EXPECT_EQ(listener.Errors.size(), 1u);
   EXPECT_EQ(badCells(this->Filter)->GetNumberOfPoints(), 0);
   EXPECT_EQ(badCells(this->Filter)->GetCellData()->GetNumberOfArrays(), 0);

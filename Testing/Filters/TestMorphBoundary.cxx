@@ -132,8 +132,7 @@ TEST(MorphBoundary, AffineMotionOfTheVerticesMovesAllAndTheVolumeFollows)
       EXPECT_EQ(filter->GetFixedVertices(), 0);
       EXPECT_LE(worst(filter->GetOutput(), grids::affine), 1e-10 * meshes::size(mesh.points));
 
-      vtkNew<vtkFEMWarpMorph> volume;
-      volume->SetInputData(grid);
+      auto volume = grids::of<vtkFEMWarpMorph>(grid);
       volume->SetBoundaryConnection(filter->GetOutputPort());
       volume->Update();
       const morph::Points moved = grids::points(volume->GetOutput());
@@ -233,8 +232,7 @@ TEST(MorphBoundary, WhatIsWritten)
 TEST(MorphBoundary, AFewVerticesByIdAndClassifiedInput)
 {
   // Two vertices as bare points with ids; the others are held. Ids of interior nodes are ignored.
-  vtkNew<vtkClassifyBoundary> classify;
-  classify->SetInputData(grids::hexes(4));
+  auto classify = grids::of<vtkClassifyBoundary>(grids::hexes(4));
   classify->Update();
   auto* grid = classify->GetOutput();
   morph::Points targets(3, 3);
@@ -279,8 +277,7 @@ TEST(MorphBoundary, FoldedFacesAreNamed)
   auto moved = grids::cloud(targets);
   grids::addIds(moved, "MorphPointId", { 0 });
   auto filter = morpher(grid, moved);
-  grids::Listener listener(filter);
-  filter->Update();
+  const grids::Run listener(filter);
   EXPECT_LT(filter->GetMinScaledJacobian(), 0);
   EXPECT_GT(filter->GetFoldedFaces(), 0);
   listener.ExpectWarning("folded");
@@ -401,8 +398,7 @@ TEST(MorphBoundary, WallsOfATubeStayApart)
       });
     return mesh;
   };
-  vtkNew<vtkClassifyBoundary> classify;
-  classify->SetInputData(grids::make(tube(24, 24, 0)));
+  auto classify = grids::of<vtkClassifyBoundary>(grids::make(tube(24, 24, 0)));
   classify->Update();
   ASSERT_EQ(classify->GetNumberOfSurfaces(), 4);
   auto* grid = classify->GetOutput();
@@ -434,8 +430,7 @@ TEST(MorphBoundary, WhatATargetLacksIsNamed)
   sphere->SetThetaResolution(64);
   sphere->SetPhiResolution(64);
   filter->SetTargetConnection(sphere->GetOutputPort());
-  grids::Listener listener(filter);
-  filter->Update();
+  const grids::Run listener(filter);
   EXPECT_TRUE(listener.Errors.empty());
   ASSERT_FALSE(listener.Warnings.empty());
   EXPECT_NE(listener.Warnings[0].find("no feature edges"), std::string::npos)
@@ -591,8 +586,7 @@ TEST(MorphBoundary, OneErrorAndNoOutput)
     SCOPED_TRACE(c.Telling);
     auto filter = morpher(c.Grid, c.Moved);
     filter->SetTargetData(c.Target);
-    grids::Listener listener(filter);
-    filter->Update();
+    const grids::Run listener(filter);
     listener.ExpectError(c.Telling);
     EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 0);
     EXPECT_EQ(filter->GetMinScaledJacobian(), -1);

@@ -430,8 +430,7 @@ TEST_F(MorphErrors, InvertedRestCellsOnlyWarn)
   grid->GetPoints()->SetPoint(22, a);
   this->Filter->SetInputData(grid);
   this->Filter->SetBoundaryData(grids::boundary(grid, grids::twist));
-  grids::Listener listener(this->Filter);
-  this->Filter->Update();
+  const grids::Run listener(this->Filter);
   EXPECT_TRUE(listener.Errors.empty());
   ASSERT_EQ(listener.Warnings.size(), 2u);
   EXPECT_NE(listener.Warnings[0].find("Unless they become worse"), std::string::npos);

@@ -112,8 +112,7 @@ TEST(MorphExecution, AbortGivesTheMeshAtRestAndNoError)
         filter->SetAbortExecute(1);
       }
     });
-  grids::Listener listener(filter);
-  filter->Update();
+  const grids::Run listener(filter);
   EXPECT_TRUE(listener.Errors.empty());
   ASSERT_EQ(filter->GetOutput()->GetNumberOfPoints(), 17 * 17 * 17);
   EXPECT_EQ(filter->GetOutput()->GetNumberOfCells(), 16 * 16 * 16);

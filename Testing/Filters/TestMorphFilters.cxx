@@ -26,8 +26,7 @@ class MorphFilters : public testing::TestWithParam<grids::MorphFilter>
 protected:
   static vtkSmartPointer<vtkMorphAlgorithm> Make(vtkUnstructuredGrid* grid, vtkDataObject* boundary)
   {
-    auto filter = GetParam().of(grid, boundary);
-    return filter;
+    return GetParam().of(grid, boundary);
   }
 };
 
@@ -99,8 +98,7 @@ TEST_P(MorphFilters, MirroredMeshesAreToldOf)
   const auto mirror = [](const grids::Row& x) { return grids::Row(-x[0], x[1], x[2]); };
   auto filter = Make(grid, grids::boundary(grid, grids::twist));
   {
-    grids::Listener listener(filter);
-    filter->Update();
+    const grids::Run listener(filter);
     EXPECT_TRUE(listener.Warnings.empty());
   }
   EXPECT_EQ(filter->GetMirroredBodies(), 0);
@@ -322,8 +320,7 @@ TEST_P(MorphFilters, ShellsAndBeamsFollowTheVolume)
   const grids::Map rigid = [](const grids::Row& x)
   { return grids::Row(0.6 * x[0] - 0.8 * x[2], x[1] + 2, 0.8 * x[0] + 0.6 * x[2]); };
   auto filter = Make(grid, grids::boundary(grid, rigid));
-  grids::Listener listener(filter);
-  filter->Update();
+  const grids::Run listener(filter);
   const morph::Points x = grids::points(filter->GetOutput());
   for (morph::Index n = 64; n < 68; ++n)
   {
@@ -348,8 +345,7 @@ TEST_P(MorphFilters, CollapsedCellsAreMeasuredAsTheCellsThatTheyAre)
   meshes::add(mesh, VTK_HEXAHEDRON, { 0, 1, 2, 3, 0, 1, 2, 3 });
   auto grid = grids::make(mesh);
   auto filter = Make(grid, grids::boundary(grid, grids::affine));
-  grids::Listener listener(filter);
-  filter->Update();
+  const grids::Run listener(filter);
   EXPECT_TRUE(listener.Errors.empty() && listener.Warnings.empty());
   EXPECT_EQ(filter->GetMorphStatus(), std::string("Valid"));
   EXPECT_EQ(filter->GetDegenerateCells() + filter->GetInvertedCells(), 0);

@@ -51,8 +51,7 @@ protected:
   }
   Points RunAgain()
   {
-    grids::Listener listener(this->Filter);
-    this->Filter->Update();
+    const grids::Run listener(this->Filter);
     EXPECT_TRUE(listener.Errors.empty()) << listener.Errors[0];
     this->Warnings = listener.Warnings;
     return grids::points(this->Filter->GetOutput());

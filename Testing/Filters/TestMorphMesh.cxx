@@ -62,8 +62,7 @@ vtkSmartPointer<vtkMorphMesh> make(vtkUnstructuredGrid* grid)
   auto filter = vtkSmartPointer<vtkMorphMesh>::New();
   filter->SetInputData(grid);
   filter->AddSurface(topSurface(grid).c_str());
-  filter->SetDisplacementToVector();
-  filter->SetVector(Up[0], Up[1], Up[2]);
+  grids::moveBy(filter, Up[0], Up[1], Up[2]);
   return filter;
 }
 
@@ -74,10 +73,8 @@ vtkSmartPointer<vtkUnstructuredGrid> byTwoFilters(vtkUnstructuredGrid* grid, con
   auto displace = displaced::make(grid);
   displace->SetMovingToSurfaces();
   displace->AddSurface(topSurface(grid).c_str());
-  displace->SetDisplacementToVector();
-  displace->SetVector(up[0], up[1], up[2]);
-  vtkNew<Method> morph;
-  morph->SetInputData(grid);
+  grids::moveBy(displace, up[0], up[1], up[2]);
+  auto morph = grids::of<Method>(grid);
   morph->SetBoundaryConnection(displace->GetOutputPort());
   morph->SetValidityToRepair();
   morph->Update();
@@ -119,8 +116,7 @@ TEST(MorphMesh, SurfacesFollowByTheSurfaceMethod)
     filter->SetScale(scale);
     filter->SetSurroundingsToFollowEverywhere();
     filter->SetSurfaceMethod(method);
-    grids::Listener silence(filter);
-    filter->Update();
+    const grids::Run silence(filter);
 
     auto displace = displaced::make(grid);
     displace->SetMovingToSurfaces();
@@ -130,12 +126,10 @@ TEST(MorphMesh, SurfacesFollowByTheSurfaceMethod)
     displace->SetScale(scale);
     displace->SetSurroundingsToFollowEverywhere();
     displace->SetSurfaceMethod(method);
-    vtkNew<vtkFEMWarpMorph> morph;
-    morph->SetInputData(grid);
+    auto morph = grids::of<vtkFEMWarpMorph>(grid);
     morph->SetBoundaryConnection(displace->GetOutputPort());
     morph->SetValidityToRepair();
-    grids::Listener silent(morph);
-    morph->Update();
+    const grids::Run silent(morph);
     EXPECT_EQ(grids::points(filter->GetOutput()), grids::points(morph->GetOutput()));
     results.push_back(grids::points(filter->GetOutput()));
   }
@@ -173,8 +167,7 @@ TEST(MorphMesh, IsBoundaryDisplacementAndAMethodInOne)
 TEST(MorphMesh, WithNothingChosenTheBoundaryIsShownAndNothingIsWrong)
 {
   auto grid = box();
-  vtkNew<vtkMorphMesh> filter;
-  filter->SetInputData(grid);
+  auto filter = grids::of<vtkMorphMesh>(grid);
   filter->SetVector(1, 2, 3);
   grids::Listener listener(filter);
   struct Case
@@ -231,8 +224,7 @@ TEST(MorphMesh, WithNothingChosenTheBoundaryIsShownAndNothingIsWrong)
 
 TEST(MorphMesh, SurfacesAreListedBeforeTheFirstExecution)
 {
-  vtkNew<vtkMorphMesh> filter;
-  filter->SetInputData(box());
+  auto filter = grids::of<vtkMorphMesh>(box());
   filter->UpdateInformation();
   ASSERT_EQ(filter->GetSurfaceList()->GetNumberOfArrays(), 18);
   EXPECT_STREQ(filter->GetSurfaceList()->GetArrayName(0), "Surface 0");
@@ -314,8 +306,7 @@ TEST(MorphMesh, RepairsUnlessItIsLive)
   auto grid = box();
   const auto wave = [](const Row& x) { return Row(0, 0, 1.6 * std::sin(M_PI / 2 * x[0])); };
   grids::addVectors(grid, "Waves", grids::mapped(grids::points(grid), wave));
-  vtkNew<vtkMorphMesh> filter;
-  filter->SetInputData(grid);
+  auto filter = grids::of<vtkMorphMesh>(grid);
   filter->SetMovingToEverything();
   filter->SetDisplacementToArray();
   filter->SetDisplacementArray("Waves");
@@ -502,6 +493,18 @@ TEST(MorphMesh, RelativeStepsTurnWithThePart)
   EXPECT_EQ(filter->GetPrepareCount(), prepared);
 }
 
+TEST(MorphMesh, TheFirstRelativeStepsServeTheNext)
+{
+  auto grid = box();
+  auto filter = make(grid);
+  filter->SetNumberOfSteps(4);
+  filter->SetSteppingToRelative();
+  filter->UpdateTimeStep(2);
+  const int prepared = filter->GetPrepareCount();
+  filter->UpdateTimeStep(3);
+  EXPECT_EQ(filter->GetPrepareCount(), prepared + 1);
+}
+
 TEST(MorphMesh, RelativeStepsOfAnotherMotionAreAnotherSeries)
 {
   auto grid = box();
@@ -557,16 +560,13 @@ TEST(MorphMesh, BodiesThatTouchAndPartAreWarnedOfUnlessTheyAreTied)
   morph::Mesh above = meshes::hexes(4, 4, 4);
   meshes::transform(above, [](const Row& x) { return Row(x + Row(0, 0, 4)); });
   const auto grid = grids::make(shapes::together(meshes::hexes(4, 4, 4), above));
-  vtkNew<vtkMorphMesh> filter;
-  filter->SetInputData(grid);
+  auto filter = grids::of<vtkMorphMesh>(grid);
   for (int below = 0; below < 6; ++below)
   {
     filter->AddSurface(("Surface " + std::to_string(below)).c_str());
   }
-  filter->SetDisplacementToVector();
-  filter->SetVector(0.25, 0, -0.125);
-  grids::Listener listener(filter);
-  filter->Update();
+  grids::moveBy(filter, 0.25, 0, -0.125);
+  grids::Run listener(filter);
   ASSERT_EQ(listener.Warnings.size(), 1u);
   for (const char* part :
     { "50 nodes part", "up to 0.2795", "Surface 5, Surface 6", "ContactDistance" })

@@ -73,8 +73,7 @@ void expectRiseOfMorph()
     for (int validity : { vtkMorphAlgorithm::VALIDITY_NONE, vtkMorphAlgorithm::VALIDITY_SUB_STEP,
            vtkMorphAlgorithm::VALIDITY_REPAIR })
     {
-      vtkNew<Filter> filter;
-      filter->SetInputData(grid);
+      auto filter = grids::of<Filter>(grid);
       filter->SetBoundaryData(grids::boundary(grid, map));
       filter->SetValidity(validity);
       filter->PostSmoothOn();
@@ -105,31 +104,25 @@ TEST(MorphProgress, OfEveryOtherFilterRises)
 {
   auto grid = grids::hexes(4);
   auto moved = grids::boundary(grid, waves);
-  vtkNew<vtkExtractMorphBoundary> extract;
-  extract->SetInputData(grid);
+  auto extract = grids::of<vtkExtractMorphBoundary>(grid);
   expectRise(extract);
-  vtkNew<vtkClassifyBoundary> classify;
-  classify->SetInputData(grid);
+  auto classify = grids::of<vtkClassifyBoundary>(grid);
   expectRise(classify);
-  vtkNew<vtkScaledJacobian> quality;
-  quality->SetInputData(grid);
+  auto quality = grids::of<vtkScaledJacobian>(grid);
   quality->CertifyOn();
   expectRise(quality);
-  vtkNew<vtkMorphBoundary> boundary;
-  boundary->SetInputData(grid);
+  auto boundary = grids::of<vtkMorphBoundary>(grid);
   boundary->SetBoundaryData(moved);
   expectRise(boundary);
   expectRise(displaced::make(grid));
-  vtkNew<vtkCompareMorphMethods> compare;
-  compare->SetInputData(grid);
+  auto compare = grids::of<vtkCompareMorphMethods>(grid);
   compare->SetBoundaryData(moved);
   compare->SetNumberOfSteps(2);
   expectRise(compare);
   vtkNew<vtkFEMWarpMorph> morph;
   auto carrier = grids::copy(grid);
   grids::addVectors(carrier, "Gradient", morph::Points::Ones(grid->GetNumberOfPoints(), 3));
-  vtkNew<vtkMorphAdjoint> adjoint;
-  adjoint->SetInputData(grid);
+  auto adjoint = grids::of<vtkMorphAdjoint>(grid);
   adjoint->SetBoundaryData(moved);
   adjoint->SetGradientData(carrier);
   adjoint->SetGradientArray("Gradient");

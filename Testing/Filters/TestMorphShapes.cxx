@@ -279,8 +279,7 @@ TEST(MorphShapes, AShapeThatChangesInPlaceIsSolvedAgain)
   auto shape = grids::boundary(grid, grids::twist);
   const auto filterOf = [&]
   {
-    vtkNew<vtkMorphShapes> filter;
-    filter->SetInputData(grid);
+    auto filter = grids::of<vtkMorphShapes>(grid);
     filter->AddShapeData(shape);
     filter->SetWeight(0, .5);
     filter->Update();
@@ -505,8 +504,7 @@ TEST(MorphShapes, AdjointIsTheDerivativeByTheWeights)
   objective(at);
   auto carrier = grids::copy(filter->GetOutput());
   grids::addVectors(carrier, "Gradient", grids::points(carrier) - target);
-  vtkNew<vtkMorphAdjoint> adjoint;
-  adjoint->SetInputData(grid);
+  auto adjoint = grids::of<vtkMorphAdjoint>(grid);
   adjoint->SetGradientData(carrier);
   adjoint->SetGradientArray("Gradient");
   adjoint->SetMorphShapes(filter);

@@ -413,8 +413,7 @@ TEST(MorphStepsOfARange, AreEqualPartsOfIt)
   vtkNew<MovingBoundary> boundary;
   boundary->From = grids::boundary(grid, [](const grids::Row& x) { return x; });
   boundary->To = grids::boundary(grid, bulge);
-  vtkNew<vtkSimplexLinearMorph> filter;
-  filter->SetInputData(grid);
+  auto filter = grids::of<vtkSimplexLinearMorph>(grid);
   filter->SetBoundaryConnection(boundary->GetOutputPort());
   filter->SetNumberOfSteps(4);
   EXPECT_EQ(timesOf(filter), (std::vector<double>{ 0, 0.25, 0.5, 0.75, 1 }));

@@ -156,8 +156,7 @@ TEST_P(MorphSurface, IsTheUndeformedOneAfterAnError)
   auto boundary = grids::boundary(grid, bulge(1));
   boundary->GetPoints()->SetPoint(0, std::numeric_limits<double>::quiet_NaN(), 0, 0);
   filter->SetBoundaryData(boundary);
-  grids::Listener listener(filter);
-  filter->Update();
+  const grids::Run listener(filter);
   ASSERT_EQ(listener.Errors.size(), 1u);
   expectUndeformed(grid, surfaceOf(filter));
   // Also where the mesh was not looked at.
@@ -209,14 +208,12 @@ INSTANTIATE_TEST_SUITE_P(Filters, MorphSurface, testing::ValuesIn(grids::morphFi
 TEST(MorphMeshSurface, IsThatOfTheMethodOrTheBoundaryThatIsChosenFrom)
 {
   auto grid = grids::hexes(4);
-  vtkNew<vtkMorphMesh> filter;
-  filter->SetInputData(grid);
+  auto filter = grids::of<vtkMorphMesh>(grid);
   filter->Update();
   EXPECT_EQ(surfaceOf(filter)->GetNumberOfCells(), 6 * 16);
   EXPECT_NE(surfaceOf(filter)->GetCellData()->GetArray("SurfaceId"), nullptr);
   filter->SetMovingToEverything();
-  filter->SetDisplacementToVector();
-  filter->SetVector(1, 2, 3);
+  grids::moveBy(filter, 1, 2, 3);
   filter->Update();
   vtkCellArray* polygons = surfaceOf(filter)->GetPolys();
   expectSurfaceOf(filter->GetOutput(), surfaceOf(filter));

@@ -138,8 +138,7 @@ TEST_F(MorphValidity, BoundariesThatInvertCellsByThemselvesAreNamedAtOnce)
   {
     auto filter = grids::morphed<vtkInversionFreeMorph>(this->Grid, cornerPushedIn);
     filter->SetValidity(mode);
-    grids::Listener listener(filter);
-    filter->Update();
+    const grids::Run listener(filter);
     listener.ExpectError("boundary itself inverts 1 cells");
     listener.ExpectError("cell ids 0.");
     EXPECT_TRUE(grids::points(filter->GetOutput()) == grids::points(this->Grid));
@@ -197,8 +196,7 @@ TEST_F(MorphValidity, WhatTheBoundaryInvertsIsCountedWhereNoResultIs)
   {
     filter->SetNumberOfSteps(steps);
     filter->SetSteppingToRelative();
-    grids::Listener listener(filter);
-    filter->Update();
+    const grids::Run listener(filter);
     ASSERT_EQ(listener.Errors.size(), 1u);
     EXPECT_EQ(filter->GetBoundaryInvertedCells(), 1);
     EXPECT_EQ(filter->GetBoundaryDeterminedCells(), 1);
@@ -234,8 +232,7 @@ TEST_F(MorphValidity, ATangledMeshThatCannotBeUntangledGivesTheBestMeshAndAnErro
     }
     filter->SetValidityToReport();
     {
-      grids::Listener listener(filter);
-      filter->Update();
+      const grids::Run listener(filter);
       ASSERT_FALSE(listener.Warnings.empty());
       // The method does not advise itself.
       const std::string& last = listener.Warnings.back();
@@ -245,8 +242,7 @@ TEST_F(MorphValidity, ATangledMeshThatCannotBeUntangledGivesTheBestMeshAndAnErro
     ASSERT_GT(bad, 0);
     {
       filter->SetValidityToRepairAll();
-      grids::Listener listener(filter);
-      filter->Update();
+      const grids::Run listener(filter);
       ASSERT_EQ(listener.Errors.size(), 1u);
       const std::string& error = listener.Errors[0];
       EXPECT_NE(error.find("the result is the best that was"), std::string::npos) << error;
@@ -284,8 +280,7 @@ TEST_F(MorphValidity, CellsThatWereInvertedBeforeRefuseNothing)
   {
     SCOPED_TRACE(mode);
     filter->SetValidity(mode);
-    grids::Listener listener(filter);
-    filter->Update();
+    const grids::Run listener(filter);
     EXPECT_TRUE(listener.Errors.empty()) << listener.Errors[0];
     ASSERT_FALSE(listener.Warnings.empty());
     EXPECT_NE(listener.Warnings[0].find("Repair all"), std::string::npos) << listener.Warnings[0];
@@ -361,8 +356,7 @@ TEST_F(MorphValidity, CellsThatAreThereTwiceAndNodesWhereBodiesTouchAreNamed)
   }
   meshes::add(mesh, mesh.types[0], nodes);
   auto filter = grids::morphed<vtkFEMWarpMorph>(grids::make(mesh), grids::affine);
-  grids::Listener listener(filter);
-  filter->Update();
+  const grids::Run listener(filter);
   ASSERT_EQ(listener.Warnings.size(), 2u);
   EXPECT_NE(listener.Warnings[0].find("Cells are there twice"), std::string::npos);
   EXPECT_NE(listener.Warnings[0].find("cell ids 0, 8."), std::string::npos);
@@ -411,8 +405,7 @@ TEST_F(MorphValidity, WhereEveryNodeIsPrescribedTheMovedMeshIsTheResult)
   {
     filter->SetBoundaryData(grids::boundary(grid, twisted));
     filter->SetValidity(mode);
-    grids::Listener listener(filter);
-    filter->Update();
+    const grids::Run listener(filter);
     if (mode == vtkMorphAlgorithm::VALIDITY_REPORT)
     {
       EXPECT_TRUE(listener.Errors.empty());
@@ -496,8 +489,7 @@ grids::Map intoTheGap(double way)
 TEST(Crossings, AreCountedAndNamedAndAStatus)
 {
   auto filter = grids::morphed<vtkFEMWarpMorph>(twoProngs(), intoTheGap(3));
-  grids::Listener listener(filter);
-  filter->Update();
+  const grids::Run listener(filter);
   EXPECT_EQ(filter->GetInvertedCells(), 0);
   EXPECT_GT(filter->GetCrossingFaces(), 1);
   EXPECT_EQ(filter->GetOutput()->GetFieldData()->GetArray("CrossingFaces")->GetComponent(0, 0),
@@ -531,13 +523,11 @@ TEST(Crossings, AreMarkedOnTheSurface)
 TEST(Crossings, OfShapesAreCountedAndEndTheirRanges)
 {
   auto grid = twoProngs();
-  vtkNew<vtkMorphShapes> filter;
-  filter->SetInputData(grid);
+  auto filter = grids::of<vtkMorphShapes>(grid);
   filter->AddShapeData(grids::boundary(grid, intoTheGap(1)));
   filter->SetWeight(0, 3);
   filter->FindValidRangesOn();
-  grids::Listener listener(filter);
-  filter->Update();
+  const grids::Run listener(filter);
   EXPECT_STREQ(filter->GetMorphStatus(), "CrossesItself");
   EXPECT_GT(filter->GetCrossingFaces(), 1);
   listener.ExpectWarning("Right");
@@ -553,8 +543,7 @@ TEST(Crossings, SubStepsEndBeforeThem)
 {
   auto filter = grids::morphed<vtkFEMWarpMorph>(twoProngs(), intoTheGap(3));
   filter->SetValidityToSubStep();
-  grids::Listener listener(filter);
-  filter->Update();
+  const grids::Run listener(filter);
   EXPECT_STREQ(filter->GetMorphStatus(), "Partial");
   EXPECT_EQ(filter->GetCrossingFaces(), 0);
   EXPECT_LE(filter->GetLargestValidStep(), 2. / 3 + 1e-3);
@@ -567,8 +556,7 @@ TEST(Crossings, AreNoneWhereTheGapStaysOrCloses)
   for (const double way : { 1., 1.9, 2. })
   {
     auto filter = grids::morphed<vtkFEMWarpMorph>(twoProngs(), intoTheGap(way));
-    grids::Listener listener(filter);
-    filter->Update();
+    const grids::Run listener(filter);
     EXPECT_EQ(filter->GetCrossingFaces(), 0) << way;
     EXPECT_STREQ(filter->GetMorphStatus(), "Valid") << way;
     EXPECT_TRUE(listener.Warnings.empty()) << listener.Warnings[0];
@@ -594,16 +582,13 @@ TEST(Crossings, HaveTheNamesOfTheSurfaceListWithoutSets)
 {
   auto grid = twoProngs();
   grid->GetFieldData()->RemoveArray("SurfaceNames");
-  vtkNew<vtkMorphMesh> filter;
-  filter->SetInputData(grid);
+  auto filter = grids::of<vtkMorphMesh>(grid);
   filter->SetMovingToRegion();
   vtkNew<vtkBox> prong;
   prong->SetBounds(-1, 5.5, -1, 3, 2.5, 9);
   filter->SetRegion(prong);
-  filter->SetDisplacementToVector();
-  filter->SetVector(3, 0, 0);
-  grids::Listener listener(filter);
-  filter->Update();
+  grids::moveBy(filter, 3, 0, 0);
+  const grids::Run listener(filter);
   EXPECT_STREQ(filter->GetMorphStatus(), "CrossesItself");
   EXPECT_GT(filter->GetCrossingFaces(), 1);
   ASSERT_FALSE(listener.Warnings.empty());

@@ -7,8 +7,6 @@
 #include "vtkMorphMesh.h"
 #include "vtkMorphShapes.h"
 
-#include <vtkNew.h>
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -39,12 +37,7 @@ double largestMove(vtkUnstructuredGrid* rest, vtkPointSet* moved)
 
 /// The kinds of displacement of Morph Mesh that a number can make.
 const std::vector<std::pair<std::string, void (*)(vtkMorphMesh*, double)>> Motions = {
-  { "Vector",
-    [](vtkMorphMesh* f, double by)
-    {
-      f->SetDisplacementToVector();
-      f->SetVector(0, by, 0);
-    } },
+  { "Vector", [](vtkMorphMesh* f, double by) { grids::moveBy(f, 0, by, 0); } },
   { "AlongNormals",
     [](vtkMorphMesh* f, double by)
     {
@@ -88,8 +81,7 @@ TEST_P(NothingAsked, EveryMethodAndDisplacement)
     for (const auto& [motion, ask] : Motions)
     {
       SCOPED_TRACE(body + ", " + motion);
-      vtkNew<vtkMorphMesh> filter;
-      filter->SetInputData(grid);
+      auto filter = grids::of<vtkMorphMesh>(grid);
       filter->SetMethod(GetParam());
       filter->SetValidity(vtkMorphAlgorithm::VALIDITY_REPORT);
       filter->AddSurface("Surface 1");
@@ -117,8 +109,7 @@ TEST(NothingAskedOf, WeightsOfShapes)
   for (const auto& [body, mesh] : bodies())
   {
     auto grid = grids::make(mesh);
-    vtkNew<vtkMorphShapes> filter;
-    filter->SetInputData(grid);
+    auto filter = grids::of<vtkMorphShapes>(grid);
     filter->AddShapeData(grids::boundary(grid, grids::affine));
     filter->AddShapeData(grids::boundary(grid,
       [](const grids::Row& x) { return grids::Row(x[0] + 0.01 * std::sin(x[1]), x[1], x[2]); }));
@@ -138,12 +129,10 @@ TEST(NothingAskedOf, RepairOfAValidResult)
   {
     SCOPED_TRACE(body);
     auto grid = grids::make(mesh);
-    vtkNew<vtkMorphMesh> filter;
-    filter->SetInputData(grid);
+    auto filter = grids::of<vtkMorphMesh>(grid);
     filter->SetValidity(vtkMorphAlgorithm::VALIDITY_REPAIR);
     filter->AddSurface("Surface 1");
-    filter->SetDisplacementToVector();
-    filter->SetVector(1e-9, 0, 0);
+    grids::moveBy(filter, 1e-9, 0, 0);
     filter->Update();
     EXPECT_LE(largestMove(grid, filter->GetOutput()), 1e-7);
   }

@@ -5,7 +5,6 @@
 #include "vtkFEMWarpMorph.h"
 
 #include <vtkDataArray.h>
-#include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkSelection.h>
 #include <vtkSelectionNode.h>
@@ -54,8 +53,7 @@ vtkSmartPointer<vtkBoundaryDisplacement> moved(vtkUnstructuredGrid* grid, const 
     }
   }
   filter->SetSelectionData(displaced::indices(vtkSelectionNode::POINT, ids));
-  filter->SetDisplacementToVector();
-  filter->SetVector(by[0], by[1], by[2]);
+  grids::moveBy(filter, by[0], by[1], by[2]);
   return filter;
 }
 
@@ -149,8 +147,7 @@ TEST(PeriodicSides, AMorphKeepsThemImages)
   const auto grid = mapped(meshes::hexes(4, Around, 4), passage);
   auto filter = moved(grid, Row(-0.1, 0.05, 0.03));
   filter->SetPeriodicSurfaces(pair(filter, passage, 1, Around).c_str());
-  vtkNew<vtkFEMWarpMorph> morph;
-  morph->SetInputData(grid);
+  auto morph = grids::of<vtkFEMWarpMorph>(grid);
   morph->SetBoundaryConnection(filter->GetOutputPort());
   morph->Update();
   const Points points = grids::points(morph->GetOutput()), box = meshes::hexes(4, Around, 4).points;
@@ -183,8 +180,7 @@ TEST(PeriodicSides, WhatCannotBeIsSaid)
     {
       filter->AddFreeSurface(sides.substr(0, sides.find(" =")).c_str());
     }
-    grids::Listener listener(filter);
-    filter->Update();
+    const grids::Run listener(filter);
     return listener.Errors.empty() ? std::string() : listener.Errors[0];
   };
   EXPECT_NE(error("Surface 0").find("is no pair of names"), std::string::npos);
@@ -205,8 +201,7 @@ TEST(PeriodicSides, MotionsOfBothSidesThatAreNoImagesTakeTheMean)
   const auto warnings = [&](const Row& by)
   {
     filter->SetVector(by[0], by[1], by[2]);
-    grids::Listener listener(filter);
-    filter->Update();
+    const grids::Run listener(filter);
     EXPECT_TRUE(listener.Errors.empty()) << listener.Errors[0];
     std::string all;
     for (const std::string& warning : listener.Warnings)

@@ -246,12 +246,10 @@ TEST(ListedSurfaces, SurfacesAndCurvesWhereTheResultHasThem)
 TEST(ListedSurfaces, AMotionIsShownBeforeItIsMade)
 {
   auto grid = grids::make(meshes::hexes(3, 3, 3));
-  vtkNew<vtkMorphMesh> filter;
-  filter->SetInputData(grid);
+  auto filter = grids::of<vtkMorphMesh>(grid);
   filter->UpdateInformation();
   vtkNew<vtkBoundaryDisplacement> motion; // which has no input
-  motion->SetDisplacementToVector();
-  motion->SetVector(0, 0, 0.5);
+  grids::moveBy(motion, 0, 0, 0.5);
   vtkNew<vtkListedSurfaces> shown;
   shown->SetFilter(filter);
   shown->SetMotion(motion);
@@ -273,8 +271,7 @@ TEST(ListedSurfaces, AMotionIsShownBeforeItIsMade)
   EXPECT_EQ(shown->GetOutput()->GetNumberOfCells(), 0);
   motion->SetDisplacementToRadius(); // of a plane: the execution says that it has none
   motion->SetRadiusChange(0.1);
-  grids::Listener listener(shown);
-  shown->Update();
+  const grids::Run listener(shown);
   EXPECT_EQ(shown->GetOutput()->GetNumberOfCells(), 0);
   EXPECT_TRUE(listener.Errors.empty());
 }

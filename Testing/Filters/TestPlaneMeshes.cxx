@@ -321,8 +321,7 @@ TEST(PlaneMeshes, PolygonalDataAndBlocksAreMorphedAlike)
 TEST(PlaneMeshes, BlocksShowTheirEdgesWhereNothingMovesYet)
 {
   auto blocks = blocks::multiBlock(blocks::quarters(plate(), true));
-  vtkNew<vtkMorphMesh> filter;
-  filter->SetInputData(blocks);
+  auto filter = grids::of<vtkMorphMesh>(blocks);
   filter->Update();
   vtkIdType edges = 0;
   for (const auto& leaf : blocks::leaves(filter->GetOutputDataObject(0)))
@@ -342,8 +341,7 @@ TEST(PlaneMeshes, StepsZonesAndLayersAreAsForSolids)
   const Points rest = grids::points(grid);
   const auto turn = inPlane([](const Row& x) { return turnedBy(x, 1.2); });
   grids::addVectors(grid, "Motion", grids::mapped(rest, turn) - rest);
-  vtkNew<vtkMorphMesh> filter;
-  filter->SetInputData(grid);
+  auto filter = grids::of<vtkMorphMesh>(grid);
   filter->SetMoving(vtkMorphMesh::MOVING_ARRAY);
   filter->SetMovingArray("Hole");
   filter->SetDisplacement(vtkMorphMesh::DISPLACEMENT_ARRAY);
@@ -373,8 +371,7 @@ TEST(PlaneMeshes, ABoundaryThatLeavesThePlaneTakesTheMeshAlong)
            Turn.transpose();
   };
   auto grid = plate();
-  vtkNew<vtkMorphMesh> filter;
-  filter->SetInputData(grid);
+  auto filter = grids::of<vtkMorphMesh>(grid);
   filter->SetMovingToEverything();
   filter->SetDisplacement(vtkMorphMesh::DISPLACEMENT_ARRAY);
   filter->SetDisplacementArray("Motion");

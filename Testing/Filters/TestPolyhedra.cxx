@@ -131,8 +131,7 @@ TEST_P(Polyhedra, AffineMotionsAreExactAndStandingStillChangesNothing)
     expectSameCells(filter->GetOutput(), grid);
     EXPECT_STREQ(filter->GetMorphStatus(), "Valid");
 
-    vtkNew<vtkScaledJacobian> quality;
-    quality->SetInputData(filter->GetOutput());
+    auto quality = grids::of<vtkScaledJacobian>(filter->GetOutput());
     expectQuiet(quality);
     EXPECT_EQ(quality->GetMeasuredCells(), mesh.numberOfCells());
     EXPECT_NEAR(quality->GetMinScaledJacobian(), filter->GetMinScaledJacobian(), 1e-14);
@@ -151,8 +150,7 @@ TEST(PolyhedraInFilters, TheBoundaryIsThatOfTheCells)
   for (const auto& [name, mesh] : meshes::polyhedral())
   {
     SCOPED_TRACE(name);
-    vtkNew<vtkExtractMorphBoundary> extract;
-    extract->SetInputData(grids::make(mesh));
+    auto extract = grids::of<vtkExtractMorphBoundary>(grids::make(mesh));
     expectQuiet(extract);
     vtkPolyData* surface = extract->GetOutput();
     const double box = name == "honeycomb" ? 64 * 1.5 * std::sqrt(3.) : 64;
@@ -194,8 +192,7 @@ TEST(PolyhedraInFilters, ShapesBlendAsMorphsDo)
       { int(vtkMorphShapes::METHOD_FEMWARP), int(vtkMorphShapes::METHOD_SIMPLEX_LINEAR) })
     {
       SCOPED_TRACE(name + ", method " + std::to_string(method));
-      vtkNew<vtkMorphShapes> shapes;
-      shapes->SetInputData(grid);
+      auto shapes = grids::of<vtkMorphShapes>(grid);
       shapes->AddShapeData(grids::boundary(grid, bent));
       shapes->AddShapeData(grids::boundary(grid, shifted));
       shapes->SetMethod(method);
@@ -278,8 +275,7 @@ TEST(PolyhedraInFilters, InvertedCellsAreListedAndRepaired)
   EXPECT_GE(inverted, filter->GetUncertifiedCells());
   auto* bad = vtkUnstructuredGrid::SafeDownCast(filter->GetOutputDataObject(1));
   ASSERT_EQ(bad->GetNumberOfCells(), inverted);
-  vtkNew<vtkScaledJacobian> again;
-  again->SetInputData(bad);
+  auto again = grids::of<vtkScaledJacobian>(bad);
   again->Update();
   EXPECT_EQ(again->GetMeasuredCells(), inverted);
   vtkDataArray* cells = bad->GetCellData()->GetArray("MorphCellId");
@@ -403,8 +399,7 @@ TEST(PolyhedraInFilters, FacesThatTheGridDoesNotHoldAreAnError)
   };
   std::vector<std::int64_t> faces(
     mesh.faces.begin(), mesh.faces.begin() + static_cast<std::ptrdiff_t>(mesh.faceOffsets[1]));
-  vtkNew<vtkScaledJacobian> filter;
-  filter->SetInputData(withFaces(faces));
+  auto filter = grids::of<vtkScaledJacobian>(withFaces(faces));
   expectQuiet(filter);
   expectError(withFaces({}), "faces the grid does not hold: cell ids 0");
   auto open = faces;

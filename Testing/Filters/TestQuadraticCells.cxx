@@ -216,8 +216,7 @@ TEST(QuadraticCells, MorphsThatInvertCellsInsideSaySo)
     auto* bad = vtkUnstructuredGrid::SafeDownCast(filter->GetOutputDataObject(1));
     EXPECT_EQ(bad->GetNumberOfCells(), inverted);
 
-    vtkNew<vtkScaledJacobian> measure;
-    measure->SetInputData(filter->GetOutput());
+    auto measure = grids::of<vtkScaledJacobian>(filter->GetOutput());
     measure->CertifyOn();
     measure->Update();
     EXPECT_EQ(measure->GetInvertedCells(), inverted);
@@ -225,8 +224,7 @@ TEST(QuadraticCells, MorphsThatInvertCellsInsideSaySo)
     EXPECT_EQ(measure->GetUndecidedCells(), 0);
 
     filter->SetValidityToRefuse();
-    grids::Listener listener(filter);
-    filter->Update();
+    const grids::Run listener(filter);
     EXPECT_EQ(listener.Errors.size(), 1u);
     EXPECT_STREQ(filter->GetMorphStatus(), "Failed");
     EXPECT_EQ(grids::points(filter->GetOutput()), grids::points(grid));
@@ -255,8 +253,7 @@ TEST(QuadraticCells, SubStepsAndRepairLeaveNoneInvertedInside)
     SCOPED_TRACE(mode);
     auto filter = grids::morphed<vtkFEMWarpMorph>(grid, waves);
     filter->SetValidity(mode);
-    grids::Listener listener(filter);
-    filter->Update();
+    const grids::Run listener(filter);
     EXPECT_GT(filter->GetOutput()->GetNumberOfPoints(), 0);
     EXPECT_EQ(filter->GetInvertedCells(), 0);
     EXPECT_EQ(sampledInverted(filter->GetOutput()), 0);

@@ -202,8 +202,7 @@ TEST(Results, OfShapesAreGetterFieldAndLine)
 TEST(Results, OfScaledJacobiansAreGetterFieldAndLine)
 {
   const std::vector<Row> rows = rowsOf("vtkScaledJacobian");
-  vtkNew<vtkScaledJacobian> filter;
-  filter->SetInputData(grids::hexes(4));
+  auto filter = grids::of<vtkScaledJacobian>(grids::hexes(4));
   filter->CertifyOn();
   filter->Update();
   EXPECT_EQ(filter->GetMeasuredCells(), 64);

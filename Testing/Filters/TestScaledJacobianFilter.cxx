@@ -169,8 +169,7 @@ TEST(ScaledJacobianFilter, CriteriaAgreeWithVerdictOnRandomCells)
     : type == VTK_WEDGE   ? verdict->SetWedgeQualityMeasure(measure)
                           : verdict->SetHexQualityMeasure(measure);
     verdict->Update();
-    vtkNew<vtkScaledJacobian> filter;
-    filter->SetInputData(cells);
+    auto filter = grids::of<vtkScaledJacobian>(cells);
     filter->SetCriteria(criterion);
     filter->Update();
     vtkDataArray* theirs = verdict->GetOutput()->GetCellData()->GetArray("Quality");
@@ -221,8 +220,7 @@ TEST(ScaledJacobianFilter, CriteriaOfTwoShearedCubes)
     std::iota(ids, ids + 8, 4 * cell);
     grid->InsertNextCell(VTK_HEXAHEDRON, 8, ids);
   }
-  vtkNew<vtkScaledJacobian> filter;
-  filter->SetInputData(grid);
+  auto filter = grids::of<vtkScaledJacobian>(grid);
   filter->SetCriteria("NonOrthogonality=40, FaceSkewness, FacePyramid, FirstHeight, Skewness=.6");
   filter->Update();
   vtkFieldData* found = filter->GetOutput()->GetFieldData();
@@ -275,8 +273,7 @@ TEST(ScaledJacobianFilter, RefusesCriteriaThatThereAreNot)
   for (const char* text : { "Orthogonality", "Taper=", "Taper=much", "=3", "Taper,,Warpage",
          "Taper:Wall", "FirstHeight:", "FirstHeight:Wall" })
   {
-    vtkNew<vtkScaledJacobian> filter;
-    filter->SetInputData(grid);
+    auto filter = grids::of<vtkScaledJacobian>(grid);
     grids::Listener listener(filter);
     filter->SetCriteria(text);
     filter->Update();
@@ -359,10 +356,8 @@ TEST(ScaledJacobianFilter, GhostCellsAreNotMeasured)
   add(grid, VTK_TETRA, RightTet, 6);
   markGhosts(grid, { 0, vtkDataSetAttributes::DUPLICATECELL, vtkDataSetAttributes::HIDDENCELL,
                      vtkDataSetAttributes::REFINEDCELL });
-  vtkNew<vtkScaledJacobian> filter;
-  filter->SetInputData(grid);
-  grids::Listener listener(filter);
-  filter->Update();
+  auto filter = grids::of<vtkScaledJacobian>(grid);
+  const grids::Run listener(filter);
   EXPECT_TRUE(listener.Warnings.empty());
   EXPECT_EQ(filter->GetMeasuredCells(), 2);
   EXPECT_EQ(filter->GetInvertedCells(), 0);
@@ -537,10 +532,8 @@ TEST(ScaledJacobianFilter, OverlappingLevelsAreRefused)
   vtkNew<vtkOverlappingAMR> levels;
   auto grid = emptyGrid();
   add(grid, VTK_HEXAHEDRON, Cube);
-  vtkNew<vtkScaledJacobian> filter;
-  filter->SetInputDataObject(levels);
-  grids::Listener listener(filter);
-  filter->Update();
+  auto filter = grids::of<vtkScaledJacobian>(levels);
+  const grids::Run listener(filter);
   listener.ExpectError("vtkOverlappingAMR");
   EXPECT_EQ(filter->GetOutput()->GetNumberOfCells(), 0);
 
@@ -584,8 +577,7 @@ TEST(ScaledJacobianFilter, BadGridsGiveOneError)
 TEST(ScaledJacobianFilter, EmptyGridHasNoQuality)
 {
   vtkNew<vtkUnstructuredGrid> grid;
-  vtkNew<vtkScaledJacobian> filter;
-  filter->SetInputData(grid);
+  auto filter = grids::of<vtkScaledJacobian>(grid);
   grids::expectWarning(filter, "no cells");
   EXPECT_EQ(filter->GetMeasuredCells(), 0);
   EXPECT_EQ(filter->GetWorstCellId(), -1);

@@ -158,8 +158,7 @@ TEST(Shells, AClosedOneGoesToItsTarget)
     return vtkSmartPointer<vtkPolyData>(source->GetOutput());
   };
   auto shell = sphere(1, 12), target = sphere(1.2, 24);
-  vtkNew<vtkMorphMesh> filter;
-  filter->SetInputData(shell);
+  auto filter = grids::of<vtkMorphMesh>(shell);
   filter->SetTargetData(target);
   filter->SetDisplacementToTarget();
   filter->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
@@ -173,8 +172,7 @@ TEST(Shells, EverythingOfAClosedOneAreItsNodes)
 {
   vtkNew<vtkSphereSource> source;
   source->Update();
-  vtkNew<vtkMorphMesh> filter;
-  filter->SetInputData(source->GetOutput());
+  auto filter = grids::of<vtkMorphMesh>(source->GetOutput());
   filter->SetMovingToEverything();
   filter->SetDisplacementToTranslateRotateScale();
   filter->SetAutoCenter(false);
@@ -196,8 +194,7 @@ TEST(Shells, WhatIsWrongWithATargetIsNamedByThePointsOfTheShell)
   auto filter = onto(grid, cylinder());
   filter->SetTargetReach(0.0805);
   filter->SetValidity(vtkMorphAlgorithm::VALIDITY_REPORT); // what stays behind is inverted
-  grids::Listener listener(filter);
-  filter->Update();
+  const grids::Run listener(filter);
   ASSERT_GT(listener.Warnings.size(), 0u);
   EXPECT_NE(listener.Warnings[0].find("point ids 600, 601, 602"), std::string::npos)
     << listener.Warnings[0];
@@ -230,14 +227,11 @@ TEST(Shells, AnEdgeSlidesAlongItsOwnCurve)
   const auto isLower = [](Index n) { return n % Nodes == 0; };
   name(grid, "Lower", isLower);
   name(grid, "Left", [](Index n) { return n < Nodes; });
-  vtkNew<vtkMorphMesh> filter;
-  filter->SetInputData(grid);
+  auto filter = grids::of<vtkMorphMesh>(grid);
   filter->AddSurface("Left");
   filter->AddSlidingSurface("Lower");
-  filter->SetDisplacementToVector();
-  filter->SetVector(0.1, 0, 0);
-  grids::Listener listener(filter);
-  filter->Update();
+  grids::moveBy(filter, 0.1, 0, 0);
+  const grids::Run listener(filter);
   ASSERT_TRUE(listener.Errors.empty()) << listener.Errors[0];
   const Points rest = grids::points(grid), moved = grids::points(filter->GetOutput());
   const Points lower = rest(Eigen::seqN(0, Nodes, Nodes), morph::allColumns);
@@ -272,16 +266,14 @@ TEST(Shells, OneThatRunsIntoItselfIsFound)
     motion(n, 2) = static_cast<double>(n / (Fine + 1)) / Fine - 1;
   }
   grids::addVectors(grid, "Motion", motion);
-  vtkNew<vtkMorphMesh> filter;
-  filter->SetInputData(grid);
+  auto filter = grids::of<vtkMorphMesh>(grid);
   filter->SetMovingToEverything();
   filter->SetDisplacement(vtkMorphMesh::DISPLACEMENT_ARRAY);
   filter->SetDisplacementArray("Motion");
   const auto crossing = [&](double scale)
   {
     filter->SetScaleFactor(scale);
-    grids::Listener listener(filter);
-    filter->Update();
+    const grids::Run listener(filter);
     EXPECT_EQ(filter->GetInvertedCells(), 0);
     const bool isTold = std::any_of(listener.Warnings.begin(), listener.Warnings.end(),
       [](const std::string& text) { return text.find("crosses itself") != std::string::npos; });
@@ -300,13 +292,11 @@ TEST(Shells, StepsZonesAndLayersAreAsForSolids)
   name(grid, "Left", [](Index n) { return n < Nodes; });
   name(grid, "Plate",
     [](Index n) { return n / Nodes >= 5 && n / Nodes <= 8 && n % Nodes >= 4 && n % Nodes <= 7; });
-  vtkNew<vtkMorphMesh> filter;
-  filter->SetInputData(grid);
+  auto filter = grids::of<vtkMorphMesh>(grid);
   filter->AddSurface("Left");
   filter->AddRigidZone("Plate");
   filter->SetKeepLayers(2);
-  filter->SetDisplacementToVector();
-  filter->SetVector(-0.1, 0, 0.4);
+  grids::moveBy(filter, -0.1, 0, 0.4);
   filter->SetNumberOfSteps(3);
   filter->SetStepping(vtkMorphAlgorithm::STEPPING_RELATIVE);
   grids::update(filter);
@@ -331,8 +321,7 @@ TEST(Shells, ComparedMethodsHaveTheQualityOfTheFiltersThemselves)
   auto grid = sheet(Cells, dome);
   auto boundary =
     grids::boundary(grid, [](const Row& x) { return Row(x[0], x[1], x[2] + 0.3 * x[0] * x[1]); });
-  vtkNew<vtkCompareMorphMethods> compare;
-  compare->SetInputData(grid);
+  auto compare = grids::of<vtkCompareMorphMethods>(grid);
   compare->SetBoundaryData(boundary);
   compare->SetNumberOfSteps(1);
   compare->SetSimplexLinear(false);
@@ -370,8 +359,7 @@ TEST(Shells, AShapeIsTheMorphAndGrowsWithItsWeight)
     grids::boundary(grid, [](const Row& x) { return Row(x[0], x[1], x[2] + 0.3 * x[0] * x[1]); });
   auto morph = grids::morphed<vtkFEMWarpMorph>(grid, boundary);
   morph->Update();
-  vtkNew<vtkMorphShapes> shapes;
-  shapes->SetInputData(grid);
+  auto shapes = grids::of<vtkMorphShapes>(grid);
   shapes->AddShapeData(boundary);
   shapes->SetFindValidRanges(false);
   const Points rest = grids::points(grid), whole = grids::points(morph->GetOutput()) - rest;

@@ -6,8 +6,6 @@
 
 #include "vtkSimplexLinearMorph.h"
 
-#include <vtkNew.h>
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -15,8 +13,7 @@
 TEST(SimplexLinearMorph, FoldedTetrahedraComeWithInvertedCells)
 {
   auto grid = grids::hexes(6);
-  vtkNew<vtkSimplexLinearMorph> filter;
-  filter->SetInputData(grid);
+  auto filter = grids::of<vtkSimplexLinearMorph>(grid);
   const auto turned = [](double degrees)
   {
     return [degrees](const grids::Row& x)

@@ -6,8 +6,6 @@
 
 #include "vtkSimplexNaturalNeighborMorph.h"
 
-#include <vtkNew.h>
-
 #include <gtest/gtest.h>
 
 TEST(SimplexNaturalNeighborMorph, TheMemoryLimitChangesNoResult)
@@ -19,8 +17,7 @@ TEST(SimplexNaturalNeighborMorph, TheMemoryLimitChangesNoResult)
   const morph::Points stored = grids::points(filter->GetOutput());
 
   filter->SetMemoryLimit(1e-4); // 100 bytes
-  grids::Listener listener(filter);
-  filter->Update();
+  const grids::Run listener(filter);
   EXPECT_EQ(filter->GetWeightsStored(), 0);
   listener.ExpectWarning("memory limit");
   EXPECT_TRUE(grids::points(filter->GetOutput()) == stored);

@@ -226,10 +226,8 @@ TEST(SlideRounds, WithoutMotionKeepsTheBitsAndSaysSo)
 TEST(SlideRounds, AMeshWithoutAFreeNodeHasNothingToSlide)
 {
   auto grid = grids::make(meshes::hexes(Side, Side, 1));
-  vtkNew<vtkMorphMesh> filter;
-  filter->SetInputData(grid);
-  filter->SetDisplacementToVector();
-  filter->SetVector(.1, .05, 0);
+  auto filter = grids::of<vtkMorphMesh>(grid);
+  grids::moveBy(filter, .1, .05, 0);
   filter->AddSurface(surface(grid, onPlane).c_str());
   filter->AddSlidingSurface(surface(grid, [](const Row& x) { return isAt(x[0], Side); }).c_str());
   filter->SetSurroundings(vtkMorphMesh::SURROUNDINGS_STAY);
@@ -252,15 +250,13 @@ TEST(SlideRounds, RefusesWhatItDoesNotKnow)
     auto filter = displaced::make(input);
     filter->SetMovingToSurfaces();
     filter->AddSurface(bottom.c_str());
-    filter->SetDisplacementToVector();
-    filter->SetVector(0, 0, 0.1);
+    grids::moveBy(filter, 0, 0, 0.1);
     if (slides)
     {
       filter->AddSlidingSurface(side.c_str());
     }
     filter->SetSlideRounds(3);
-    grids::Listener listener(filter);
-    filter->Update();
+    const grids::Run listener(filter);
     EXPECT_EQ(listener.Errors.size() + listener.Warnings.size(), 1u);
     return listener.Errors.empty() ? listener.Warnings.at(0) : listener.Errors.at(0);
   };

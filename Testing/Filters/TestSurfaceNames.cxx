@@ -82,8 +82,7 @@ vtkSmartPointer<vtkUnstructuredGrid> bar()
 
 TEST(SurfaceNames, NamesOfTheFileAreListedWithTheirSizes)
 {
-  vtkNew<vtkMorphMesh> filter;
-  filter->SetInputData(bar());
+  auto filter = grids::of<vtkMorphMesh>(bar());
   filter->UpdateInformation();
   vtkStringArray* sizes = filter->GetSurfaceSizes();
   ASSERT_EQ(filter->GetSurfaceList()->GetNumberOfArrays(), 2 + 6 + 12);
@@ -127,8 +126,7 @@ TEST(SurfaceNames, ANameThatIsThereTwiceCountsOnce)
 {
   auto part = bar();
   grids::addTexts(part, "SurfaceNames", { "wall" });
-  vtkNew<vtkMorphMesh> filter;
-  filter->SetInputData(part);
+  auto filter = grids::of<vtkMorphMesh>(part);
   filter->UpdateInformation();
   EXPECT_EQ(filter->GetSurfaceList()->GetNumberOfArrays(), 2 + 6 + 12);
   EXPECT_EQ(filter->GetSurfaceSizes()->GetNumberOfValues(), 3 * 20);
@@ -137,12 +135,10 @@ TEST(SurfaceNames, ANameThatIsThereTwiceCountsOnce)
 TEST(SurfaceNames, WhatHasANameMovesAndSlides)
 {
   auto grid = bar();
-  vtkNew<vtkMorphMesh> filter;
-  filter->SetInputData(grid);
+  auto filter = grids::of<vtkMorphMesh>(grid);
   filter->AddSurface("inlet");
   filter->AddSlidingSurface("wall");
-  filter->SetDisplacementToVector();
-  filter->SetVector(-0.25, 0.1, 0);
+  grids::moveBy(filter, -0.25, 0.1, 0);
   grids::update(filter);
   const morph::Points x = grids::points(grid), y = grids::points(filter->GetOutput());
   for (morph::Index i = 0; i < x.rows(); ++i)
@@ -158,12 +154,10 @@ TEST(SurfaceNames, WhatHasANameMovesAndSlides)
 
 TEST(SurfaceNames, APartOfASurfaceCannotSlide)
 {
-  vtkNew<vtkMorphMesh> filter;
-  filter->SetInputData(bar());
+  auto filter = grids::of<vtkMorphMesh>(bar());
   filter->AddSurface("wall");
   filter->AddFreeSurface("inlet");
-  grids::Listener listener(filter);
-  filter->Update();
+  grids::Run listener(filter);
   listener.ExpectError("`FreeSurfaces` names 'inlet', which has a part alone of Surface");
   listener.Errors.clear();
   filter->RemoveAllFreeSurfaces();
@@ -224,8 +218,7 @@ vtkSmartPointer<vtkUnstructuredGrid> withBaffle()
 
 TEST(SurfaceNames, BafflesAndSheetsAreListedAsInner)
 {
-  vtkNew<vtkMorphMesh> filter;
-  filter->SetInputData(withBaffle());
+  auto filter = grids::of<vtkMorphMesh>(withBaffle());
   filter->UpdateInformation();
   vtkStringArray* sizes = filter->GetSurfaceSizes();
   ASSERT_GT(sizes->GetNumberOfValues(), 6);
@@ -243,11 +236,9 @@ TEST(SurfaceNames, BafflesAndSheetsAreListedAsInner)
 TEST(SurfaceNames, ABaffleMovesByItsName)
 {
   auto grid = withBaffle();
-  vtkNew<vtkMorphMesh> filter;
-  filter->SetInputData(grid);
+  auto filter = grids::of<vtkMorphMesh>(grid);
   filter->AddSurface("plateLeft");
-  filter->SetDisplacementToVector();
-  filter->SetVector(0.3, 0, 0);
+  grids::moveBy(filter, 0.3, 0, 0);
   grids::update(filter);
   const morph::Points x = grids::points(grid), y = grids::points(filter->GetOutput());
   bool anyFollows = false;
@@ -269,11 +260,9 @@ TEST(SurfaceNames, ABaffleStaysWhileAnotherSurfaceMoves)
   grids::addTexts(grid, "SurfaceNames", { "outlet" });
   grids::mark(grid, "outlet", [](const Row& x) { return x[0] == 4; });
   const morph::Points x = grids::points(grid);
-  vtkNew<vtkMorphMesh> filter;
-  filter->SetInputData(grid);
+  auto filter = grids::of<vtkMorphMesh>(grid);
   filter->AddSurface("outlet");
-  filter->SetDisplacementToVector();
-  filter->SetVector(1, 0, 0);
+  grids::moveBy(filter, 1, 0, 0);
   filter->Update();
   const morph::Points y = grids::points(filter->GetOutput());
   for (morph::Index i = 0; i < x.rows(); ++i)
@@ -291,14 +280,12 @@ TEST(SurfaceNames, ASheetMovesByItsNameAndElseGoesAlong)
   side->SetBounds(3.9, 5, -1, 5, -1, 5);
   const auto moved = [&](int moving, const char* fixed)
   {
-    vtkNew<vtkMorphMesh> filter;
-    filter->SetInputData(grid);
+    auto filter = grids::of<vtkMorphMesh>(grid);
     filter->SetMoving(moving);
     filter->SetRegion(side);
     filter->AddSurface("sheet");
     filter->AddFixedSurface(fixed);
-    filter->SetDisplacementToVector();
-    filter->SetVector(0.25, 0, 0);
+    grids::moveBy(filter, 0.25, 0, 0);
     filter->SetSurroundingsToStay();
     grids::update(filter);
     return morph::Points(grids::points(filter->GetOutput()) - x);
@@ -323,17 +310,14 @@ TEST(SurfaceNames, ASetOfNodesInsideMovesWithItsRim)
   grids::mark(
     grid, "LINE", [](const Row& p) { return p[0] == 2 && p[1] == 2 && p[2] > 0 && p[2] < 4; });
   grids::addTexts(grid, "SurfaceNames", { "MIDDLE", "LINE" });
-  vtkNew<vtkMorphMesh> filter;
-  filter->SetInputData(grid);
-  filter->SetDisplacementToVector();
-  filter->SetVector(0.25, 0, 0);
+  auto filter = grids::of<vtkMorphMesh>(grid);
+  grids::moveBy(filter, 0.25, 0, 0);
   filter->UpdateInformation();
   EXPECT_EQ(filter->GetSurfaceSizes()->GetValue(0), "MIDDLE");
   EXPECT_EQ(filter->GetSurfaceSizes()->GetValue(1), "16 inner");
   EXPECT_EQ(filter->GetSurfaceSizes()->LookupValue("LINE"), -1);
   filter->AddSurface("MIDDLE");
-  grids::Listener listener(filter);
-  filter->Update();
+  const grids::Run listener(filter);
   ASSERT_TRUE(listener.Errors.empty()) << listener.Errors[0];
   const morph::Points y = grids::points(filter->GetOutput());
   for (morph::Index i = 0; i < x.rows(); ++i)
@@ -347,8 +331,7 @@ TEST(SurfaceNames, ASetOfNodesInsideMovesWithItsRim)
 
 TEST(SurfaceNames, ASetInsideThatCannotMoveSaysSo)
 {
-  vtkNew<vtkMorphMesh> filter;
-  filter->SetInputData(withBaffle());
+  auto filter = grids::of<vtkMorphMesh>(withBaffle());
   filter->AddSurface("core");
   grids::expectError(filter, "'core', which lies inside of the mesh");
 }
@@ -391,8 +374,7 @@ std::pair<morph::Points, morph::Points> movedBlocks(
 
 TEST(SurfaceNames, AnInterfaceOfTwoBlocksIsListedAfterTheOuterSets)
 {
-  vtkNew<vtkMorphMesh> filter;
-  filter->SetInputData(twoBlocks());
+  auto filter = grids::of<vtkMorphMesh>(twoBlocks());
   filter->UpdateInformation();
   vtkStringArray* sizes = filter->GetSurfaceSizes();
   const std::string before = filter->GetSurfaceList()->GetArrayName(1);
@@ -409,8 +391,7 @@ TEST(SurfaceNames, AnInterfaceMovesAndSidesFollowItsRim)
 {
   vtkNew<vtkMorphMesh> filter;
   filter->AddSurface("steel | glue");
-  filter->SetDisplacementToVector();
-  filter->SetVector(0.5, 0, 0);
+  grids::moveBy(filter, 0.5, 0, 0);
   const auto [x, y] = movedBlocks(twoBlocks(), filter);
   for (morph::Index i = 0; i < x.rows(); ++i)
   {
@@ -432,8 +413,7 @@ TEST(SurfaceNames, AnInterfaceIsHeldOrSlidesOrGoesAlong)
     vtkNew<vtkMorphMesh> filter;
     filter->SetMoving(vtkMorphMesh::MOVING_REGION);
     filter->SetRegion(side);
-    filter->SetDisplacementToVector();
-    filter->SetVector(0.25, 0.25, 0);
+    grids::moveBy(filter, 0.25, 0.25, 0);
     if (isHeld)
     {
       filter->AddFixedSurface("steel | glue");
@@ -470,8 +450,7 @@ TEST(SurfaceNames, PlanesOfSymmetryOfTheFileSlide)
   filter->SetMovingToSelection();
   filter->SetSelectionData(displaced::indices(
     vtkSelectionNode::POINT, displaced::nodesWhere(grid, [](const Row& x) { return x[0] == 6; })));
-  filter->SetDisplacementToVector();
-  filter->SetVector(0.5, 0.2, 0);
+  grids::moveBy(filter, 0.5, 0.2, 0);
   filter->Update();
 
   const morph::Points rest = displaced::restPositions(filter->GetOutput());
@@ -495,10 +474,8 @@ TEST(SurfaceNames, APatchOfSymmetryThatIsAPartOfAPlaneIsNamed)
   grids::addTexts(grid, "SymmetrySurfaces", { "inlet" });
   auto filter = displaced::make(grid);
   filter->AddSurface("wall");
-  filter->SetDisplacementToVector();
-  filter->SetVector(0.5, 0, 0);
-  const grids::Listener listener(filter);
-  filter->Update();
+  grids::moveBy(filter, 0.5, 0, 0);
+  const grids::Run listener(filter);
   listener.ExpectWarning("'inlet' is one of symmetry");
   filter->AddFixedSurface("inlet");
   filter->Update();

@@ -33,8 +33,7 @@ TEST(WeightedResidualMorph, ABoundaryTurnedInsideOutIsAWarning)
   auto grid = grids::hexes(4);
   auto filter = grids::morphed<vtkWeightedResidualMorph>(
     grid, grids::boundary(grid, [](const grids::Row& x) { return grids::Row(x[0], x[1], -x[2]); }));
-  grids::Listener listener(filter);
-  filter->Update();
+  const grids::Run listener(filter);
   EXPECT_TRUE(listener.Errors.empty());
   ASSERT_EQ(listener.Warnings.size(), 2u);
   EXPECT_NE(listener.Warnings[1].find("64 cells are inverted"), std::string::npos);

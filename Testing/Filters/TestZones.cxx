@@ -220,8 +220,7 @@ TEST(Zones, SelectionsAndBlocksAreZonesToo)
   const blocks::Pieces pieces = blocks::cut(
     grid, 2, [](const Row& x) { return isMiddleCell(x) ? 1 : 0; }, true);
   auto multi = blocks::multiBlock(pieces);
-  vtkNew<vtkMorphMesh> mesh;
-  mesh->SetInputDataObject(multi);
+  auto mesh = grids::of<vtkMorphMesh>(multi);
   mesh->SetMoving(vtkMorphMesh::MOVING_REGION);
   mesh->SetRegion(byArray->GetRegion());
   mesh->SetDisplacement(vtkMorphMesh::DISPLACEMENT_TRANSLATE_ROTATE_SCALE);
@@ -247,8 +246,7 @@ TEST(Zones, AreListedByTheirNamesWithTheirSizes)
   ghosts->FillValue(0);
   grid->GetCellData()->AddArray(ghosts);
   grids::addTexts(grid, "SurfaceNames", { "Cells", "Nowhere" });
-  vtkNew<vtkMorphMesh> mesh;
-  mesh->SetInputData(grid);
+  auto mesh = grids::of<vtkMorphMesh>(grid);
   mesh->UpdateInformation();
   ASSERT_EQ(mesh->GetZoneList()->GetNumberOfArrays(), 2);
   vtkStringArray* sizes = mesh->GetZoneSizes();
@@ -284,8 +282,7 @@ vtkSmartPointer<vtkBoundaryDisplacement> withRotor(double scale)
 TEST(Zones, ARigidOneTakesItsMotionFromTheNodesThatMove)
 {
   auto filter = withRotor(1);
-  grids::Listener listener(filter);
-  filter->Update();
+  const grids::Run listener(filter);
   EXPECT_TRUE(listener.Errors.empty()) << listener.Errors.front();
   for (const std::string& warning : listener.Warnings) // the sides leave their planes
   {
@@ -310,8 +307,7 @@ TEST(Zones, ARigidOneTakesItsMotionFromTheNodesThatMove)
 TEST(Zones, AWarningSaysHowFarAskedPlacesAreMissed)
 {
   auto filter = withRotor(1.5);
-  grids::Listener listener(filter);
-  filter->Update();
+  const grids::Run listener(filter);
   ASSERT_FALSE(listener.Warnings.empty());
   // Of the zone's nodes at the top, those at 5 go to 6 on average, as is asked of them.
   const std::string& warning = listener.Warnings.back();
@@ -323,8 +319,7 @@ TEST(Zones, SoftOnesGiveWay)
 {
   auto grid = marked();
   const Points rest = grids::points(grid);
-  vtkNew<vtkMorphMesh> mesh;
-  mesh->SetInputData(grid);
+  auto mesh = grids::of<vtkMorphMesh>(grid);
   mesh->SetMoving(vtkMorphMesh::MOVING_EVERYTHING);
   // A motion without an affine part, which all cells would share.
   const auto bulge = [](const Row& p)
@@ -390,8 +385,7 @@ TEST(Zones, OneThatIsFrozenAndRigidStays)
   {
     grids::addNumbers(grid->GetPointData(), "All", grid->GetNumberOfPoints(), 1);
     auto filter = displaced::make(grid);
-    filter->SetDisplacementToVector();
-    filter->SetVector(0.1, 0, 0);
+    grids::moveBy(filter, 0.1, 0, 0);
     filter->AddFixedZone(name);
     filter->AddRigidZone(name);
     grids::update(filter);

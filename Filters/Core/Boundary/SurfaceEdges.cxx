@@ -202,7 +202,6 @@ SurfaceEdges surfaceEdges(const ConstPoints& points, const BoundaryFaces& faces,
   result.ofFace.offsets = faces.offsets;
   result.ofFace.values.resize(order.size());
   result.faces.values.reserve(order.size());
-  result.faces.offsets.push_back(0);
   std::vector<Meeting> meeting;
   for (std::size_t i = 0; i < order.size();)
   {

@@ -85,7 +85,6 @@ WholeBoundary::WholeBoundary(const Mesh& mesh, const BoundaryFaces& own,
     std::transform(row.begin() + first, row.end(), std::back_inserter(values), numberOf);
     offsets.push_back(static_cast<Index>(values.size()));
   };
-  this->faces_.offsets = this->faces_.between.offsets = { 0 };
   for (const Row& face : faces)
   {
     this->cells_.push_back(static_cast<Index>(face[0]));

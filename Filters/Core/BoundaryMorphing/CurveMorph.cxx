@@ -18,7 +18,7 @@ struct Anchor
 
 /// Returns displacements in the order of curve.nodes, zero for the known nodes.
 Points blend(const GeometryCurve& curve, const std::vector<Anchor>& anchors,
-  const MotionAround::Mixture<AffineFit>& fit, const BoundaryMotion& motion)
+  const MotionAround::Mixture& fit, const BoundaryMotion& motion)
 {
   const auto field = [&](Index node) -> Eigen::RowVector3d
   { return fit.displacement(Eigen::RowVector3d(motion.rest.row(node))); };

@@ -66,15 +66,12 @@ AffineFit MotionSums::affineFit(const PrincipalDirections& directions) const
   return { this->center_, this->mean_, directions.inverse(), this->stretch_ };
 }
 
-MotionSums::RigidFit MotionSums::rigidFit(const PrincipalDirections& directions) const
+AffineFit MotionSums::rigidFit(const PrincipalDirections& directions) const
 {
-  RigidFit fit;
-  fit.center_ = this->center_;
-  fit.shift_ = this->mean_;
+  const Eigen::Matrix3d one = Eigen::Matrix3d::Identity();
   if (this->stretch_.isZero(0))
   {
-    fit.turn_.setZero();
-    return fit;
+    return { this->center_, this->mean_, one, Eigen::Matrix3d::Zero() };
   }
   // Uses displacements in addition to positions, so a small motion keeps its digits.
   Eigen::Matrix3d moment = this->stretch_.transpose() + this->spread_;
@@ -82,18 +79,13 @@ MotionSums::RigidFit MotionSums::rigidFit(const PrincipalDirections& directions)
   const Eigen::Vector3d line = directions.axes().col(2);
   const Eigen::Quaterniond turn = Eigen::Quaterniond::FromTwoVectors(line, moment * line);
   moment += (1 - directions.shares()[1]) * this->spread_.trace() * turn.toRotationMatrix() *
-            (Eigen::Matrix3d::Identity() - line * line.transpose());
+            (one - line * line.transpose());
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(moment, Eigen::ComputeFullU | Eigen::ComputeFullV);
   const Eigen::Vector3d sign(
     1, 1, (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0 ? -1 : 1);
-  fit.turn_ =
-    svd.matrixU() * sign.asDiagonal() * svd.matrixV().transpose() - Eigen::Matrix3d::Identity();
-  return fit;
-}
-
-Eigen::RowVector3d MotionSums::RigidFit::displacement(const Eigen::RowVector3d& x) const
-{
-  return this->shift_ + (x - this->center_) * this->turn_.transpose();
+  const Eigen::Matrix3d change =
+    svd.matrixU() * sign.asDiagonal() * svd.matrixV().transpose() - one; // R - I
+  return { this->center_, this->mean_, one, change.transpose() };
 }
 
 void MotionAround::add(const MotionSums& sums, const PrincipalDirections& directions, double share)
@@ -106,56 +98,29 @@ void MotionAround::add(const MotionSums& sums, const PrincipalDirections& direct
   this->left_ *= 1 - share;
 }
 
-template <typename Fit, typename Make>
-MotionAround::Mixture<Fit> MotionAround::mixture(const Make& make) const
+MotionAround::Mixture MotionAround::mixture(
+  AffineFit (MotionSums::*fit)(const PrincipalDirections& directions) const) const
 {
-  Mixture<Fit> result;
+  Mixture result;
   for (const Part& part : this->parts_)
   {
     if (part.weight > 0)
     {
-      result.parts.emplace_back(part.weight, make(part));
+      result.parts.emplace_back(part.weight, (part.sums.*fit)(part.directions));
     }
   }
   return result;
 }
 
-MotionAround::Mixture<AffineFit> MotionAround::affineFit() const
-{
-  return this->mixture<AffineFit>(
-    [](const Part& part) { return part.sums.affineFit(part.directions); });
-}
-
-MotionAround::Mixture<MotionSums::RigidFit> MotionAround::rigidFit() const
-{
-  return this->mixture<MotionSums::RigidFit>(
-    [](const Part& part) { return part.sums.rigidFit(part.directions); });
-}
-
 void extrapolate(const MotionAround& around, const std::vector<Index>& nodes, UnattachedMotion how,
   BoundaryMotion& motion)
 {
-  const auto set = [&](const auto& fit)
+  const MotionAround::Mixture fit = how == UnattachedMotion::Stay ? MotionAround::Mixture()
+                                    : how == UnattachedMotion::FollowAffinely ? around.affineFit()
+                                                                              : around.rigidFit();
+  for (const Index node : nodes)
   {
-    for (Index node : nodes)
-    {
-      motion.displacement.row(node) = fit.displacement(Eigen::RowVector3d(motion.rest.row(node)));
-    }
-  };
-  if (around.empty() || how == UnattachedMotion::Stay)
-  {
-    for (Index node : nodes)
-    {
-      motion.displacement.row(node).setZero();
-    }
-  }
-  else if (how == UnattachedMotion::FollowAffinely)
-  {
-    set(around.affineFit());
-  }
-  else
-  {
-    set(around.rigidFit());
+    motion.displacement.row(node) = fit.displacement(motion.rest.row(node));
   }
 }
 }

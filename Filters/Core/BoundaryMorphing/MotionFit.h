@@ -28,21 +28,11 @@ public:
   /// Returns the affine displacement field that fits the displacements, zero if all of them are.
   AffineFit affineFit(const PrincipalDirections& directions) const;
 
-  /// The rigid motion x' = c' + (x - c) R^T, without reflection, that fits the displacements by
-  /// least squares. If the nodes lie on a line, it is the fit with the smallest angle. Source:
-  /// Kabsch, Acta Cryst. A32 (1976) 922-923.
-  class RigidFit
-  {
-  public:
-    Eigen::RowVector3d displacement(const Eigen::RowVector3d& x) const;
-
-  private:
-    friend class MotionSums;
-    Eigen::RowVector3d center_, shift_;
-    Eigen::Matrix3d turn_; ///< R - I
-  };
-  /// Where the nodes lie nearly on a line, its smallest angle counts by what `directions` leave.
-  RigidFit rigidFit(const PrincipalDirections& directions) const;
+  /// The field of the rigid motion x' = c' + (x - c) R^T, without reflection, that fits the
+  /// displacements by least squares. If the nodes lie on a line, it is the fit with the smallest
+  /// angle; where they nearly do, that angle counts by what `directions` leave. Source: Kabsch,
+  /// Acta Cryst. A32 (1976) 922-923.
+  AffineFit rigidFit(const PrincipalDirections& directions) const;
 
 private:
   double count_ = 0;
@@ -63,11 +53,10 @@ public:
   /// What the sets leave: 0 if the last needs no other.
   double left() const { return this->left_; }
 
-  /// A weighted sum of displacement fields.
-  template <typename Fit>
+  /// A weighted sum of displacement fields; zero without one.
   struct Mixture
   {
-    std::vector<std::pair<double, Fit>> parts;
+    std::vector<std::pair<double, AffineFit>> parts;
 
     Eigen::RowVector3d displacement(const Eigen::RowVector3d& x) const
     {
@@ -79,8 +68,8 @@ public:
       return sum;
     }
   };
-  Mixture<AffineFit> affineFit() const;
-  Mixture<MotionSums::RigidFit> rigidFit() const;
+  Mixture affineFit() const { return this->mixture(&MotionSums::affineFit); }
+  Mixture rigidFit() const { return this->mixture(&MotionSums::rigidFit); }
 
 private:
   struct Part
@@ -89,8 +78,7 @@ private:
     PrincipalDirections directions;
     double weight;
   };
-  template <typename Fit, typename Make>
-  Mixture<Fit> mixture(const Make& make) const;
+  Mixture mixture(AffineFit (MotionSums::*fit)(const PrincipalDirections& directions) const) const;
 
   std::vector<Part> parts_;
   double left_ = 1;

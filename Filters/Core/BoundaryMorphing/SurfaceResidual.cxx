@@ -206,11 +206,7 @@ void SurfaceResidual::require(const Points& prescribed) const
     throw Error(
       "The method is not prepared: call prepare() first, and again after one that failed.");
   }
-  if (prescribed.rows() != this->prescribed_.rows())
-  {
-    throw Error("The array of prescribed positions has " + std::to_string(prescribed.rows()) +
-                " rows where " + std::to_string(this->prescribed_.rows()) + " are expected.");
-  }
+  requireRows("The array of prescribed positions", prescribed.rows(), this->prescribed_.rows());
   requireFinite("Prescribed positions", prescribed);
 }
 

@@ -3,6 +3,7 @@
 
 #include "Boundary/FaceQuality.h"
 #include "BoundaryMorphing/MidNodes.h"
+#include "Energies/FaceEnergy.h"
 #include "Mesh/GatherMap.h"
 
 #include <Eigen/Eigenvalues>
@@ -25,15 +26,7 @@ constexpr int MostHalvings = 8;
 constexpr double LeastDecrease = 1e-4; // minimum decrease of the sum, relative
 
 using Row = Eigen::RowVector3d;
-using Plane = Eigen::Matrix<double, 3, 2>; ///< two tangents, right-handed with the normal
-
-Plane tangents(const Row& normal)
-{
-  Plane plane;
-  plane.col(0) = normal.unitOrthogonal().transpose();
-  plane.col(1) = normal.cross(plane.col(0).transpose()).transpose();
-  return plane;
-}
+using Plane = FaceEnergy::Plane;
 
 /// A corner of a face with its two neighbors.
 struct Corner
@@ -113,7 +106,7 @@ private:
       {
         continue;
       }
-      const Plane plane = tangents(area.normalized());
+      const Plane plane = FaceEnergy::tangents(area.normalized());
       for (Index k = 0; k < size; ++k)
       {
         Corner corner{ { nodes[k], nodes[(k + 1) % size], nodes[(k + size - 1) % size] }, {}, 0,
@@ -210,11 +203,9 @@ private:
       }
       const double square = J.squaredNorm();
       sum.value += corner.weight * square / (2 * chi);
-      Eigen::Matrix2d cofactor;
-      cofactor << J(1, 1), -J(1, 0), -J(0, 1), J(0, 0);
-      const Eigen::Matrix2d force = corner.weight *
-                                    (J / chi - square / (2 * chi * root) * cofactor) *
-                                    corner.restInverse.transpose();
+      const Eigen::Matrix2d force =
+        corner.weight * (J / chi - square / (2 * chi * root) * FaceDensity::cofactor(J)) *
+        corner.restInverse.transpose();
       sum.gradient += node == corner.node[1]   ? Eigen::Vector2d(force.col(0))
                       : node == corner.node[2] ? Eigen::Vector2d(force.col(1))
                                                : Eigen::Vector2d(-force.rowwise().sum());
@@ -263,7 +254,7 @@ private:
     {
       return false;
     }
-    const Plane plane = tangents(normal);
+    const Plane plane = FaceEnergy::tangents(normal);
     const double least = this->sumAround(node, plane, 1).least;
     const double delta = least > 0 ? 0 : 2 * std::sqrt(1e-6 + 0.04 * least * least);
     const Sum sum = this->sumAround(node, plane, delta);

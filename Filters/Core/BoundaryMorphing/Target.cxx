@@ -70,7 +70,6 @@ std::vector<TargetTriangle> mergedTriangles(
 BoundaryFaces facesOf(const std::vector<TargetTriangle>& triangles)
 {
   BoundaryFaces faces;
-  faces.offsets.push_back(0);
   for (const TargetTriangle& triangle : triangles)
   {
     faces.connectivity.insert(faces.connectivity.end(), triangle.begin(), triangle.end());

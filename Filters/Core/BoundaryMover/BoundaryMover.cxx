@@ -10,30 +10,6 @@
 
 namespace morph
 {
-namespace
-{
-/// Passes on the warnings of the last spread alone: one that is repeated, with more that moves,
-/// stands in place of those before.
-class OfLastSpread : public ProgressRange
-{
-public:
-  using ProgressRange::ProgressRange;
-
-  void warn(const std::string& message) override { this->warnings_.push_back(message); }
-  std::vector<std::string> take() { return std::exchange(this->warnings_, {}); }
-  void tell()
-  {
-    for (const std::string& warning : this->take())
-    {
-      ProgressRange::warn(warning);
-    }
-  }
-
-private:
-  std::vector<std::string> warnings_;
-};
-}
-
 const Surroundings::Result& BoundaryMover::move(const BoundaryModel& model, const Choice& choice,
   const Points& targets, const Options& options, const InnerPieces* pieces, Monitor& monitor)
 {
@@ -50,7 +26,9 @@ const Surroundings::Result& BoundaryMover::move(const BoundaryModel& model, cons
   {
     this->inner_.take(model, options.fixedZones, options.rigidZones, pieces);
   }
-  OfLastSpread spreading(monitor, 0, options.slide.rounds > 0 ? 0.8 : 1);
+  // Of the last spread alone: one that is repeated, with more that moves, stands in place of those
+  // before.
+  QuietRange spreading(monitor, 0, options.slide.rounds > 0 ? 0.8 : 1);
   alike(
     [&]
     {
@@ -88,7 +66,10 @@ const Surroundings::Result& BoundaryMover::move(const BoundaryModel& model, cons
       spreading.warn(warning);
     }
   }
-  spreading.tell();
+  for (const std::string& warning : spreading.take())
+  {
+    monitor.warn(warning);
+  }
   this->rounds_.clear();
   if (options.slide.rounds > 0)
   {

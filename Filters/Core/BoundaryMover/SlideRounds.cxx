@@ -129,7 +129,7 @@ void SlideRounds::prepare(const BoundaryModel& model, const std::vector<Index>& 
   {
     this->method_ = nullptr; // in case it throws
     auto method = std::make_unique<SlidingWarp>();
-    Silent silent(monitor);
+    QuietRange silent(monitor, 0, 1);
     method->prepare(mesh, partitionNodes(mesh, prescribed), silent);
     this->method_ = std::move(method);
     this->methodVersion_ = model.inputVersion;

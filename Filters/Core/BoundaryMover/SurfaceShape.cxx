@@ -34,7 +34,6 @@ Row smallestEigenvector(const Eigen::Matrix3d& matrix)
 Points areasOf(const Points& points, const BoundaryFaces& faces, const std::vector<Index>& some)
 {
   BoundaryFaces taken;
-  taken.offsets = { 0 };
   for (const Index face : some)
   {
     taken.connectivity.insert(taken.connectivity.end(),

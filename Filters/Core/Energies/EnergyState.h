@@ -13,20 +13,14 @@ namespace morph
 struct EnergyState
 {
   double energy = 0;
-  double minimumDeterminant = 0; ///< relative to the targets; positive: no piece is inverted
-  Index inverted = 0;            ///< pieces whose determinant is not positive
-};
+  /// Relative to the targets; positive: no piece is inverted. Infinite without a piece.
+  double minimumDeterminant = std::numeric_limits<double>::infinity();
+  Index inverted = 0; ///< pieces whose determinant is not positive
 
-/// What an EnergyState is summed up from.
-struct EnergySum
-{
-  double energy = 0;
-  double least = std::numeric_limits<double>::infinity(); ///< of the determinants
-  double inverted = 0;
-  EnergySum& operator+=(const EnergySum& other)
+  EnergyState& operator+=(const EnergyState& other)
   {
     this->energy += other.energy;
-    this->least = std::min(this->least, other.least);
+    this->minimumDeterminant = std::min(this->minimumDeterminant, other.minimumDeterminant);
     this->inverted += other.inverted;
     return *this;
   }

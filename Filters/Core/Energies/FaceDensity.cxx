@@ -26,13 +26,6 @@ struct Weight
   }
 };
 
-Eigen::Matrix2d cofactor(const Eigen::Matrix2d& J)
-{
-  Eigen::Matrix2d result;
-  result << J(1, 1), -J(1, 0), -J(0, 1), J(0, 0);
-  return result;
-}
-
 /// J = U diag(s) V^T with rotations U and V; s[1] has the sign of the determinant.
 struct PlaneSingularValues
 {
@@ -72,6 +65,13 @@ double toPower(double value, int power)
   }
   return result;
 }
+}
+
+Eigen::Matrix2d FaceDensity::cofactor(const Eigen::Matrix2d& J)
+{
+  Eigen::Matrix2d result;
+  result << J(1, 1), -J(1, 0), -J(0, 1), J(0, 0);
+  return result;
 }
 
 double FaceDensity::value(const Eigen::Matrix2d& J) const

@@ -28,5 +28,8 @@ struct FaceDensity
   /// Returns the second derivative of the density without negative eigenvalues of phi's. Closed
   /// form by the singular values (Smith, de Goes, Kim, ACM Trans. Graph. 38(1) (2019)).
   Hessian hessian(const Eigen::Matrix2d& J) const;
+
+  /// d(det J)/dJ.
+  static Eigen::Matrix2d cofactor(const Eigen::Matrix2d& J);
 };
 }

@@ -24,14 +24,14 @@ constexpr std::uint16_t NoPlace = 0xffff;
 using Plane = FaceEnergy::Plane;
 /// How the two edges of a corner, as columns, change with its nodes.
 constexpr double EdgeOfNode[3][2] = { { -1, -1 }, { 1, 0 }, { 0, 1 } };
+}
 
-Plane tangents(const Eigen::RowVector3d& normal)
+FaceEnergy::Plane FaceEnergy::tangents(const Eigen::RowVector3d& normal)
 {
   Plane plane;
   plane.col(0) = normal.unitOrthogonal().transpose();
   plane.col(1) = normal.cross(plane.col(0).transpose()).transpose();
   return plane;
-}
 }
 
 FaceEnergy::FaceEnergy(std::vector<FaceCorner> corners, const std::vector<Index>& free, Index nodes)
@@ -48,7 +48,7 @@ void FaceEnergy::setPlanes(const Points& cornerNormals, const Points& nodeNormal
   this->planes_.resize(this->corners_.size());
   for (std::size_t c = 0; c < this->planes_.size(); ++c)
   {
-    this->planes_[c] = tangents(cornerNormals.row(static_cast<Index>(c)));
+    this->planes_[c] = FaceEnergy::tangents(cornerNormals.row(static_cast<Index>(c)));
   }
   this->normals_ = nodeNormals;
 }
@@ -66,15 +66,13 @@ Eigen::Matrix2d FaceEnergy::jacobian(Index corner, const Points& points) const
 
 EnergyState FaceEnergy::evaluate(const Points& points, Monitor& monitor) const
 {
-  const EnergySum sum =
-    reproducibleSum(static_cast<Index>(this->corners_.size()), monitor, EnergySum(),
-      [&](Index c)
-      {
-        const Eigen::Matrix2d J = this->jacobian(c, points);
-        const double d = J.determinant();
-        return EnergySum{ this->corners_[c].weight * this->density_.value(J), d, d > 0 ? 0. : 1. };
-      });
-  return { sum.energy, sum.least, static_cast<Index>(sum.inverted) };
+  return reproducibleSum(static_cast<Index>(this->corners_.size()), monitor, EnergyState(),
+    [&](Index c)
+    {
+      const Eigen::Matrix2d J = this->jacobian(c, points);
+      const double d = J.determinant();
+      return EnergyState{ this->corners_[c].weight * this->density_.value(J), d, d > 0 ? 0 : 1 };
+    });
 }
 
 Objective::Value FaceEnergy::value(const Points& points, Monitor& monitor) const

@@ -26,6 +26,8 @@ class FaceEnergy : public SecondOrderObjective
 {
 public:
   using Plane = Eigen::Matrix<double, 3, 2>; ///< two orthonormal tangents
+  /// Of a plane, right-handed with its unit normal.
+  static Plane tangents(const Eigen::RowVector3d& normal);
 
   /// `free`: ids of the nodes that move; `nodes`: their number in the mesh. Corners without a free
   /// node are constant: leave them out.

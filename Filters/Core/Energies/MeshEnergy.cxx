@@ -22,7 +22,7 @@ struct BatchEnergy
 {
   template <typename Density>
   static MORPH_SIMD_INLINE void run(Index batch, const CellBatches& batches, const Density& density,
-    const Points& points, EnergySum& sum)
+    const Points& points, EnergyState& sum)
   {
     SimdVector x[8];
     cornersOf(batches, batch, points, x);
@@ -45,7 +45,7 @@ struct BatchEnergy
     }
     for (int lane = 0; lane < SimdWidth; ++lane)
     {
-      sum += { energy[lane], least[lane], inverted[lane] };
+      sum += { energy[lane], least[lane], static_cast<Index>(inverted[lane]) };
     }
   }
 };
@@ -97,12 +97,13 @@ MeshEnergy::MeshEnergy(
 
 EnergyState MeshEnergy::evaluate(const Points& points, Monitor& monitor) const
 {
-  const EnergySum sum =
+  const EnergyState sum =
     this->isCondition_
-      ? sumOverBatches<BatchEnergy, EnergySum>(this->batches_, monitor, ConditionDensity(), points)
-      : sumOverBatches<BatchEnergy, EnergySum>(this->batches_, monitor, this->density_, points);
+      ? sumOverBatches<BatchEnergy, EnergyState>(
+          this->batches_, monitor, ConditionDensity(), points)
+      : sumOverBatches<BatchEnergy, EnergyState>(this->batches_, monitor, this->density_, points);
   const Communicator& all = this->communicator();
-  return { all.sum(sum.energy), all.minimum(sum.least), all.sum(static_cast<Index>(sum.inverted)) };
+  return { all.sum(sum.energy), all.minimum(sum.minimumDeterminant), all.sum(sum.inverted) };
 }
 
 Objective::Value MeshEnergy::value(const Points& points, Monitor& monitor) const

@@ -37,8 +37,7 @@ std::vector<double> volumes(const Mesh& rest, const Communicator& communicator)
   const double mean = count > 0 ? sum / static_cast<double>(count) : 0;
   for (Index c = 0; c < rest.numberOfCells(); ++c)
   {
-    const bool isVolume = numberOfCorners(cellShape(rest, c)->shape) > 0;
-    if (isVolume && !(result[c] > LeastVolume * mean))
+    if (hasCorners(rest, c) && !(result[c] > LeastVolume * mean))
     {
       result[c] = mean > 0 ? mean : 1;
     }

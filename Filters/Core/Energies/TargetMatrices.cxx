@@ -134,11 +134,6 @@ std::array<Index, 4> nodesOf(const Mesh& mesh, Index cell, int tetrahedron)
   return nodesAt(mesh, cell, shape, simplicialDecomposition(shape.shape).tets[tetrahedron].corner);
 }
 
-bool isVolume(const Mesh& mesh, Index cell)
-{
-  return numberOfCorners(cellShape(mesh, cell)->shape) > 0;
-}
-
 /// Returns which undeformed cells may serve as targets.
 std::vector<char> validCells(
   const Mesh& rest, const std::vector<std::int8_t>& orientation, Monitor& monitor)
@@ -284,7 +279,7 @@ TargetMatrices targetMatrices(const Mesh& rest, const std::vector<std::int8_t>& 
   {
     for (Index c = 0; c < cells; ++c)
     {
-      if (!valid[c] && isVolume(rest, c))
+      if (!valid[c] && hasCorners(rest, c))
       {
         return false;
       }
@@ -296,7 +291,7 @@ TargetMatrices targetMatrices(const Mesh& rest, const std::vector<std::int8_t>& 
   parallel(cells, Grain, monitor,
     [&](Index c)
     {
-      if (!isVolume(rest, c))
+      if (!hasCorners(rest, c))
       {
         return;
       }

@@ -198,11 +198,9 @@ std::vector<Star> starsOf(const Points& sites, const CosphericalCells& cells, Mo
 Adjacency numberMeans(Index sites, std::vector<Star>& stars)
 {
   Adjacency means;
-  means.offsets = { 0 };
   const auto add = [&](const std::vector<int>& corners)
   {
-    means.values.insert(means.values.end(), corners.begin(), corners.end());
-    means.offsets.push_back(static_cast<Index>(means.values.size()));
+    means.add(corners.begin(), corners.end());
     return static_cast<int>(sites + static_cast<Index>(means.offsets.size()) - 2);
   };
   for (std::size_t cell = 0; cell < stars.size(); ++cell)

@@ -35,18 +35,12 @@ void forEachEntry(const Matrix& matrix, const Act& act)
   }
 }
 
-bool isVolume(const Mesh& mesh, Index cell)
-{
-  const CellShape* shape = cellShape(mesh, cell);
-  return shape && shape->dimension == 3;
-}
-
 std::vector<std::uint8_t> nodesOfVolume(const Mesh& mesh)
 {
   std::vector<std::uint8_t> isUsed(mesh.numberOfNodes(), 0);
   for (Index c = 0; c < mesh.numberOfCells(); ++c)
   {
-    const Index size = isVolume(mesh, c) ? mesh.cellSize(c) : 0;
+    const Index size = volumeShape(mesh, c) ? mesh.cellSize(c) : 0;
     for (const Index* node = mesh.cell(c); node != mesh.cell(c) + size; ++node)
     {
       isUsed[*node] = 1;
@@ -303,7 +297,7 @@ void AttachedNodes::findRings()
   this->origin_ = Eigen::Map<Row>(origin, 3);
   for (Index c = 0; c < this->rest_->numberOfCells(); ++c)
   {
-    const Index size = isVolume(*this->rest_, c) ? this->rest_->cellSize(c) : 0;
+    const Index size = volumeShape(*this->rest_, c) ? this->rest_->cellSize(c) : 0;
     const Index *first = this->rest_->cell(c), *last = first + size;
     for (const Index* node = first; node != last; ++node)
     {
@@ -314,12 +308,10 @@ void AttachedNodes::findRings()
       }
     }
   }
-  this->rings_.offsets.assign(1, 0);
   for (std::vector<Index>& ring : rings)
   {
     sortUnique(ring);
-    this->rings_.values.insert(this->rings_.values.end(), ring.begin(), ring.end());
-    this->rings_.offsets.push_back(static_cast<Index>(this->rings_.values.size()));
+    this->rings_.add(ring.begin(), ring.end());
   }
 }
 

@@ -97,7 +97,6 @@ CenterStars::CenterStars(
     return;
   }
   this->ofCell_.assign(mesh.numberOfCells(), -1);
-  this->nodes_.offsets.push_back(0);
   Collected star;
   for (auto center = first; center != free.end(); ++center)
   {
@@ -110,8 +109,7 @@ CenterStars::CenterStars(
     std::for_each(around.begin(*center), around.end(*center),
       [&](Index cell) { this->ofCell_[cell] = static_cast<int>(this->centers_.size()); });
     this->centers_.push_back(*center);
-    this->nodes_.values.insert(this->nodes_.values.end(), star.nodes().begin(), star.nodes().end());
-    this->nodes_.offsets.push_back(static_cast<Index>(this->nodes_.values.size()));
+    this->nodes_.add(star.nodes().begin(), star.nodes().end());
   }
   this->weights_.assign(this->nodes_.values.size(), 0);
   if (this->centers_.empty())

@@ -55,7 +55,7 @@ private:
 
   // Whitened d_j by coordinate, padded with zeros, which do not change any sum.
   std::vector<Pair> x_, y_, z_;
-  std::vector<Pair> inverse_; ///< 1 / (1 + mu . d_j) at the minimum
-  Eigen::Vector3d mean_;      ///< of the whitened d_j
+  std::vector<Pair> inverse_;                      ///< 1 / (1 + mu . d_j) at the minimum
+  Eigen::Vector3d mean_ = Eigen::Vector3d::Zero(); ///< of the whitened d_j
 };
 }

@@ -22,11 +22,6 @@ constexpr double LeastRatio = 1e-10;   // to the stiffest cell; beyond it the so
 constexpr double LeastDistance = 1e-3; // of the mean one
 constexpr double LeastVolume = 1e-12;  // of the mean one: a flat cell has a finite stiffness
 
-bool isVolumeCell(const Mesh& mesh, Index cell)
-{
-  return numberOfCorners(cellShape(mesh, cell)->shape) > 0;
-}
-
 /// Returns for each volume cell value(cell), and 0 for the others.
 template <typename Value>
 std::vector<double> ofCells(const Mesh& mesh, Monitor& monitor, const Value& value)
@@ -35,7 +30,7 @@ std::vector<double> ofCells(const Mesh& mesh, Monitor& monitor, const Value& val
   parallel(mesh.numberOfCells(), Grain, monitor,
     [&](Index c)
     {
-      if (isVolumeCell(mesh, c))
+      if (hasCorners(mesh, c))
       {
         result[c] = value(c);
       }
@@ -79,7 +74,7 @@ std::vector<double> inversePower(const Mesh& mesh, std::vector<double> value, do
     if (!processes.isCopy(c))
     {
       sum += value[c];
-      count += isVolumeCell(mesh, c);
+      count += hasCorners(mesh, c);
     }
   }
   sum = processes.sum(sum);
@@ -136,7 +131,7 @@ void requireValues(
   std::vector<Index> wrong;
   for (Index c = 0; c < mesh.numberOfCells(); ++c)
   {
-    if (isVolumeCell(mesh, c) && !(values[c] > 0 && std::isfinite(values[c])))
+    if (hasCorners(mesh, c) && !(values[c] > 0 && std::isfinite(values[c])))
     {
       wrong.push_back(c);
     }
@@ -155,12 +150,12 @@ void normalize(const Mesh& mesh, const Communicator& processes, std::vector<doub
   double largest = 0;
   for (Index c = 0; c < mesh.numberOfCells(); ++c)
   {
-    largest = isVolumeCell(mesh, c) ? std::max(largest, factors[c]) : largest;
+    largest = hasCorners(mesh, c) ? std::max(largest, factors[c]) : largest;
   }
   largest = processes.maximum(largest);
   for (Index c = 0; c < mesh.numberOfCells(); ++c)
   {
-    factors[c] = isVolumeCell(mesh, c) ? std::max(factors[c] / largest, LeastRatio) : 1;
+    factors[c] = hasCorners(mesh, c) ? std::max(factors[c] / largest, LeastRatio) : 1;
   }
 }
 }

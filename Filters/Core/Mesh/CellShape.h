@@ -120,6 +120,12 @@ inline const CellShape* cellShape(const Mesh& mesh, Index cell)
   const std::uint8_t type = mesh.types[cell];
   return type < LagrangeCurve ? cellShape(type) : shapeOfAnyOrder(type, mesh.cellSize(cell));
 }
+/// Null of other cells than those of volumes, too.
+inline const CellShape* volumeShape(const Mesh& mesh, Index cell)
+{
+  const CellShape* shape = cellShape(mesh, cell);
+  return shape && shape->dimension == 3 ? shape : nullptr;
+}
 
 /// Copies the positions of a cell's corners, in the order of its shape. `points`: #nodes x 3;
 /// `corners`: numberOfCorners x 3.

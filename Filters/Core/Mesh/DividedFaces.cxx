@@ -87,7 +87,6 @@ FaceFunctions quadrilateralFunctions(int nodes, double u, double v)
 Adjacency nodesOfFaces(const Mesh& mesh, const BoundaryFaces& faces)
 {
   Adjacency result;
-  result.offsets = { 0 };
   for (std::size_t f = 0; f < faces.cells.size(); ++f)
   {
     const Index cell = faces.cells[f];

@@ -59,8 +59,7 @@ double meshSize(const Mesh& mesh)
   Eigen::AlignedBox3d box;
   for (Index c = 0; c < mesh.numberOfCells(); ++c)
   {
-    const CellShape* shape = cellShape(mesh.types[c]);
-    for (Index k = 0; shape && shape->dimension == 3 && k < mesh.cellSize(c); ++k)
+    for (Index k = 0; volumeShape(mesh, c) && k < mesh.cellSize(c); ++k)
     {
       box.extend(mesh.points.row(mesh.cell(c)[k]).transpose());
     }

@@ -21,8 +21,8 @@ void forEachFaceOfAny(const Mesh& mesh, Index cell, Visit&& visit)
     forEachFace(mesh, cell, visit);
     return;
   }
-  const CellShape* shape = cellShape(mesh, cell);
-  for (int f = 0; shape && shape->dimension == 3 && f < shape->numberOfFaces; ++f)
+  const CellShape* shape = volumeShape(mesh, cell);
+  for (int f = 0; shape && f < shape->numberOfFaces; ++f)
   {
     Index nodes[4];
     const FaceShape& face = shape->faces[f];
@@ -71,7 +71,6 @@ FaceTable faceTable(const Mesh& mesh, Monitor& monitor)
 {
   FaceTable table;
   table.start.push_back(0);
-  table.corners.offsets.push_back(0);
   std::vector<Index>& values = table.corners.values;
   values.reserve(mesh.faces.size() + 3 * mesh.connectivity.size());
   for (Index c = 0; c < mesh.numberOfCells(); ++c)

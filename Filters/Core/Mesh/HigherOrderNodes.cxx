@@ -60,14 +60,17 @@ Eigen::VectorXd weightsAt(const CellShape& shape, const Points& corners,
 }
 }
 
-void HigherOrderNodes::prepare(const Mesh& rest, const NodePartition& partition)
+void HigherOrderNodes::prepare(
+  const Mesh& rest, const NodePartition& partition, const Communicator& communicator)
 {
   this->ids_ = partition.higherOrderNodes;
   this->weights_.resize(static_cast<Index>(this->ids_.size()), rest.numberOfNodes());
-  if (this->ids_.empty())
+  this->rows_.reset();
+  if (communicator.all(this->ids_.empty()))
   {
     return;
   }
+  this->rows_ = communicator.rows(this->ids_);
   std::vector<Index> row(rest.numberOfNodes(), -1);
   for (std::size_t i = 0; i < this->ids_.size(); ++i)
   {
@@ -75,7 +78,7 @@ void HigherOrderNodes::prepare(const Mesh& rest, const NodePartition& partition)
   }
 
   std::vector<Eigen::Triplet<double, int>> entries;
-  std::vector<int> cells(this->ids_.size(), 0);
+  Points cells = Points::Zero(this->weights_.rows(), 3); // in the first column
   for (Index c = 0; c < rest.numberOfCells(); ++c)
   {
     const CellShape* shape = cellShape(rest, c);
@@ -96,7 +99,7 @@ void HigherOrderNodes::prepare(const Mesh& rest, const NodePartition& partition)
       }
       const Eigen::VectorXd N = weightsAt(*shape, corners,
         rest.points.row(rest.cell(c)[k]) - origin, shape->extraNodes[k - shape->numberOfCorners]);
-      ++cells[r];
+      ++cells(r, 0);
       for (int a = 0; a < shape->numberOfCorners; ++a)
       {
         if (N[a] != 0)
@@ -107,16 +110,32 @@ void HigherOrderNodes::prepare(const Mesh& rest, const NodePartition& partition)
     }
   }
   this->weights_.setFromTriplets(entries.begin(), entries.end());
-  for (std::size_t i = 0; i < this->ids_.size(); ++i)
+  this->rows_->add(cells);
+  for (Index i = 0; i < cells.rows(); ++i)
   {
-    this->weights_.row(static_cast<Index>(i)) *= 1. / cells[i];
+    this->weights_.row(i) *= 1. / cells(i, 0);
   }
 }
 
 void HigherOrderNodes::apply(Points& displacement) const
 {
-  const Points moved = this->weights_ * displacement;
-  displacement(this->ids_, allColumns) = moved;
+  if (!this->empty())
+  {
+    Points moved = this->weights_ * displacement;
+    this->rows_->add(moved);
+    displacement(this->ids_, allColumns) = moved;
+  }
+}
+
+void HigherOrderNodes::carry(const Points& rest, Points& points) const
+{
+  if (!this->empty())
+  {
+    Points displacement = points - rest;
+    this->apply(displacement);
+    points(this->ids_, allColumns) =
+      rest(this->ids_, allColumns) + displacement(this->ids_, allColumns);
+  }
 }
 
 void HigherOrderNodes::applyTranspose(Points& gradient) const

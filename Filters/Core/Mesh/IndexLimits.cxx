@@ -7,7 +7,7 @@
 
 namespace morph
 {
-void requireIndexable(const MeshCounts& counts)
+void requireIndexable(Index nodes, Index cells, Index corners)
 {
   constexpr Index Limit = (Index(1) << 31) - (Index(1) << 20);
   const auto require = [](Index count, const char* of)
@@ -19,14 +19,14 @@ void requireIndexable(const MeshCounts& counts)
                   ". Morph it in parts.");
     }
   };
-  require(counts.nodes, "nodes");
-  require(counts.cells, "cells");
-  require(counts.corners, "corners of cells");
+  require(nodes, "nodes");
+  require(cells, "cells");
+  require(corners, "corners of cells");
 }
 
 void requireIndexable(const Mesh& mesh)
 {
   requireIndexable(
-    { mesh.numberOfNodes(), mesh.numberOfCells(), static_cast<Index>(mesh.connectivity.size()) });
+    mesh.numberOfNodes(), mesh.numberOfCells(), static_cast<Index>(mesh.connectivity.size()));
 }
 }

@@ -10,12 +10,6 @@ namespace morph
 {
 namespace
 {
-const CellShape* volumeShape(const Mesh& mesh, Index cell)
-{
-  const CellShape* shape = cellShape(mesh, cell);
-  return shape && shape->dimension == 3 ? shape : nullptr;
-}
-
 std::size_t slot(const ConnectedComponents& bodies, Index cell, Shape shape)
 {
   return static_cast<std::size_t>(bodies.ofCell[cell]) * ShapeVolumes::Shapes +

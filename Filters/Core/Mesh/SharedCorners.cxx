@@ -26,8 +26,8 @@ Index numberOfCorners(const Mesh& mesh, Index cell)
   {
     return mesh.cellSize(cell);
   }
-  const CellShape* shape = cellShape(mesh, cell);
-  return shape && shape->dimension == 3 ? cornerCount(mesh, cell, *shape) : 0;
+  const CellShape* shape = volumeShape(mesh, cell);
+  return shape ? cornerCount(mesh, cell, *shape) : 0;
 }
 
 /// Whether the faces around a node are one fan in which every edge has two of them. `ends`: at each

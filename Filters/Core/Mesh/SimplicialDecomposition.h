@@ -32,6 +32,11 @@ int cornerTetrahedra(Shape shape);
 
 /// Returns the number of corners of a volume shape (4, 8, 6, 5), and 0 for the others.
 int numberOfCorners(Shape shape);
+/// Whether a cell, of a known type, has any.
+inline bool hasCorners(const Mesh& mesh, Index cell)
+{
+  return numberOfCorners(cellShape(mesh, cell)->shape) > 0;
+}
 
 /// Returns the weighted sum of the tetrahedra's volumes: the exact volume of the cell with bilinear
 /// faces. It is negative for a mirrored cell. `corners`: numberOfCorners x 3.

@@ -24,12 +24,6 @@ namespace morph
 {
 namespace
 {
-const CellShape* volumeShape(const Mesh& mesh, Index cell)
-{
-  const CellShape* shape = cellShape(mesh, cell);
-  return shape && shape->dimension == 3 ? shape : nullptr;
-}
-
 constexpr Index NoNode = std::numeric_limits<Index>::max();
 
 /// Collects the distinct corner nodes of a face in its order, and returns their number. Collapsed
@@ -219,7 +213,6 @@ BoundaryFaces describeFaces(const Mesh& mesh, const std::vector<Place>& faces)
   std::vector<std::array<Index, 5>> middles; // mid-side and face nodes with their corners
   result.offsets.reserve(faces.size() + 1);
   result.cells.reserve(faces.size());
-  result.offsets.push_back(0);
   for (const Place& face : faces)
   {
     const Index cell = face.cell;
@@ -280,7 +273,6 @@ BoundaryFaces describeFaces(const Mesh& mesh, const std::vector<Place>& faces)
 
   std::sort(middles.begin(), middles.end());
   auto middle = middles.begin();
-  result.between.offsets.push_back(0);
   for (Index n = 0; n < nodes; ++n)
   {
     const bool isMiddle = middle != middles.end() && middle->front() == n;
@@ -380,12 +372,10 @@ void setCorners(std::vector<Index> offsets, std::vector<Index> connectivity, Bou
   }
   faces.nodes.clear();
   faces.between = {};
-  faces.between.offsets = { 0 };
   for (const auto& [node, corners] : between)
   {
     faces.nodes.push_back(node);
-    faces.between.values.insert(faces.between.values.end(), corners.begin(), corners.end());
-    faces.between.offsets.push_back(static_cast<Index>(faces.between.values.size()));
+    faces.between.add(corners.begin(), corners.end());
   }
   faces.offsets = std::move(offsets);
   faces.connectivity = std::move(connectivity);

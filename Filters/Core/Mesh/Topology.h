@@ -14,7 +14,7 @@ namespace morph
 /// The boundary faces: faces that belong to a single volume cell, by their corners.
 struct BoundaryFaces
 {
-  std::vector<Index> offsets; ///< #faces + 1, into `connectivity`
+  std::vector<Index> offsets = { 0 }; ///< #faces + 1, into `connectivity`
   /// node ids, outward by the right-hand rule for cells in VTK's order
   std::vector<Index> connectivity;
   std::vector<Index> cells; ///< #faces, the volume cell that owns the face

@@ -18,15 +18,6 @@ namespace morph
 {
 namespace
 {
-void requireRows(const char* what, Index rows, Index expected)
-{
-  if (rows != expected)
-  {
-    throw Error(std::string(what) + " has " + std::to_string(rows) + " rows where " +
-                std::to_string(expected) + " are expected.");
-  }
-}
-
 /// Returns the `ids` whose row of `some` is not finite.
 template <typename Columns>
 std::vector<Index> notFinite(const Columns& some, const std::vector<Index>& ids)
@@ -58,10 +49,11 @@ void requireMode(
 
 /// Throws unless what was found for the free nodes is finite.
 template <typename Columns>
-void requireFound(
-  const Columns& free, const NodePartition& partition, const Communicator& processes)
+void requireFound(const Columns& free, const NodePartition& partition,
+  const Communicator& processes, Monitor& monitor)
 {
-  if (!free.allFinite())
+  if (reproducibleSum(free.rows(), monitor, Index(0),
+        [&](Index i) { return Index(!free.row(i).allFinite()); }) > 0)
   {
     throw Error("The displacements found are not finite (NaN or infinite) at node ids " +
                 listIds(processes.idsOf(notFinite(free, partition.free))) +
@@ -272,76 +264,66 @@ EvaluateReport Morpher::evaluate(
   const ConstPoints& prescribed, Points& moved, Monitor& monitor) const
 {
   EvaluateReport report;
-  this->processes().together([&] { report = this->evaluateHere(prescribed, moved, monitor); });
-  return report;
-}
-
-EvaluateReport Morpher::evaluateHere(
-  const ConstPoints& prescribed, Points& moved, Monitor& monitor) const
-{
-  this->requirePrepared();
-  const std::vector<Index>& ids = this->partition().prescribed;
-  requireRows(
-    "The array of prescribed positions", prescribed.rows(), static_cast<Index>(ids.size()));
-
-  const Points displacement = this->displacementOf(prescribed, monitor);
-  Points freeDisplacement(static_cast<Index>(this->partition().free.size()), 3);
-  EvaluateReport report;
-  FirstSpeaks whole(monitor, this->processes());
-  if (this->hasFree_)
-  {
-    this->warnOf(displacement, whole);
-    report = this->displaceRest(displacement, freeDisplacement, whole);
-    this->keepInPlane(freeDisplacement);
-  }
-  if (reproducibleSum(freeDisplacement.rows(), monitor, Index(0),
-        [&](Index i) { return Index(!freeDisplacement.row(i).allFinite()); }) > 0)
-  {
-    throw Error(
-      "The positions found are not finite (NaN or infinite) at node ids " +
-      listIds(this->processes().idsOf(notFinite(freeDisplacement, this->partition().free))) +
-      ". The motion, or the mesh, is too large to compute with: scale it down.");
-  }
-
-  // Allocates only if the caller's array does not fit: mapping new pages takes longer than filling
-  // them.
-  const bool overlaps = moved.data() < prescribed.data() + prescribed.size() &&
-                        prescribed.data() < moved.data() + moved.size();
-  Points fresh;
-  Points& result = moved.rows() == this->restPoints().rows() && !overlaps ? moved : fresh;
-  result.resize(this->restPoints().rows(), 3);
-  if (this->isComplete_)
-  {
-    parallel(freeDisplacement.rows(), monitor,
-      [&](Index i) { this->place(this->partition().free[i], freeDisplacement.row(i), result); });
-    for (Index n : this->outside_)
+  this->processes().together(
+    [&]
     {
-      result.row(n) = this->restPoints().row(n);
-    }
-  }
-  else
-  {
-    Points all = Points::Zero(this->restPoints().rows(), 3);
-    all(this->partition().free, allColumns) = freeDisplacement;
-    all(ids, allColumns) = displacement;
-    this->complete(all);
-    for (Index n = 0; n < all.rows(); ++n)
-    {
-      this->place(n, all.row(n), result);
-    }
-  }
-  // The undeformed position plus the displacement may differ from the given position in the last
-  // bit.
-  result(ids, allColumns) = prescribed;
-  if (this->shell_)
-  {
-    placeImages(*this->shell_, result);
-  }
-  if (&result == &fresh)
-  {
-    moved.swap(fresh);
-  }
-  monitor.progress(1);
+      this->requirePrepared();
+      const std::vector<Index>& ids = this->partition().prescribed;
+      requireRows(
+        "The array of prescribed positions", prescribed.rows(), static_cast<Index>(ids.size()));
+
+      const Points displacement = this->displacementOf(prescribed, monitor);
+      Points freeDisplacement(static_cast<Index>(this->partition().free.size()), 3);
+      FirstSpeaks whole(monitor, this->processes());
+      if (this->hasFree_)
+      {
+        this->warnOf(displacement, whole);
+        report = this->displaceRest(displacement, freeDisplacement, whole);
+        this->keepInPlane(freeDisplacement);
+      }
+      requireFound(freeDisplacement, this->partition(), this->processes(), monitor);
+
+      // Allocates only if the caller's array does not fit: mapping new pages takes longer than
+      // filling them.
+      const bool overlaps = moved.data() < prescribed.data() + prescribed.size() &&
+                            prescribed.data() < moved.data() + moved.size();
+      Points fresh;
+      Points& result = moved.rows() == this->restPoints().rows() && !overlaps ? moved : fresh;
+      result.resize(this->restPoints().rows(), 3);
+      if (this->isComplete_)
+      {
+        parallel(freeDisplacement.rows(), monitor,
+          [&](Index i)
+          { this->place(this->partition().free[i], freeDisplacement.row(i), result); });
+        for (Index n : this->outside_)
+        {
+          result.row(n) = this->restPoints().row(n);
+        }
+      }
+      else
+      {
+        Points all = Points::Zero(this->restPoints().rows(), 3);
+        all(this->partition().free, allColumns) = freeDisplacement;
+        all(ids, allColumns) = displacement;
+        this->complete(all);
+        for (Index n = 0; n < all.rows(); ++n)
+        {
+          this->place(n, all.row(n), result);
+        }
+      }
+      // The undeformed position plus the displacement may differ from the given position in the
+      // last bit.
+      result(ids, allColumns) = prescribed;
+      if (this->shell_)
+      {
+        placeImages(*this->shell_, result);
+      }
+      if (&result == &fresh)
+      {
+        moved.swap(fresh);
+      }
+      monitor.progress(1);
+    });
   return report;
 }
 
@@ -349,57 +331,53 @@ EvaluateReport LinearMorpher::applyTranspose(
   const ConstPoints& gradient, Points& prescribed, Monitor& monitor) const
 {
   EvaluateReport report;
-  this->processes().together([&] { report = this->transposeHere(gradient, prescribed, monitor); });
-  return report;
-}
-
-EvaluateReport LinearMorpher::transposeHere(
-  const ConstPoints& gradient, Points& prescribed, Monitor& monitor) const
-{
-  this->requirePrepared();
-  requireRows("The gradient", gradient.rows(), this->restPoints().rows());
-  Points all = gradient;
-  if (!all.allFinite())
-  {
-    throw Error("The gradient has entries that are not finite (NaN or infinite).");
-  }
-  const std::vector<Index>&ids = this->partition().prescribed,
-        &elsewhere = this->copies_->countedElsewhere();
-  // Prescribed nodes have no weights: they also receive the gradient from higher-order nodes.
-  all(elsewhere, allColumns).setZero();
-  this->higherOrderNodes_.applyTranspose(all);
-  this->copies_->add(all);
-  all(elsewhere, allColumns).setZero();
-  Points result = all(ids, allColumns);
-  EvaluateReport report;
-  if (this->hasFree_)
-  {
-    FirstSpeaks whole(monitor, this->processes());
-    Points free = all(this->partition().free, allColumns);
-    this->keepInPlane(free);
-    if (this->fits_.empty())
+  this->processes().together(
+    [&]
     {
-      report = this->displaceTranspose(free, result, whole);
-    }
-    else
-    {
-      Points ofRest = Points::Zero(result.rows(), 3);
-      report = this->displaceTranspose(free, ofRest, whole);
-      this->fits_.transpose(free, ofRest);
-      result += ofRest;
-    }
-  }
-  monitor.check(); // a method whose product takes milliseconds need not ask
-  if (!this->isComplete_)
-  {
-    all.setZero();
-    all(ids, allColumns) = result;
-    this->copies_->add(all);
-    all(elsewhere, allColumns).setZero();
-    result = all(ids, allColumns);
-  }
-  prescribed.swap(result);
-  monitor.progress(1);
+      this->requirePrepared();
+      requireRows("The gradient", gradient.rows(), this->restPoints().rows());
+      Points all = gradient;
+      if (!all.allFinite())
+      {
+        throw Error("The gradient has entries that are not finite (NaN or infinite).");
+      }
+      const std::vector<Index>&ids = this->partition().prescribed,
+            &elsewhere = this->copies_->countedElsewhere();
+      // Prescribed nodes have no weights: they also receive the gradient from higher-order nodes.
+      all(elsewhere, allColumns).setZero();
+      this->higherOrderNodes_.applyTranspose(all);
+      this->copies_->add(all);
+      all(elsewhere, allColumns).setZero();
+      Points result = all(ids, allColumns);
+      if (this->hasFree_)
+      {
+        FirstSpeaks whole(monitor, this->processes());
+        Points free = all(this->partition().free, allColumns);
+        this->keepInPlane(free);
+        if (this->fits_.empty())
+        {
+          report = this->displaceTranspose(free, result, whole);
+        }
+        else
+        {
+          Points ofRest = Points::Zero(result.rows(), 3);
+          report = this->displaceTranspose(free, ofRest, whole);
+          this->fits_.transpose(free, ofRest);
+          result += ofRest;
+        }
+      }
+      monitor.check(); // a method whose product takes milliseconds need not ask
+      if (!this->isComplete_)
+      {
+        all.setZero();
+        all(ids, allColumns) = result;
+        this->copies_->add(all);
+        all(elsewhere, allColumns).setZero();
+        result = all(ids, allColumns);
+      }
+      prescribed.swap(result);
+      monitor.progress(1);
+    });
   return report;
 }
 
@@ -414,7 +392,7 @@ Points LinearMorpher::mode(
     report = this->displaceRest(displacement, free, monitor);
     this->keepInPlane(free);
   }
-  requireFound(free, partition, this->processes());
+  requireFound(free, partition, this->processes(), monitor);
   Points all = Points::Zero(this->restPoints().rows(), 3);
   all(partition.free, allColumns) = free;
   all(partition.prescribed, allColumns) = displacement;
@@ -460,7 +438,7 @@ FourFields LinearMorpher::fields(
       free.row(front) = free.row(back) = ((free.row(front) + free.row(back)) / 2).eval();
     }
   }
-  requireFound(free, partition, this->processes());
+  requireFound(free, partition, this->processes(), monitor);
   FourFields all = FourFields::Zero(this->restPoints().rows(), 4);
   all(partition.free, allColumns) = free;
   all(partition.prescribed, allColumns) = prescribed;

@@ -154,7 +154,6 @@ private:
 
   void prepareFor(const Mesh& rest, std::shared_ptr<const Points> points,
     std::shared_ptr<const NodePartition> partition, Monitor& monitor);
-  EvaluateReport evaluateHere(const ConstPoints& prescribed, Points& moved, Monitor& monitor) const;
   /// Returns #prescribed x 3; throws Error where it is not finite.
   Points displacementOf(const ConstPoints& prescribed, Monitor& monitor) const;
   template <typename Displacement>
@@ -222,7 +221,5 @@ protected:
 
 private:
   Points mode(const Points& displacement, EvaluateReport& report, Monitor& monitor) const;
-  EvaluateReport transposeHere(
-    const ConstPoints& gradient, Points& prescribed, Monitor& monitor) const;
 };
 }

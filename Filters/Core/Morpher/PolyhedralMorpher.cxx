@@ -274,13 +274,6 @@ bool needsPieces(const Mesh& mesh, const HangingNodes& hanging)
   return hasPolyhedra(mesh) || !hanging.empty();
 }
 
-std::unique_ptr<Morpher> morpherForCells(
-  const Mesh& mesh, const HangingNodes& hanging, std::unique_ptr<Morpher> method)
-{
-  return needsPieces(mesh, hanging) ? morpherForPolyhedra(std::move(method), false, hanging)
-                                    : std::move(method);
-}
-
 Morpher& methodOf(Morpher& morpher)
 {
   auto* wrapper = dynamic_cast<Wrapper*>(&morpher);

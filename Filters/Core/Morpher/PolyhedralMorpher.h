@@ -21,10 +21,6 @@ std::unique_ptr<Morpher> morpherForPolyhedra(
 /// Whether a method works on pieces of some cells: of polyhedra, and of cells at divided faces.
 bool needsPieces(const Mesh& mesh, const HangingNodes& hanging);
 
-/// Returns morpherForPolyhedra() for a mesh that needs pieces, and `method` itself for others.
-std::unique_ptr<Morpher> morpherForCells(
-  const Mesh& mesh, const HangingNodes& hanging, std::unique_ptr<Morpher> method);
-
 /// Returns the method that works on the pieces, or `morpher` itself if it is no such wrapper.
 Morpher& methodOf(Morpher& morpher);
 }

@@ -67,7 +67,7 @@ void SiteMethod::doPrepare(const Mesh& rest, Monitor& monitor)
     }
     this->serial_ = std::make_unique<BodyByBody>(std::move(this->serial_), std::move(ofPoint));
   }
-  Silent silent(monitor);
+  QuietRange silent(monitor, 0, 1);
   processes.together([&] { this->serial_->prepare(points, partition, silent); });
 }
 
@@ -78,7 +78,7 @@ EvaluateReport SiteMethod::displace(const Points& prescribed, Points& free, Moni
   const Points sites = this->processes().gather(all, this->partition().prescribed);
   const Points& rest = this->serial_->restPoints();
   EvaluateReport report;
-  Silent silent(monitor);
+  QuietRange silent(monitor, 0, 1);
   this->processes().together(
     [&]
     {
@@ -97,7 +97,7 @@ EvaluateReport SiteMethod::displaceTranspose(
   Points gradient = Points::Zero(this->serial_->restPoints().rows(), 3), ofSites;
   gradient.bottomRows(free.rows()) = free;
   EvaluateReport report;
-  Silent silent(monitor);
+  QuietRange silent(monitor, 0, 1);
   this->processes().together([&] { report = linear.applyTranspose(gradient, ofSites, silent); });
   this->processes().sum(ofSites.data(), static_cast<int>(ofSites.size()));
   for (const auto& [row, site] : this->sites_)

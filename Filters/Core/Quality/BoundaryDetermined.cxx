@@ -6,6 +6,7 @@
 #include "Mesh/SimplicialDecomposition.h"
 #include "Mesh/Topology.h"
 #include "Quality/InvertedBefore.h"
+#include "Support/Error.h"
 
 #include <Eigen/Geometry>
 
@@ -144,6 +145,16 @@ std::vector<Index> inversionsByBoundaryMotion(const Mesh& mesh, const NodePartit
       cells.end());
   }
   return cells;
+}
+
+void warnOfDetermined(const std::vector<Index>& ids, Monitor& monitor)
+{
+  if (!ids.empty())
+  {
+    monitor.warn(
+      "The boundary itself inverts cells whose corners it prescribes: cell ids " + listIds(ids) +
+      ". No method can repair them; move the boundary less, or leave some of their nodes free.");
+  }
 }
 
 std::vector<NodeWithoutPlace> nodesWithoutPlace(const Mesh& mesh, const NodePartition& partition,

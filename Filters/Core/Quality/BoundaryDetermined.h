@@ -25,6 +25,9 @@ std::vector<Index> inversionsByBoundaryMotion(const Mesh& mesh, const NodePartit
   const std::vector<std::int8_t>& orientation, const Points& rest, const Points& points,
   Monitor& monitor);
 
+/// Warns of cells that the boundary itself inverts, if there are some, by their ids.
+void warnOfDetermined(const std::vector<Index>& ids, Monitor& monitor);
+
 /// A free node without a position where all cells around it are valid. Each of these cells alone
 /// leaves it a position.
 struct NodeWithoutPlace

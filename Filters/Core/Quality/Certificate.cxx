@@ -371,28 +371,13 @@ struct Counts
 };
 }
 
-Certificate certifyCell(std::uint8_t type, const double (*nodes)[3])
-{
-  const CellShape* shape = cellShape(type);
-  if (!shape || !shape->isMapped || numberOfCorners(shape->shape) == 0)
-  {
-    return Certificate::Undecided;
-  }
-  Vector x[MostNodesOfVolume];
-  for (int k = 0; k < shape->numberOfNodes; ++k)
-  {
-    x[k] = Vector(nodes[k][0], nodes[k][1], nodes[k][2]);
-  }
-  return certifyNodes(type, *shape, x);
-}
-
 std::vector<Index> unmappedCells(const Mesh& mesh)
 {
   std::vector<Index> cells;
   for (Index c = 0; c < mesh.numberOfCells(); ++c)
   {
-    const CellShape* shape = cellShape(mesh, c);
-    if (shape && shape->dimension == 3 && !shape->isMapped)
+    const CellShape* shape = volumeShape(mesh, c);
+    if (shape && !shape->isMapped)
     {
       cells.push_back(c);
     }

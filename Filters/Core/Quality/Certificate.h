@@ -20,8 +20,16 @@ enum class Certificate : std::int8_t
   Certified = 1  ///< it is positive everywhere in the cell
 };
 
-/// A proof for one cell from its nodes in VTK's order. Rounding errors are bounded throughout, so
-/// Certified and Inverted hold for the coordinates as given.
+struct CertificateReport
+{
+  std::vector<Certificate> cells; ///< #cells; Undecided where not examined
+  Index certified = 0;
+  Index inverted = 0;
+  Index undecided = 0; ///< among the examined cells
+};
+
+/// Certifies all volume cells in parallel, each from its nodes in VTK's order. Rounding errors are
+/// bounded throughout, so Certified and Inverted hold for the coordinates as given.
 ///
 /// - Tetrahedron: the determinant is constant and its sign exact (OrientationPredicate.h).
 /// - Pyramid: with the base Q(r, s) = q + r u + s v + r s w and the apex a, VTK's map is (1 - t) Q
@@ -36,30 +44,18 @@ enum class Certificate : std::int8_t
 ///   233 (2013) 359-372. Of hexahedra and wedges the corner signs are exact; of others they are
 ///   bounded. With nodes exactly in the middle of their corners a cell is proved as the linear one
 ///   that it is.
-/// - Polyhedron (certify() alone): the tetrahedra by which it is measured (PolyhedronQuality.h).
+/// - Polyhedron: the tetrahedra by which it is measured (PolyhedronQuality.h).
 ///
 /// Undecided are hexahedra and wedges with a determinant within about 1e-13 of zero, but no corner
 /// at or below zero. This is relative to the product of the longest edges in the three directions.
 /// Also undecided are quadratic cells within about 1e-11 of zero, even if exactly zero (a node at a
 /// quarter of its edge). So are coordinates that are not finite and shapes that are not volumes.
 ///
-/// `nodes`: n x 3, all n nodes of the cell, those of a voxel in a hexahedron's order. Cost: 0.1
-/// microseconds for a tetrahedron, 1.5 for a hexahedron, 5 for a curved quadratic cell. An
-/// undecided cell takes up to about 5 milliseconds.
-Certificate certifyCell(std::uint8_t type, const double (*nodes)[3]);
-
-struct CertificateReport
-{
-  std::vector<Certificate> cells; ///< #cells; Undecided where not examined
-  Index certified = 0;
-  Index inverted = 0;
-  Index undecided = 0; ///< among the examined cells
-};
-
-/// Certifies all volume cells in parallel. Cells of an unknown type stay undecided. Cells of lower
-/// dimension and cells with a nonzero `skip` entry are not examined. `points`: #nodes x 3, the
-/// positions to examine, instead of the mesh's own. `orientation`: #cells of +1 / -1 (Topology.h),
-/// or empty for VTK's order throughout.
+/// Cells of an unknown type stay undecided. Cells of lower dimension and cells with a nonzero
+/// `skip` entry are not examined. `points`: #nodes x 3, the positions to examine, instead of the
+/// mesh's own. `orientation`: #cells of +1 / -1 (Topology.h), or empty for VTK's order throughout.
+/// Cost: 0.1 microseconds for a tetrahedron, 1.5 for a hexahedron, 5 for a curved quadratic cell.
+/// An undecided cell takes up to about 5 milliseconds.
 CertificateReport certify(const Mesh& mesh, const ConstPoints& points,
   const std::vector<std::int8_t>& orientation, const std::vector<std::uint8_t>& skip,
   Monitor& monitor);

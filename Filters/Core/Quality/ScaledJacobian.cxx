@@ -647,6 +647,11 @@ std::vector<Index> invertedCells(const Mesh& mesh, const Points& points,
   return invertedCells(measureQuality(mesh, points, orientation, {}, monitor));
 }
 
+double minimumOfAll(const Quality& mine, const Communicator& processes)
+{
+  return processes.minimum(mine.measured > 0 ? mine.minimum : Infinity);
+}
+
 Quality ofAll(const Quality& mine, const Communicator& processes)
 {
   Quality whole;
@@ -658,7 +663,7 @@ Quality ofAll(const Quality& mine, const Communicator& processes)
   whole.measured = static_cast<Index>(counts[0]);
   whole.inverted = static_cast<Index>(counts[1]);
   whole.degenerate = static_cast<Index>(counts[2]);
-  whole.minimum = processes.minimum(any ? mine.minimum : Infinity);
+  whole.minimum = minimumOfAll(mine, processes);
   std::vector<Index> worst;
   for (std::size_t c = 0; any && c < mine.scaledJacobian.size(); ++c)
   {

@@ -82,6 +82,9 @@ std::vector<Index> invertedCells(const Mesh& mesh, const Points& points,
 /// lowest number in it. `mine`: of this process's own cells. Collective.
 Quality ofAll(const Quality& mine, const Communicator& processes);
 
+/// Returns the minimum over all processes; infinite where none has measured a cell. Collective.
+double minimumOfAll(const Quality& mine, const Communicator& processes);
+
 /// Returns the mean scaled Jacobian of the worst `share` of the measured cells of all processes,
 /// one cell at least. `mine`: of this process's own cells. `share`: in (0, 1]. NaN if no cell was
 /// measured. It does not depend on the cells' numbering. Collective. Cost: a pass over the cells,

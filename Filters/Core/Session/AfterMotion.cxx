@@ -12,7 +12,6 @@
 #include "Untangling/SmoothMesh.h"
 
 #include <algorithm>
-#include <limits>
 #include <memory>
 #include <utility>
 
@@ -57,12 +56,7 @@ void placeOthers(const Mesh& mesh, const HangingNodes& hanging, const NodePartit
   {
     HigherOrderNodes followers;
     followers.prepare(mesh, partition);
-    Points change = after - before;
-    followers.apply(change);
-    for (const Index node : partition.higherOrderNodes)
-    {
-      after.row(node) = before.row(node) + change.row(node);
-    }
+    followers.carry(before, after);
   }
   copies->update(after);
   hanging.place(mesh.points, after);
@@ -163,9 +157,8 @@ Index smoothAfterwards(const Mesh& rest, const HangingNodes& hanging, bool onPie
     const auto measure = [&](const Points& points)
     {
       const Quality quality = measureQuality(rest, points, orientation, others, monitor);
-      constexpr double None = std::numeric_limits<double>::infinity();
-      return std::pair(processes.sum(quality.inverted + quality.degenerate),
-        processes.minimum(quality.measured > 0 ? quality.minimum : None));
+      return std::pair(
+        processes.sum(quality.inverted + quality.degenerate), minimumOfAll(quality, processes));
     };
     // What is better for the pieces may be worse for the polyhedra.
     const auto [bad, minimum] = measure(smoothed);

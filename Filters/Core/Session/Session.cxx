@@ -40,15 +40,6 @@ void requireAscending(const std::vector<Index>& ids)
   }
 }
 
-void requireRows(const char* what, Index rows, Index expected)
-{
-  if (rows != expected)
-  {
-    throw Error(std::string(what) + " has " + std::to_string(rows) + " rows where " +
-                std::to_string(expected) + " are expected.");
-  }
-}
-
 void requireTargets(const BoundaryTargets& boundary, const Communicator& processes)
 {
   requireAscending(boundary.ids);
@@ -289,9 +280,8 @@ StepResult Session::morphStep(const Mesh& from, const BoundaryTargets& boundary,
   if (validity.isInversionFree && onPieces)
   {
     auto repairing = part(0.45, 0.5);
-    const std::vector<std::uint8_t> others = OwnCells::others(from, processes);
     const auto bad = [&](const Points& points)
-    { return invertedCells(measureQuality(from, points, orientation, others, repairing)); };
+    { return invertedCells(validity.measure(points, repairing)); };
     repairPolyhedra(from, hanging, rest.points, partition, bad, result.moved, repairing, processes);
   }
   if (validity.isInversionFree)

@@ -17,6 +17,7 @@
 #include "Untangling/InversionFree.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <sstream>
 #include <utility>
@@ -116,11 +117,13 @@ std::vector<Index> Validity::inverted(const Points& points, Monitor& monitor) co
   return this->inverted(this->measure(points, monitor), points);
 }
 
-std::vector<Validity::BadCell> Validity::worst(
-  const std::vector<Index>& cells, const Quality& quality, const Points& points) const
+std::string Validity::worst(
+  const std::vector<Index>& cells, Index count, const Quality& quality, const Points& points) const
 {
+  constexpr std::size_t MostNamed = 10;
+  using Named = std::array<double, 5>; // the scaled Jacobian, the id in the whole mesh, the center
+  std::vector<Named> named;
   const std::vector<Index> ids = this->all().idsOfCells(cells);
-  std::vector<BadCell> result;
   for (std::size_t i = 0; i < cells.size(); ++i)
   {
     const Index cell = cells[i];
@@ -132,45 +135,35 @@ std::vector<Validity::BadCell> Validity::worst(
     {
       center += points.row(this->mesh.cell(cell)[k]) / static_cast<double>(corners);
     }
-    result.push_back({ quality.scaledJacobian[cell], ids[i], { center[0], center[1], center[2] } });
+    named.push_back({ quality.scaledJacobian[cell], static_cast<double>(ids[i]), center[0],
+      center[1], center[2] });
   }
   const auto keepWorst = [&]
   {
-    std::sort(result.begin(), result.end());
-    result.resize(std::min(result.size(), mostNamed));
+    std::sort(named.begin(), named.end());
+    named.resize(std::min(named.size(), MostNamed));
   };
   keepWorst();
   std::vector<double> numbers;
-  for (const BadCell& cell : result)
+  for (const Named& cell : named)
   {
-    const double* x = cell.center;
-    numbers.insert(
-      numbers.end(), { cell.jacobian, static_cast<double>(cell.id), x[0], x[1], x[2] });
+    numbers.insert(numbers.end(), cell.begin(), cell.end());
   }
   numbers = this->all().gather(numbers);
-  result.clear();
-  for (const double* n = numbers.data(); n != numbers.data() + numbers.size(); n += 5)
+  named.resize(numbers.size() / 5);
+  for (std::size_t i = 0; i < named.size(); ++i)
   {
-    result.push_back({ n[0], static_cast<Index>(n[1]), { n[2], n[3], n[4] } });
+    std::copy_n(numbers.begin() + 5 * static_cast<std::ptrdiff_t>(i), 5, named[i].begin());
   }
   keepWorst();
-  return result;
-}
-
-namespace
-{
-/// A line for each of the worst of `count` cells.
-std::string linesOf(const std::vector<Validity::BadCell>& worst, Index count)
-{
   std::ostringstream text;
-  for (const Validity::BadCell& cell : worst)
+  for (const auto& [jacobian, id, x, y, z] : named)
   {
-    text << "\n  cell " << cell.id << " at (" << cell.center[0] << ", " << cell.center[1] << ", "
-         << cell.center[2] << "), scaled Jacobian " << cell.jacobian;
+    text << "\n  cell " << static_cast<Index>(id) << " at (" << x << ", " << y << ", " << z
+         << "), scaled Jacobian " << jacobian;
   }
-  text << (count > static_cast<Index>(worst.size()) ? "\n  ...\n" : "\n");
+  text << (count > static_cast<Index>(named.size()) ? "\n  ...\n" : "\n");
   return text.str();
-}
 }
 
 std::string Validity::found(const Quality& quality, const Points& points) const
@@ -178,8 +171,8 @@ std::string Validity::found(const Quality& quality, const Points& points) const
   const std::vector<Index> inverted = this->inverted(quality, points);
   const Index count = this->count(inverted), all = this->count(invertedCells(quality));
   return std::to_string(count) + " cells are inverted or degenerate" +
-         (count == all ? "" : " by the motion") + ". The worst, with their centers:" +
-         linesOf(this->worst(inverted, quality, points), count);
+         (count == all ? "" : " by the motion") +
+         ". The worst, with their centers:" + this->worst(inverted, count, quality, points);
 }
 
 Validity::Outcome Validity::ofSubSteps(const SubStepResult& result, Monitor& monitor) const
@@ -201,8 +194,8 @@ Validity::Outcome Validity::ofSubSteps(const SubStepResult& result, Monitor& mon
     }
     const std::vector<Index> cells = this->all().cellsOf(result.inverted);
     text << result.inverted.size() << " cells, at the result's places:"
-         << linesOf(this->worst(cells, this->measure(result.moved, monitor), result.moved),
-              static_cast<Index>(result.inverted.size()))
+         << this->worst(cells, static_cast<Index>(result.inverted.size()),
+              this->measure(result.moved, monitor), result.moved)
          << (result.isForbidden
                 ? "Mend the boundary there, move it less, or give it another path by steps of its "
                   "own."

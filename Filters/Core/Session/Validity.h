@@ -14,7 +14,6 @@
 #include <functional>
 #include <memory>
 #include <string>
-#include <tuple>
 #include <vector>
 
 namespace morph
@@ -94,19 +93,6 @@ public:
   /// ascending.
   static std::string note(Mode mode, const std::vector<Index>& ids);
 
-  /// What messages say of an inverted cell.
-  struct BadCell
-  {
-    double jacobian;
-    Index id; ///< of the whole mesh
-    double center[3];
-    bool operator<(const BadCell& other) const
-    {
-      return std::tie(this->jacobian, this->id) < std::tie(other.jacobian, other.id);
-    }
-  };
-  static constexpr std::size_t mostNamed = 10;
-
   /// Throws Infeasible if `mode` asks for a valid mesh and the targets themselves invert cells; the
   /// message names these cells. To be called before the method is evaluated.
   void requireFeasible() const;
@@ -117,19 +103,20 @@ public:
   /// Repairs the mesh, if that leaves fewer cells that count, by the inversion-free method: cells
   /// near the bad ones first. Returns whether none are left.
   bool repair(Points& moved, Monitor& monitor) const;
+  /// The quality of this process's own cells at `points`, #nodes x 3.
+  Quality measure(const Points& points, Monitor& monitor) const;
 
 private:
   const Communicator& all() const
   {
     return this->processes ? *this->processes : Communicator::alone();
   }
-  Quality measure(const Points& points, Monitor& monitor) const;
   Index count(const std::vector<Index>& cells) const;
   /// The numbers in the whole mesh of these cells of all processes, ascending, each once.
   std::vector<Index> idsOf(const std::vector<Index>& cells) const;
-  /// Returns the worst of these cells of all processes, `mostNamed` at most, the worst first.
-  std::vector<BadCell> worst(
-    const std::vector<Index>& cells, const Quality& quality, const Points& points) const;
+  /// The worst of these cells of all processes, `count` in all, a line each.
+  std::string worst(const std::vector<Index>& cells, Index count, const Quality& quality,
+    const Points& points) const;
   /// The outcome of sub-steps. Where they have not made the whole motion, its error names what
   /// stopped them.
   Outcome ofSubSteps(const SubStepResult& result, Monitor& monitor) const;

@@ -220,7 +220,7 @@ void Multigrid::cycle(
   level.smoother.residual(A, work, residual, monitor);
   monitor.parallelFor(level.R.rows(), Grain / 8,
     [&](Index first, Index last)
-    { rowProducts(level.R, residual, first, last, below.rhs.data() + first); });
+    { rowProducts(CsrRows<float>(level.R), residual, first, last, below.rhs.data() + first); });
   this->cycle(k + 1, below.rhs.data(), below.x.data(), workspace, monitor);
   monitor.parallelFor(level.rows, Grain,
     [&](Index first, Index last)

@@ -3,6 +3,8 @@
 
 #include "Solvers/RowSum.h"
 
+#include <type_traits>
+
 namespace morph
 {
 namespace
@@ -22,11 +24,13 @@ struct Product
     }
   }
 };
+}
 
-template <typename Vector, typename Number, typename Row>
-void productsOf(const CsrRows<Number>& A, const Row* x, Index first, Index last,
+template <typename Number, typename Row>
+void rowProducts(const CsrRows<Number>& A, const Row* x, Index first, Index last,
   Eigen::Matrix<Number, 4, 1>* products)
 {
+  using Vector = std::conditional_t<std::is_same_v<Number, float>, SimdFloat4, SimdDouble4>;
   if (first < last) // vectors may be empty
   {
     const auto* numbers = x ? x->data() : nullptr;
@@ -34,23 +38,11 @@ void productsOf(const CsrRows<Number>& A, const Row* x, Index first, Index last,
     dispatched<Product<Vector>>(first, last, A.start, A.column, A.value, numbers, to);
   }
 }
-}
 
-void rowProducts(const CsrRows<float>& A, const Eigen::Vector4f* x, Index first, Index last,
-  Eigen::Vector4f* products)
-{
-  productsOf<SimdFloat4>(A, x, first, last, products);
-}
-
-void rowProducts(const CsrRows<double>& A, const MultiVectorRow* x, Index first, Index last,
-  MultiVectorRow* products)
-{
-  productsOf<SimdDouble4>(A, x, first, last, products);
-}
-
-void rowProducts(const CsrRows<double>& A, const Eigen::Vector4f* x, Index first, Index last,
-  MultiVectorRow* products)
-{
-  productsOf<SimdDouble4>(A, x, first, last, products);
-}
+template void rowProducts(
+  const CsrRows<float>&, const Eigen::Vector4f*, Index, Index, Eigen::Vector4f*);
+template void rowProducts(
+  const CsrRows<double>&, const MultiVectorRow*, Index, Index, MultiVectorRow*);
+template void rowProducts(
+  const CsrRows<double>&, const Eigen::Vector4f*, Index, Index, MultiVectorRow*);
 }

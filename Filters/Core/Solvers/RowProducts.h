@@ -10,15 +10,11 @@
 namespace morph
 {
 /// Sets products[i - first] to (A x)_i for the rows in [first, last). `x`: a row for each column
-/// of A. It uses AVX2 where the processor has it; the bits are the same without.
-///@{
-void rowProducts(const CsrRows<float>& A, const Eigen::Vector4f* x, Index first, Index last,
-  Eigen::Vector4f* products);
-void rowProducts(const CsrRows<double>& A, const MultiVectorRow* x, Index first, Index last,
-  MultiVectorRow* products);
-void rowProducts(const CsrRows<double>& A, const Eigen::Vector4f* x, Index first, Index last,
-  MultiVectorRow* products);
-///@}
+/// of A, MultiVectorRow or Eigen::Vector4f, the latter alone for floats. It uses AVX2 where the
+/// processor has it; the bits are the same without.
+template <typename Number, typename Row>
+void rowProducts(const CsrRows<Number>& A, const Row* x, Index first, Index last,
+  Eigen::Matrix<Number, 4, 1>* products);
 
 /// Calls use(i, (A x)_i) for the rows in [first, last), in their order. `use` may write other
 /// vectors than x.

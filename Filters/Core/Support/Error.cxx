@@ -11,6 +11,15 @@ SingularRows::SingularRows(const std::vector<std::int64_t>& rows)
 {
 }
 
+void requireRows(const char* what, std::int64_t rows, std::int64_t expected)
+{
+  if (rows != expected)
+  {
+    throw Error(std::string(what) + " has " + std::to_string(rows) + " rows where " +
+                std::to_string(expected) + " are expected.");
+  }
+}
+
 std::string listIds(const std::vector<std::int64_t>& ids, std::size_t most)
 {
   std::string text;

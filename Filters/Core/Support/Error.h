@@ -48,6 +48,9 @@ private:
   std::vector<std::int64_t> rows_;
 };
 
+/// Throws Error, which names `what`, unless an array has as many rows as are expected.
+void requireRows(const char* what, std::int64_t rows, std::int64_t expected);
+
 /// Formats the first `most` ids for a message: "3, 7, 9" or "3, 7, 9, ... (120 in all)".
 std::string listIds(const std::vector<std::int64_t>& ids, std::size_t most = 10);
 }

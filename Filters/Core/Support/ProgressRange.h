@@ -4,6 +4,9 @@
 #include "Support/Monitor.h"
 
 #include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace morph
 {
@@ -40,14 +43,16 @@ private:
   double first_, last_, told_ = 0;
 };
 
-/// Keeps back warnings, as of code that says them again, or has other numbers of nodes and cells.
-class Silent : public ProgressRange
+/// Keeps warnings until they are taken: of code that says them again, or has other numbers of nodes
+/// and cells.
+class QuietRange : public ProgressRange
 {
 public:
-  explicit Silent(Monitor& whole)
-    : ProgressRange(whole, 0, 1)
-  {
-  }
-  void warn(const std::string&) override {}
+  using ProgressRange::ProgressRange;
+  void warn(const std::string& message) override { this->warnings_.push_back(message); }
+  std::vector<std::string> take() { return std::exchange(this->warnings_, {}); }
+
+private:
+  std::vector<std::string> warnings_;
 };
 }

@@ -29,7 +29,6 @@ std::vector<Index> crossingCells(const WholeBoundary& boundary,
 {
   const BoundaryFaces& all = boundary.faces();
   BoundaryFaces given;
-  given.offsets = { 0 };
   for (const Index f : all.cells)
   {
     const auto first = all.connectivity.begin() + all.offsets[f],

@@ -51,9 +51,8 @@ void InversionFree::doPrepare(const Mesh& rest, Monitor& monitor)
   const Points atRest = own.take(rest.points) * this->scale_;
   const auto minimumAt = [&](const Points& points)
   {
-    const Quality quality = measureCorners(own.mesh(), points, own.orientation(), {}, monitor);
-    return own.communicator().minimum(
-      quality.measured > 0 ? quality.minimum : std::numeric_limits<double>::infinity());
+    return minimumOfAll(
+      measureCorners(own.mesh(), points, own.orientation(), {}, monitor), own.communicator());
   };
   this->minimumAtRest_ = minimumAt(atRest);
   const MovableQuality quality(

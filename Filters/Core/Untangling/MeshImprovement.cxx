@@ -4,6 +4,7 @@
 #include "Boundary/FoldedFaces.h"
 #include "Mesh/CellEdges.h"
 #include "Mesh/KRing.h"
+#include "Quality/BoundaryDetermined.h"
 #include "Support/Error.h"
 #include "Support/Lists.h"
 #include "Support/ProgressRange.h"
@@ -200,13 +201,7 @@ double unitEdgeScale(const Mesh& mesh, const Communicator& communicator)
 EvaluateReport reportImprovement(
   const MeshImprovement::Outcome& outcome, const std::vector<Index>& determined, Monitor& monitor)
 {
-  if (!determined.empty())
-  {
-    monitor.warn(
-      "The boundary itself inverts cells whose corners it prescribes: cell ids " +
-      listIds(determined) +
-      ". No method can repair them; move the boundary less, or leave some of their nodes free.");
-  }
+  warnOfDetermined(determined, monitor);
   std::vector<Index> onFolds;
   std::set_difference(outcome.onFolds.begin(), outcome.onFolds.end(), determined.begin(),
     determined.end(), std::back_inserter(onFolds));

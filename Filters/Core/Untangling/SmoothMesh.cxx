@@ -4,8 +4,8 @@
 #include "Energies/MeshEnergy.h"
 #include "Energies/UntangleEnergy.h"
 #include "Mesh/CellEdges.h"
+#include "Mesh/HigherOrderNodes.h"
 #include "Mesh/KRing.h"
-#include "Mesh/SharedHigherOrderNodes.h"
 #include "Mesh/SimplicialDecomposition.h"
 #include "Optimization/Minimizers.h"
 #include "Quality/ScaledJacobian.h"
@@ -88,12 +88,6 @@ double unitScale(const std::vector<double>& edgeLength, const Communicator& comm
 }
 
 /// Infinite without a measured cell.
-double minimumOf(const Quality& quality, const Communicator& communicator)
-{
-  return communicator.minimum(
-    quality.measured > 0 ? quality.minimum : std::numeric_limits<double>::infinity());
-}
-
 class Smoother
 {
 public:
@@ -231,7 +225,7 @@ private:
   /// Returns the free nodes in rings of cells around these.
   std::vector<Index> patchAround(const std::vector<Index>& cells)
   {
-    if (this->around_.offsets.empty())
+    if (this->around_.values.empty())
     {
       this->around_ = nodeToCells(this->mesh_);
     }
@@ -297,7 +291,7 @@ private:
   Quality measure(const Points& points) const
   {
     Quality quality = measureCorners(this->mesh_, points, this->orientation_, {}, this->monitor_);
-    quality.minimum = minimumOf(quality, this->communicator_);
+    quality.minimum = minimumOfAll(quality, this->communicator_);
     return quality;
   }
 
@@ -334,25 +328,8 @@ bool isWorse(const Mesh& mesh, const std::vector<std::int8_t>& orientation, cons
   const Quality after = measureQuality(mesh, result, orientation, {}, monitor);
   const Quality before = measureQuality(mesh, start, orientation, {}, monitor);
   const Index more = communicator.sum(after.inverted - before.inverted);
-  const double now = minimumOf(after, communicator), then = minimumOf(before, communicator);
+  const double now = minimumOfAll(after, communicator), then = minimumOfAll(before, communicator);
   return more > 0 || (more == 0 && !(now >= then));
-}
-
-void carryFollowers(const Mesh& rest, const NodePartition& partition, Points& points,
-  const Communicator& communicator)
-{
-  SharedHigherOrderNodes higherOrderNodes;
-  higherOrderNodes.prepare(rest, partition, communicator);
-  if (higherOrderNodes.empty())
-  {
-    return;
-  }
-  Points displacement = points - rest.points;
-  higherOrderNodes.apply(displacement);
-  for (Index node : partition.higherOrderNodes)
-  {
-    points.row(node) = rest.points.row(node) + displacement.row(node);
-  }
 }
 }
 
@@ -376,7 +353,9 @@ SmoothingReport smoothMesh(const Mesh& rest, const std::vector<std::int8_t>& ori
   {
     smoothed.row(node) = result.row(node);
   }
-  carryFollowers(rest, partition, smoothed, communicator);
+  HigherOrderNodes followers;
+  followers.prepare(rest, partition, communicator);
+  followers.carry(rest.points, smoothed);
   report.wasKept =
     options.neverWorse && isWorse(rest, orientation, smoothed, points, monitor, communicator);
   if (!report.wasKept)

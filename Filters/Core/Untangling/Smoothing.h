@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "LinearMethods/FemWarp.h"
+#include "Mesh/HigherOrderNodes.h"
 #include "Mesh/OwnCells.h"
 #include "Mesh/Topology.h"
 #include "Morpher/Morpher.h"
-#include "Untangling/MotionSmoothing.h"
+#include "Morpher/ShellFits.h"
+#include "Quality/ScaledJacobian.h"
 #include "Untangling/SmoothMesh.h"
 
 #include <memory>
@@ -48,10 +51,22 @@ protected:
   EvaluateReport displace(const Points& prescribed, Points& free, Monitor& monitor) const override;
 
 private:
+  // Of own_; `points` are #nodes x 3, `prescribed` #prescribed x 3 displacements.
+  bool isIdentity(const Points& prescribed, Monitor& monitor) const;
+  /// Measures `points` after setting their higher-order nodes. The counts and the minimum are those
+  /// of the whole mesh.
+  Quality measure(Points& points, Monitor& monitor) const;
+  /// Sets the free nodes of `points` (undeformed, with the prescribed nodes moved) to the start.
+  /// Returns whether both the boundary and the start move affinely.
+  bool start(const Points& prescribed, Points& points, Monitor& monitor) const;
+
   SmoothingOptions options_;
   std::unique_ptr<OwnCells> own_;
-  ConnectedComponents bodies_;         ///< of own_
-  SharedHigherOrderNodes followers_;   ///< of own_
-  std::unique_ptr<Membrane> membrane_; ///< null unless the mesh is a curved shell
+  ConnectedComponents bodies_; ///< of own_
+  HigherOrderNodes followers_; ///< of own_
+  /// Where nodes of a curved shell start; null for other meshes. They then move in tangent planes,
+  /// so that the surface has to be where it belongs.
+  std::unique_ptr<FemWarp> membrane_;
+  ShellFits membraneFits_; ///< of the same, by which an affine motion is known
 };
 }

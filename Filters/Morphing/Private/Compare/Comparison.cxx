@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Private/Compare/Comparison.h"
 
+#include "Private/Data/Results.h"
 #include "Private/Pipeline/Ranks.h"
-#include "vtkMorphAlgorithm.h"
 
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
@@ -142,25 +142,23 @@ double MethodRun::Seconds() const
 
 namespace Comparison
 {
-MethodRun::Step Measure(
-  vtkMorphAlgorithm* filter, double time, double percentile, const RankGroup& processes)
+MethodRun::Step Measure(const Results& results, vtkUnstructuredGrid* mesh, double time,
+  double percentile, const RankGroup& processes)
 {
-  vtkUnstructuredGrid* output = filter->GetOutput();
   std::vector<double> numbers;
-  if (output->GetNumberOfCells() > 0) // others may not know
+  if (mesh->GetNumberOfCells() > 0) // others may not know
   {
-    numbers = { filter->GetMinScaledJacobian(), filter->GetMeanScaledJacobian(),
-      static_cast<double>(filter->GetInvertedCells()),
-      static_cast<double>(filter->GetDegenerateCells()),
-      static_cast<double>(filter->GetBoundaryInvertedCells()), filter->GetPrepareSeconds(),
-      filter->GetEvaluateSeconds() };
+    const auto integer = [&](const char* name) { return double(results.Integer(name)); };
+    numbers = { results.Number("MinScaledJacobian"), results.Number("MeanScaledJacobian"),
+      integer("InvertedCells"), integer("DegenerateCells"), integer("BoundaryInvertedCells"),
+      results.Number("PrepareSeconds"), results.Number("EvaluateSeconds") };
   }
   processes.Share(numbers);
   MethodRun::Step step;
   step.Time = time;
   step.Minimum = numbers.at(0);
   step.Mean = numbers.at(1);
-  step.Low = percentileOf(output->GetCellData()->GetArray("ScaledJacobian"), percentile, processes);
+  step.Low = percentileOf(mesh->GetCellData()->GetArray("ScaledJacobian"), percentile, processes);
   step.Inverted = static_cast<vtkIdType>(numbers.at(2));
   step.Degenerate = static_cast<vtkIdType>(numbers.at(3));
   step.BoundaryInverted = static_cast<vtkIdType>(numbers.at(4));

@@ -7,12 +7,13 @@
 #include <utility>
 #include <vector>
 
-class vtkMorphAlgorithm;
 class vtkTable;
+class vtkUnstructuredGrid;
 
 namespace morph::filters
 {
 class RankGroup;
+class Results;
 
 /// The results of one method with one stepping in vtkCompareMorphMethods.
 struct MethodRun
@@ -44,10 +45,10 @@ struct MethodRun
 
 namespace Comparison
 {
-/// The step that a filter has just computed, the same on all `processes`, which have parts of the
-/// mesh or none. `percentile`: see vtkCompareMorphMethods.
-MethodRun::Step Measure(
-  vtkMorphAlgorithm* filter, double time, double percentile, const RankGroup& processes);
+/// The step of which a GridMorpher has just written `results` and the mesh, the same on all
+/// `processes`, which have parts of it or none. `percentile`: see vtkCompareMorphMethods.
+MethodRun::Step Measure(const Results& results, vtkUnstructuredGrid* mesh, double time,
+  double percentile, const RankGroup& processes);
 
 /// Gives every run its rank: by valid steps, then by the minimum scaled Jacobian at the last of
 /// them, to 0.01, then by seconds, then by order.

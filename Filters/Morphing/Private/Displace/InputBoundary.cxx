@@ -99,7 +99,6 @@ morph::Points moderatePoints(morph::Points points, const char* what)
 morph::BoundaryFaces polygons(vtkPolyData* surface)
 {
   morph::BoundaryFaces faces;
-  faces.offsets.push_back(0);
   vtkNew<vtkIdList> corners;
   std::vector<Index> wrong;
   vtkCellArray* cells = surface->GetPolys();

@@ -29,11 +29,6 @@ namespace morph::filters
 {
 namespace
 {
-double fractionOf(const GridMorpher::Motion& motion)
-{
-  return motion.Steps.Any() ? motion.Steps.Fraction(motion.Step) : 1;
-}
-
 /// What a valid mesh needs comes before Quality.
 bool measuresAll(const MorphOptions& options)
 {
@@ -104,7 +99,6 @@ std::string GridMorpher::Morph(vtkUnstructuredGrid* grid, vtkDataObject* boundar
     this->Session.reportMesh(options, monitor);
     morph::ProgressRange morphing(monitor, 0, 0.9), writing(monitor, 0.9, 1);
     const int precision = method.Options.OutputPointsPrecision;
-    const bool isFloat = Output::IsFloat(grid, precision);
     std::shared_ptr<morph::StepResult> single; // a series keeps its steps
     std::shared_ptr<const morph::StepResult> result;
     if (GridMorpher::IsSeries(method.Options.Stepping, motion.Steps))
@@ -113,7 +107,15 @@ std::string GridMorpher::Morph(vtkUnstructuredGrid* grid, vtkDataObject* boundar
     }
     else
     {
-      result = single = this->MorphOnce(displaced, fractionOf(motion), options, isFloat, morphing);
+      const double fraction = motion.Steps.Any() ? motion.Steps.Fraction(motion.Step) : 1;
+      const morph::BoundaryTargets match = this->Match(displaced, fraction, options, morphing);
+      std::optional<morph::Session::AffineHandle> handle;
+      if (options.Matching.displacementArray.empty() && !isDistributed)
+      {
+        handle = BoundaryMatch::FindHandle(displaced, match, kept.Grid(),
+          options.Matching.scaleFactor * fraction, Output::IsFloat(grid, precision));
+      }
+      result = single = this->Session.morph(match, options, morphing, handle ? &*handle : nullptr);
     }
     this->NoteEffort();
     morph::FirstSpeaks first(monitor, kept.All());
@@ -162,19 +164,6 @@ void GridMorpher::WriteUndeformed(vtkDataObject* input, const char* status, cons
   MorphOutput::WriteUndeformed(
     input, status, std::exchange(this->BoundaryInverted, 0), this->Results, outputs.Mesh);
   this->Kept().WriteUndeformedSurface(outputs.Mesh, outputs.Surface);
-}
-
-std::shared_ptr<morph::StepResult> GridMorpher::MorphOnce(vtkPointSet* displaced, double fraction,
-  const MotionOptions& options, bool isFloat, morph::Monitor& monitor)
-{
-  const morph::BoundaryTargets match = this->Match(displaced, fraction, options, monitor);
-  std::optional<morph::Session::AffineHandle> handle;
-  if (options.Matching.displacementArray.empty() && !this->IsOnRanks)
-  {
-    handle = BoundaryMatch::FindHandle(displaced, match, this->Session.mesh().mesh(),
-      options.Matching.scaleFactor * fraction, isFloat);
-  }
-  return this->Session.morph(match, options, monitor, handle ? &*handle : nullptr);
 }
 
 void GridMorpher::NoteEffort()

@@ -79,9 +79,6 @@ private:
   /// Takes the mesh of this motion.
   void Take(vtkUnstructuredGrid* grid, bool isDistributed, const MotionOptions& options,
     morph::Monitor& monitor);
-  /// `isFloat`: the result is rounded to single precision.
-  std::shared_ptr<morph::StepResult> MorphOnce(vtkPointSet* displaced, double fraction,
-    const MotionOptions& options, bool isFloat, morph::Monitor& monitor);
   /// Takes the cost of Session's last motion over.
   void NoteEffort();
   /// Matches the boundary, for that fraction of its motion.

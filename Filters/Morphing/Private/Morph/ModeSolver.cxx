@@ -81,13 +81,7 @@ MorphOutput::Measured ModeSolver::Write(vtkUnstructuredGrid* grid, const morph::
   MorphOutput::Measures measures;
   measures.All = all;
   measures.WorstMean = false;
-  MorphOutput::Measured measured =
-    MorphOutput::Measure(*this->Kept, {}, measures, nullptr, outputs, monitor);
-  if (all)
-  {
-    this->Kept->Surface().MarkCrossing(measured.Crossing.Own, outputs.Surface);
-  }
-  return measured;
+  return MorphOutput::Measure(*this->Kept, {}, measures, nullptr, outputs, monitor);
 }
 
 bool ModeSolver::Crosses(const morph::Points& moved, morph::Monitor& monitor) const

@@ -196,7 +196,7 @@ int Ports::RequestData(
       }
       mesh.IsDistributed = true;
     }
-    mesh.IsDistributed |= task.RunsFilters && Ranks::Processes() > 1;
+    mesh.IsDistributed |= task.IsForAll && Ranks::Processes() > 1;
     vtkUnstructuredGrid* grid = nullptr;
     const bool worksHere = mesh.IsDistributed || !mesh.IsElsewhere;
     RankGroup(mesh.IsDistributed)

@@ -69,9 +69,9 @@ public:
     /// "Cancelled"; the outputs are empty. The mesh is unchecked, of any type, null where it is not
     /// available, and one grid where its blocks could be merged.
     std::function<void(vtkDataObject* input, const char* status)> Undone = {};
-    /// Whether the mesh counts as distributed on several processes, wherever it is. For a task that
-    /// runs other filters, which communicate.
-    bool RunsFilters = false;
+    /// Whether the mesh counts as distributed on several processes, wherever it is, so that all of
+    /// them do the work.
+    bool IsForAll = false;
   };
   /// The grid that the work of a task fills for output 0, which may be composite.
   vtkUnstructuredGrid* Output(vtkInformationVector* outputVector)
@@ -80,7 +80,6 @@ public:
   }
   /// Gives Output() to output 0. RequestData() does it, too.
   void WriteOutput(vtkInformationVector* outputVector) { this->Mesh.Scatter(outputVector); }
-  const Blocks& GetBlocks() const { return this->Mesh; }
 
   /// Calls `task.Work`: on the one MPI process with cells or, if several have cells or others than
   /// that one have a boundary, on all.
