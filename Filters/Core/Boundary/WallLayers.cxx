@@ -185,12 +185,10 @@ private:
 WallLayers wallLayers(const std::map<Index, std::vector<Index>>& columns)
 {
   WallLayers layers;
-  layers.columns.offsets = { 0 };
   for (const auto& [wall, column] : columns)
   {
     layers.walls.push_back(wall);
-    layers.columns.values.insert(layers.columns.values.end(), column.begin(), column.end());
-    layers.columns.offsets.push_back(static_cast<Index>(layers.columns.values.size()));
+    layers.columns.add(column.begin(), column.end());
   }
   return layers;
 }
