@@ -287,7 +287,7 @@ void vtkCompareMorphMethods::vtkInternals::Run(vtkMorphAlgorithm* method, vtkUns
     std::vector<std::string> messages;
     const auto work = [&]
     {
-      if (isDistributed || isHere)
+      if (isDistributed || isHere || filters::Ranks::Processes() == 1) // else another has them
       {
         vtkDataObject* boundary = boundaries[motion.Boundary ? motion.Step : 0];
         filters::RankGroup(isDistributed).Together([&] { method->TakeInputs(grid, boundary); });

@@ -374,6 +374,10 @@ TEST_F(CompareMorphMethods, ErrorsGiveEmptyTables)
   this->Filter->SetBoundaryConnection(nullptr);
   errorAfter("Boundary: nothing is connected");
   this->Filter->SetBoundaryData(grids::boundary(this->Grid, waves));
+  vtkNew<vtkUnstructuredGrid> empty;
+  this->Filter->SetInputData(empty);
+  errorAfter("FEMWARP, Absolute: The input has no cells");
+  this->Filter->SetInputData(this->Grid);
   this->Filter->Update();
   EXPECT_EQ(this->Rows(0), 5);
 }
