@@ -715,8 +715,7 @@ void DistributedMesh::findOuter(Monitor& monitor)
     this->outerNodes_.nodes.push_back(node);
     Adjacency& between = this->outerNodes_.between;
     const Index k = static_cast<Index>(i);
-    between.values.insert(between.values.end(), all.between.begin(k), all.between.end(k));
-    between.offsets.push_back(static_cast<Index>(between.values.size()));
+    between.add(all.between.begin(k), all.between.end(k));
   }
 }
 

@@ -2,10 +2,9 @@
 #include "BoundaryMover/BoundaryModel.h"
 
 #include "Boundary/FaceAreas.h"
-#include "Mesh/CellShape.h"
+#include "Mesh/FaceTable.h"
 #include "Mesh/FacesOfCells.h"
 #include "Mesh/HangingNodes.h"
-#include "Mesh/Polyhedra.h"
 #include "Support/Lists.h"
 
 #include <Eigen/Geometry>
@@ -66,11 +65,11 @@ std::vector<Index> linearEdges(const Mesh& mesh, const BoundaryFaces& faces)
     }
   }
   std::vector<Index> result;
-  const auto take = [&](const std::vector<Index>& face)
+  const auto take = [&](const Index* face, Index size)
   {
-    for (std::size_t k = 0; k < face.size(); ++k)
+    for (Index k = 0; k < size; ++k)
     {
-      const auto found = middle.find(std::minmax(face[k], face[(k + 1) % face.size()]));
+      const auto found = middle.find(std::minmax(face[k], face[(k + 1) % size]));
       if (found != middle.end())
       {
         result.push_back(found->second);
@@ -79,19 +78,10 @@ std::vector<Index> linearEdges(const Mesh& mesh, const BoundaryFaces& faces)
   };
   for (Index c = 0; c < mesh.numberOfCells() && !middle.empty(); ++c)
   {
-    const CellShape* shape = cellShape(mesh, c);
-    forEachFace(mesh, c,
-      [&](const Index* nodes, Index size) { take(std::vector<Index>(nodes, nodes + size)); });
-    const bool isLinear =
-      shape && shape->dimension == 3 && shape->numberOfNodes == shape->numberOfCorners;
-    for (int f = 0; f < (isLinear ? shape->numberOfFaces : 0); ++f)
+    const CellShape* shape = volumeShape(mesh, c);
+    if (isPolyhedron(mesh, c) || (shape && shape->numberOfNodes == shape->numberOfCorners))
     {
-      std::vector<Index> face;
-      for (int k = 0; k < shape->faces[f].size; ++k)
-      {
-        face.push_back(mesh.cell(c)[shape->cornerNode[shape->faces[f].corner[k]]]);
-      }
-      take(face);
+      forEachSide(mesh, c, take);
     }
   }
   sortUnique(result);

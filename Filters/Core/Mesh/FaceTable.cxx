@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Mesh/FaceTable.h"
 
-#include "Mesh/Polyhedra.h"
 #include "Support/Parallel.h"
 
 #include <algorithm>
@@ -12,26 +11,6 @@ namespace morph
 {
 namespace
 {
-/// Calls visit(nodes, size) for each face of a volume cell; collapsed cells repeat nodes.
-template <typename Visit>
-void forEachFaceOfAny(const Mesh& mesh, Index cell, Visit&& visit)
-{
-  if (isPolyhedron(mesh, cell))
-  {
-    forEachFace(mesh, cell, visit);
-    return;
-  }
-  const CellShape* shape = volumeShape(mesh, cell);
-  for (int f = 0; shape && f < shape->numberOfFaces; ++f)
-  {
-    Index nodes[4];
-    const FaceShape& face = shape->faces[f];
-    std::transform(face.corner, face.corner + face.size, nodes,
-      [&](int k) { return mesh.cell(cell)[shape->cornerNode[k]]; });
-    visit(nodes, face.size);
-  }
-}
-
 /// Finds the equal faces among those of one lowest corner, and numbers them by the first. `sorted`:
 /// the corners of all faces, in their places in table.corners, those of each face ascending.
 void matchFaces(const std::vector<Index>& sorted, std::vector<Index>& faces, FaceTable& table)
@@ -75,7 +54,7 @@ FaceTable faceTable(const Mesh& mesh, Monitor& monitor)
   values.reserve(mesh.faces.size() + 3 * mesh.connectivity.size());
   for (Index c = 0; c < mesh.numberOfCells(); ++c)
   {
-    forEachFaceOfAny(mesh, c,
+    forEachSide(mesh, c,
       [&](const Index* nodes, Index size)
       {
         const auto begin = static_cast<std::ptrdiff_t>(values.size());

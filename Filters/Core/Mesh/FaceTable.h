@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Mesh/CellShape.h"
 #include "Mesh/Mesh.h"
+#include "Mesh/Polyhedra.h"
 #include "Support/Adjacency.h"
 #include "Support/Monitor.h"
 
+#include <algorithm>
 #include <vector>
 
 namespace morph
@@ -24,6 +27,27 @@ struct FaceTable
     return this->corners.offsets[face + 1] - this->corners.offsets[face];
   }
 };
+
+/// Calls visit(nodes, size) for each face of a volume cell, with its corners, of which collapsed
+/// cells repeat some. Other cells have none.
+template <typename Visit>
+void forEachSide(const Mesh& mesh, Index cell, Visit&& visit)
+{
+  if (isPolyhedron(mesh, cell))
+  {
+    forEachFace(mesh, cell, visit);
+    return;
+  }
+  const CellShape* shape = volumeShape(mesh, cell);
+  for (int f = 0; shape && f < shape->numberOfFaces; ++f)
+  {
+    Index nodes[4];
+    const FaceShape& face = shape->faces[f];
+    std::transform(face.corner, face.corner + face.size, nodes,
+      [&](int k) { return mesh.cell(cell)[shape->cornerNode[k]]; });
+    visit(nodes, face.size);
+  }
+}
 
 /// Cost: a pass over the cells and a sort of the faces by their lowest corner; about 150 bytes a
 /// quadrilateral.

@@ -3,6 +3,7 @@
 
 #include "Mesh/CellShape.h"
 #include "Mesh/DividedFaces.h"
+#include "Mesh/FaceTable.h"
 #include "Mesh/FacesOfCells.h"
 #include "Mesh/HigherOrderNodes.h"
 #include "Mesh/Polyhedra.h"
@@ -77,21 +78,14 @@ using Tie = std::map<Index, double>;
 std::vector<std::vector<Index>> sidesOf(const Mesh& mesh, Index cell)
 {
   std::vector<std::vector<Index>> sides;
-  forEachFace(
-    mesh, cell, [&](const Index* nodes, Index size) { sides.emplace_back(nodes, nodes + size); });
-  const CellShape* shape = cellShape(mesh, cell);
-  for (int f = 0; shape && shape->dimension == 3 && f < shape->numberOfFaces; ++f)
-  {
-    std::vector<Index>& corners = sides.emplace_back();
-    for (int k = 0; k < shape->faces[f].size; ++k)
+  forEachSide(mesh, cell,
+    [&](const Index* nodes, Index size)
     {
-      const Index node = mesh.cell(cell)[shape->cornerNode[shape->faces[f].corner[k]]];
-      if (std::find(corners.begin(), corners.end(), node) == corners.end())
-      {
-        corners.push_back(node);
-      }
-    }
-  }
+      std::vector<Index>& corners = sides.emplace_back();
+      std::copy_if(nodes, nodes + size, std::back_inserter(corners),
+        [&](Index node)
+        { return std::find(corners.begin(), corners.end(), node) == corners.end(); });
+    });
   return sides;
 }
 

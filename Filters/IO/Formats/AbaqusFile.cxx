@@ -716,7 +716,6 @@ void AbaqusFile::finish()
     this->fail(this->models_.empty() ? "it has no *NODE." : "no *INSTANCE has a *NODE.");
   }
   const Numbering numbering(this->mesh_.nodeNumbers, "node", this->path());
-  Numbering(this->all_.elementNumbers, "element", this->path()); // there is none twice
   std::vector<Index> nodes;
   for (std::size_t e = 0; e < this->all_.elementNumbers.size(); ++e)
   {
@@ -732,7 +731,8 @@ void AbaqusFile::finish()
     }
     this->mesh_.addCell(this->all_.elementTypes[e], nodes, this->all_.elementNumbers[e]);
   }
-  this->all_.sets.addTo(this->mesh_, numbering, this->all_.arePlane);
+  const Numbering elements(this->mesh_.cellNumbers, "element", this->path());
+  this->all_.sets.addTo(this->mesh_, numbering, elements, this->all_.arePlane);
   this->addLinks(numbering);
   for (const std::string& type : this->unknownTypes_)
   {

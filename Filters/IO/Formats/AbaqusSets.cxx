@@ -229,10 +229,9 @@ std::string AbaqusSets::missing(const NamedSurface& surface) const
   return result;
 }
 
-void AbaqusSets::addTo(
-  SolverMesh& mesh, const Numbering& nodes, const std::vector<std::uint8_t>& arePlane) const
+void AbaqusSets::addTo(SolverMesh& mesh, const Numbering& nodes, const Numbering& elements,
+  const std::vector<std::uint8_t>& arePlane) const
 {
-  const Numbering elements(mesh.cellNumbers, "element", "the file");
   const auto isWhole = [&mesh](const std::string& name, const std::string& missing)
   {
     if (!missing.empty())

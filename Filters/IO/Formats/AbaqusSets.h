@@ -37,13 +37,13 @@ public:
   /// A node set gets the nodes of an element set.
   void addNodesOf(const std::string& elementSet, const std::string& nodeSet);
 
-  /// Adds all sets to a mesh, with the faces of surfaces as cells. `nodes`: those of the mesh.
-  /// `arePlane`: see AbaqusElement, of each cell. Numbers of elements that the file does not define
-  /// are left out, as they may be of a type that is. So are numbers of nodes, surfaces with a side
-  /// that its element lacks, and sets and surfaces that name a set that the file does not define; a
-  /// warning of the mesh says so.
-  void addTo(
-    SolverMesh& mesh, const Numbering& nodes, const std::vector<std::uint8_t>& arePlane) const;
+  /// Adds all sets to a mesh, with the faces of surfaces as cells. `nodes`, `elements`: those of
+  /// the mesh. `arePlane`: see AbaqusElement, of each cell. Numbers of elements that the file does
+  /// not define are left out, as they may be of a type that is. So are numbers of nodes, surfaces
+  /// with a side that its element lacks, and sets and surfaces that name a set that the file does
+  /// not define; a warning of the mesh says so.
+  void addTo(SolverMesh& mesh, const Numbering& nodes, const Numbering& elements,
+    const std::vector<std::uint8_t>& arePlane) const;
 
 private:
   struct NamedEntries
