@@ -129,7 +129,7 @@ def frames(tree, build, kernel):
     program, mesh = build / "bin/morph-mesh", tree / "Data/Models/small/bore_hex_small.vtu"
     with tempfile.TemporaryDirectory() as folder:
         boundary = Path(folder) / "boundary.vtp"
-        subprocess.run([program, "--extract-boundary", mesh, boundary], check=True,
+        subprocess.run([program, "extract", mesh, boundary], check=True,
                        stdout=subprocess.DEVNULL)
         script = Path(folder) / "stack.py"
         script.write_text(IN_GDB.format(kernel=f"{tree / file}:{number}"), encoding="utf-8")

@@ -7,6 +7,7 @@
 #include <cerrno>
 #include <cstddef>
 #include <cstdlib>
+#include <filesystem>
 #include <functional>
 #include <numeric>
 #include <sstream>
@@ -23,55 +24,77 @@ struct Command
   const char* what;
   const char* usage;
   const char* examples;
-  const char* groups; ///< of options in its help; null: all
+  std::vector<std::string> options; ///< that have an effect, beside those of all commands
+  std::vector<std::string> groups;  ///< whose options have an effect
 };
 
 constexpr const char* Files = "Files and tasks";
-const Command Commands[] = {
+const std::vector<std::string> OfAll = { "--region", "--threads", "--version", "--help" };
+const std::vector<std::string> Blending = { "Method", "Method's options", "Computation",
+  "Boundary" };
+const std::vector<std::string> Repairing = { "Method", "Method's options", "Computation",
+  "Rest of the boundary", "Zones and layers" };
+const std::vector<std::string> Moving = { "Method", "Method's options", "Computation",
+  "Rest of the boundary", "Zones and layers", "What moves", "How it moves", "Center of rotation",
+  "Fit", "Lattice box", "Boundary" };
+const std::vector<Command> Commands = {
   { "move", Arguments::Task::Morph, "move surfaces, or take a moved boundary; the inside follows",
     "[options] <grid> <output> | <grid> <boundary> <output>",
     "move --move inlet --translate 0,0,0.1 duct.vtu longer.vtu\n"
-    "move --move 'Surface 3' --radius 0.2 --validity repair part.inp wider.inp\n"
+    "move --move 'Surface 3' --radius 0.2 --slide SYMMETRY part.inp wider.inp\n"
     "move --method radial-basis part.vtu moved.vtp morphed.vtu",
-    nullptr },
+    { "--output", "--criteria", "--report", "--require-valid", "--progress", "--quiet", "--target",
+      "--handles", "--lattice", "--field", "--displacements", "--node-numbers", "--time-step",
+      "--steps", "--results" },
+    Moving },
   { "fit", Arguments::Task::Morph, "move surfaces onto a target, such as an STL file",
     "--target <surface file> [options] <grid> <output>",
     "fit --target scan.stl part.vtu fitted.vtu\n"
     "fit --target scan.stl --align --move WALL part.inp fitted.inp\n"
     "fit --target terrain.stl --project-along z case case-on-terrain",
-    nullptr },
+    { "--output", "--criteria", "--report", "--require-valid", "--progress", "--quiet", "--target",
+      "--steps", "--results" },
+    Moving },
   { "list", Arguments::Task::ListSurfaces, "print name, faces, area and center of each surface",
-    "<grid>", "list part.vtu\nlist part.inp\nlist case", Files },
+    "<grid>", "list part.vtu\nlist part.inp\nlist case", { "--list-surfaces" }, {} },
   { "check", Arguments::Task::Check, "measure the quality of a grid, without a morph",
     "[--criteria <name>,...] [--require-valid] <grid>",
     "check part.vtu\ncheck --criteria NonOrthogonality=70,Skewness case\n"
     "check --require-valid part.inp",
-    Files },
+    { "--criteria", "--require-valid", "--quiet" }, {} },
   { "repair", Arguments::Task::Repair, "untangle inverted cells; the boundary stays",
     "[options] <grid> <output>",
     "repair tangled.vtu valid.vtu\nrepair --free-surfaces WALL tangled.inp valid.inp\n"
     "repair --effort thorough --method inversion-free tangled.vtu better.vtu",
-    nullptr },
+    { "--output", "--criteria", "--report", "--require-valid", "--progress", "--quiet",
+      "--results" },
+    Repairing },
   { "extract", Arguments::Task::ExtractBoundary, "write the boundary, to be moved elsewhere",
     "<grid> <boundary>",
     "extract part.vtu boundary.vtp\nextract part.inp boundary.vtp\n"
     "extract case boundary.vtk",
-    Files },
-  { "shapes", Arguments::Task::WriteDesigns, "a mesh for each row of a table of designs",
+    { "--output", "--quiet" }, {} },
+  { "shapes", Arguments::Task::WriteDesigns, "make a mesh for each row of a table of designs",
     "--shapes <boundary>... --table <table> -o <folder> <grid>",
     "shapes part.vtu --shapes wide.vtp long.vtp --table designs.csv -o designs\n"
     "shapes part.vtu --method lbwarp --shapes wide.vtp --table designs.csv -o designs\n"
     "shapes part.vtu --shapes wide.vtp turn.vtp --as-rotation turn --table t.csv -o designs",
-    Files },
+    { "--shapes", "--table", "--output", "--as-rotation", "--require-valid", "--progress",
+      "--quiet", "--displacement-array" },
+    Blending },
 };
+
+bool has(const std::vector<std::string>& list, const std::string& one)
+{
+  return std::find(list.begin(), list.end(), one) != list.end();
+}
 
 const char* const About =
   "Moves the nodes of a volume mesh so that it fits its displaced boundary, writes it, and prints "
   "its quality.\n\n";
 
 const char* const Formats =
-  "The boundary is what --extract-boundary writes, with its points moved "
-  "by any program that keeps the point\n"
+  "The boundary is what extract writes, with its points moved by any program that keeps the point\n"
   "array MorphPointId; or points with --boundary-id-array; or "
   "undeformed points with --displacement-array.\n"
   "\n"
@@ -146,29 +169,13 @@ void checkMotion(const Arguments& arguments)
   {
     throw UsageError(given.giver("Displacement") + " needs --lattice.");
   }
+  if (given.has("Center") && !given.has("Rotation") && !given.has("Scale"))
+  {
+    throw UsageError("--center has no effect without --rotate or --scale: remove it.");
+  }
   if (given.has("SlideRounds") && !given.has("SlidingSurfaces"))
   {
     throw UsageError("--slide-rounds needs --slide.");
-  }
-}
-
-/// Throws UsageError for options that say how to morph, for a task that does not.
-void requireNoMorph(const Arguments& arguments)
-{
-  if (!arguments.report.empty())
-  {
-    throw UsageError("--report is of a morph: it has no effect here.");
-  }
-  const std::string given = arguments.properties.all();
-  if (!given.empty())
-  {
-    throw UsageError("Nothing is morphed here, so these have no effect:" + given + ".");
-  }
-  if (!(arguments.target + arguments.handles + arguments.lattice + arguments.field +
-        arguments.displacements)
-         .empty())
-  {
-    throw UsageError("Nothing is morphed here, so files that say how have no effect.");
   }
 }
 
@@ -184,19 +191,13 @@ void takeDesigns(const std::vector<std::string>& files, Arguments& result)
     throw UsageError("With --shapes one more file is needed, the grid; " +
                      std::to_string(files.size()) + " are given.");
   }
-  if (result.results || !result.criteria.empty() || !result.report.empty())
-  {
-    throw UsageError("--results, --criteria and --report have no effect on --shapes: remove them.");
-  }
   result.grid = files.front();
-  result.task = Arguments::Task::WriteDesigns;
 }
 
 void takeFiles(std::vector<std::string> files, Arguments& result)
 {
   using Task = Arguments::Task;
-  if (result.task == Task::WriteDesigns || !result.shapes.empty() || !result.table.empty() ||
-      !result.rotations.empty())
+  if (result.task == Task::WriteDesigns)
   {
     takeDesigns(files, result);
     return;
@@ -207,10 +208,6 @@ void takeFiles(std::vector<std::string> files, Arguments& result)
     files.push_back(result.output);
   }
   const bool morphs = result.task == Task::Morph;
-  if (!morphs && result.task != Task::Repair)
-  {
-    requireNoMorph(result);
-  }
   const bool reads = morphs && files.size() == 3;
   if (!reads && files.size() != (hasOutput ? 2u : 1u))
   {
@@ -355,8 +352,6 @@ std::vector<Option> optionsOf(Arguments& result)
       Files, flag(result.results) },
     { "--list-surfaces", "", "print name, faces, area and center of each surface, and stop", Files,
       task(Task::ListSurfaces) },
-    { "--extract-boundary", "", "write the grid's boundary, to be moved, and stop", Files,
-      task(Task::ExtractBoundary) },
     { "--version", "", "print the version and stop", Files, task(Task::ShowVersion) },
     { "--help", "", "print this and stop", Files, task(Task::ShowHelp) },
   };
@@ -386,12 +381,11 @@ std::vector<Option> optionsOf(Arguments& result)
   return options;
 }
 
-/// The words with line breaks before column 100.
-std::string wrapped(const std::string& text)
+/// The words with line breaks before column 100, after the first line's start.
+std::string wrapped(const std::vector<std::string>& words, const std::string& start)
 {
-  std::string result, line = "     ";
-  std::istringstream words(text);
-  for (std::string word; words >> word;)
+  std::string result, line = start;
+  for (const std::string& word : words)
   {
     if (line.size() + word.size() > 98)
     {
@@ -403,45 +397,93 @@ std::string wrapped(const std::string& text)
   return result + line + "\n";
 }
 
-/// `command`: null for all of them.
-std::string helpOf(const std::vector<Option>& options, const Command* command)
+std::string wrapped(const std::string& text)
+{
+  std::istringstream stream(text);
+  std::vector<std::string> words;
+  for (std::string word; stream >> word;)
+  {
+    words.push_back(word);
+  }
+  return wrapped(words, "     ");
+}
+
+const std::vector<std::pair<std::string, std::string>> Letters = { { "-h", "--help" },
+  { "-V", "--version" }, { "-o", "--output" }, { "-q", "--quiet" } };
+
+/// "-o, --output"
+std::string namesOf(const Option& option)
+{
+  for (const auto& [letter, name] : Letters)
+  {
+    if (option.name == name)
+    {
+      return letter + ", " + name;
+    }
+  }
+  return option.name;
+}
+
+bool hasEffect(const Option& option, const Command& command)
+{
+  return has(OfAll, option.name) || has(command.options, option.name) ||
+         has(command.groups, option.group);
+}
+
+/// On one screen: what a command does, examples, and its options without their texts.
+std::string helpOf(const std::vector<Option>& options, const Command& command)
 {
   std::ostringstream text;
-  if (command)
+  text << "Usage: morph-mesh " << command.name << " " << command.usage << "\n"
+       << wrapped(command.what) << "\n";
+  std::istringstream examples(command.examples);
+  for (std::string line; std::getline(examples, line);)
   {
-    text << "Usage: morph-mesh " << command->name << " " << command->usage << "\n"
-         << wrapped(command->what) << "\n";
-    std::istringstream examples(command->examples);
-    for (std::string line; std::getline(examples, line);)
-    {
-      text << "  morph-mesh " << line << "\n";
-    }
+    text << "  morph-mesh " << line << "\n";
   }
-  else
+  text << "\nOptions, which morph-mesh --help explains:\n";
+  for (auto first = options.begin(); first != options.end();)
   {
-    text << "Usage: morph-mesh <command> [options] <files>\n\n";
-    for (const Command& one : Commands)
+    const auto isOther = [&](const Option& one) { return one.group != first->group; };
+    const auto last = std::find_if(first, options.end(), isOther);
+    std::vector<std::string> names;
+    for (auto option = first; option != last; ++option)
     {
-      text << "  " << one.name << std::string(10 - std::string(one.name).size(), ' ') << one.what
-           << "\n";
+      if (hasEffect(*option, command))
+      {
+        const bool isChoice = option->value.find('|') != std::string::npos;
+        names.push_back(" " + namesOf(*option) + (option->value.empty() ? "" : " ") +
+                        (isChoice ? "<word>" : option->value));
+      }
     }
-    text << "\nmorph-mesh <command> --help has the files, options and examples of one. Without a "
-            "command it is move.\n\n"
-         << About << Formats;
+    text << (names.empty() ? "" : wrapped(names, "  " + first->group + ":"));
+    first = last;
   }
+  return text.str();
+}
+
+/// All commands and options.
+std::string helpOf(const std::vector<Option>& options)
+{
+  std::ostringstream text;
+  text << "Usage: morph-mesh <command> [options] <files>\n\n";
+  for (const Command& one : Commands)
+  {
+    text << "  " << one.name << std::string(10 - std::string(one.name).size(), ' ') << one.what
+         << "\n";
+  }
+  text << "\nmorph-mesh <command> --help has the files, options and examples of one. Without a "
+          "command it is move.\n\n"
+       << About << Formats;
   std::string group;
   for (const Option& option : options)
   {
-    if (command && command->groups && option.group != command->groups)
-    {
-      continue;
-    }
     if (option.group != group)
     {
       group = option.group;
       text << "\n" << group << ":\n";
     }
-    text << "  " << option.name << (option.value.empty() ? "" : " ") << option.value << "\n"
+    text << "  " << namesOf(option) << (option.value.empty() ? "" : " ") << option.value << "\n"
          << wrapped(option.help);
   }
   text << ExitStatus;
@@ -470,38 +512,76 @@ std::size_t distance(const std::string& a, const std::string& b)
 /// The full name of an option of one letter.
 std::string longName(const std::string& name)
 {
-  const std::pair<const char*, const char*> letters[] = { { "-h", "--help" }, { "-V", "--version" },
-    { "-o", "--output" }, { "-q", "--quiet" } };
-  for (const auto& [letter, full] : letters)
-  {
-    if (name == letter)
-    {
-      return full;
-    }
-  }
-  return name;
+  const auto found = std::find_if(
+    Letters.begin(), Letters.end(), [&](const auto& one) { return one.first == name; });
+  return found == Letters.end() ? name : found->second;
+}
+
+/// The one that is written most like `name`, for a message; empty if none is.
+template <typename List>
+std::string nearest(const std::string& name, const List& list, std::size_t most)
+{
+  const auto near = std::min_element(list.begin(), list.end(),
+    [&](const auto& a, const auto& b) { return distance(name, a.name) < distance(name, b.name); });
+  return distance(name, near->name) > most ? "" : " Did you mean " + std::string(near->name) + "?";
+}
+
+const Option* findOption(const std::vector<Option>& options, const std::string& argument)
+{
+  const std::string name = longName(argument.substr(0, argument.find('=')));
+  const auto found = std::find_if(
+    options.begin(), options.end(), [&](const Option& one) { return one.name == name; });
+  return found == options.end() ? nullptr : &*found;
 }
 
 /// Takes `argument` as option, with its value from `next` where it has one.
 template <typename Next>
-void takeOption(const std::vector<Option>& options, const std::string& argument, Next next)
+const Option* takeOption(const std::vector<Option>& options, const std::string& argument, Next next)
 {
   const std::size_t equals = argument.find('=');
-  const std::string name = longName(argument.substr(0, equals));
-  const auto option = std::find_if(
-    options.begin(), options.end(), [&](const Option& one) { return one.name == name; });
-  if (option == options.end())
+  const Option* option = findOption(options, argument);
+  if (!option)
   {
-    const auto near = std::min_element(options.begin(), options.end(),
-      [&](const Option& a, const Option& b)
-      { return distance(name, a.name) < distance(name, b.name); });
-    throw UsageError("There is no option " + name + "." +
-                     (distance(name, near->name) > 3 ? "" : " Did you mean " + near->name + "?"));
+    const std::string name = argument.substr(0, equals);
+    throw UsageError("There is no option " + name + "." + nearest(name, options, 3));
   }
   // A flag of the table may be --certify=off.
   option->take(equals != std::string::npos ? argument.substr(equals + 1)
                : option->value.empty()     ? std::string()
-                                           : next(name));
+                                           : next(option->name));
+  return option;
+}
+
+/// The command that the first argument is; null if that is an option or a file.
+const Command* commandOf(int argc, char* argv[])
+{
+  const std::string first = argc > 1 ? argv[1] : "--help";
+  const auto found = std::find_if(
+    Commands.begin(), Commands.end(), [&](const Command& one) { return one.name == first; });
+  if (found != Commands.end())
+  {
+    return &*found;
+  }
+  const std::string meant = first.substr(0, 1) == "-" ? "" : nearest(first, Commands, 2);
+  if (!meant.empty() && !std::filesystem::exists(first))
+  {
+    throw UsageError("There is no command and no file " + first + "." + meant);
+  }
+  return nullptr;
+}
+
+/// Throws UsageError for options that have no effect.
+void requireEffect(const std::vector<const Option*>& given, const Command& command)
+{
+  std::string names;
+  for (const Option* option : given)
+  {
+    names += hasEffect(*option, command) ? "" : (names.empty() ? "" : ", ") + option->name;
+  }
+  if (!names.empty())
+  {
+    throw UsageError("These have no effect with " + std::string(command.name) + ": " + names + ".");
+  }
 }
 }
 
@@ -517,13 +597,10 @@ Arguments parseArguments(int argc, char* argv[])
   Arguments result;
   const std::vector<Option> options = optionsOf(result);
   std::vector<std::string> files;
+  std::vector<const Option*> given;
   bool onlyFiles = false;
   bool isAfterShapes = false; // the option with more than one value
-  const Command* command = nullptr;
-  for (const Command& one : Commands)
-  {
-    command = argc > 1 && argv[1] == std::string(one.name) ? &one : command;
-  }
+  const Command* command = commandOf(argc, argv);
   result.task = command ? command->task : result.task;
   for (int i = command ? 2 : 1; i < argc; ++i)
   {
@@ -539,19 +616,19 @@ Arguments parseArguments(int argc, char* argv[])
     else
     {
       isAfterShapes = argument == "--shapes";
-      takeOption(options, argument,
+      given.push_back(takeOption(options, argument,
         [&](const std::string& name) -> std::string
         {
-          if (++i == argc)
+          if (++i == argc || findOption(options, argv[i]))
           {
             throw UsageError(name + " needs a value.");
           }
           return argv[i];
-        });
+        }));
     }
     if (result.task == Arguments::Task::ShowHelp || result.task == Arguments::Task::ShowVersion)
     {
-      result.help = helpOf(options, command);
+      result.help = command ? helpOf(options, *command) : helpOf(options);
       return result;
     }
   }
@@ -559,6 +636,15 @@ Arguments parseArguments(int argc, char* argv[])
   {
     throw UsageError("fit needs --target.");
   }
+  if (result.task == Arguments::Task::Morph &&
+      !(result.shapes.empty() && result.table.empty() && result.rotations.empty()))
+  {
+    result.task = Arguments::Task::WriteDesigns;
+  }
+  const bool isCommand = command && command->task == result.task;
+  requireEffect(given, isCommand ? *command
+                                 : *std::find_if(Commands.begin(), Commands.end(),
+                                     [&](const Command& one) { return one.task == result.task; }));
   takeFiles(files, result);
   return result;
 }

@@ -538,13 +538,15 @@ void printSurfaces(vtkUnstructuredGrid* grid, const std::string& path, int threa
   }
   std::cout << std::left << std::setw(14) << "name" << std::right << std::setw(10) << "faces"
             << std::setw(14) << (isPlane ? "length" : "area") << "  center\n";
+  const double rounding = 1e-12 * boundary->GetLength();
   for (const auto& [name, sum] : named)
   {
     const double area = sum.Area > 0 ? sum.Area : 1;
+    const auto center = [&, &sum = sum](int axis)
+    { return std::abs(sum.Center[axis] / area) > rounding ? sum.Center[axis] / area : 0; };
     std::cout << std::left << std::setw(14) << name << std::right << std::setw(10) << sum.Faces
-              << std::setw(14) << sum.Area << "  " << sum.Center[0] / area << ", "
-              << sum.Center[1] / area << ", " << sum.Center[2] / area
-              << (sum.IsInner && sum.Faces > 0 ? "  inner" : "") << "\n";
+              << std::setw(14) << sum.Area << "  " << center(0) << ", " << center(1) << ", "
+              << center(2) << (sum.IsInner && sum.Faces > 0 ? "  inner" : "") << "\n";
   }
   printZones(filter);
 }

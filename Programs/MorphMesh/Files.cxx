@@ -104,8 +104,18 @@ vtkSmartPointer<vtkAlgorithm> makeReader(const std::string& path)
   {
     throw Failure("Cannot read " + path + ": there is no such file.");
   }
-  throw Failure("Cannot read " + path + ": no format that --help lists has its extension." +
-                io::converterOf(path));
+  if (std::filesystem::is_directory(path))
+  {
+    throw Failure("Cannot read " + path + ": the folder has no mesh of OpenFOAM.");
+  }
+  if (isOneOf(kind, { ".bdf", ".nas", ".fem", ".dat", ".k", ".key", ".dyn", ".cdb", ".su2", ".msh",
+                      ".g", ".gen" }))
+  {
+    requireWholeFile(path);
+    throw Failure("Cannot read " + path + ": it does not begin as a " + kind +
+                  " file does. Its format is another one." + io::converterOf(path));
+  }
+  throw Failure("Cannot read " + path + ": no format that --help lists has its extension.");
 }
 
 vtkSmartPointer<vtkUnstructuredGrid> merged(vtkCompositeDataSet* blocks)

@@ -10,6 +10,7 @@
 #include "Report.h"
 
 #include <vtkCellData.h>
+#include <vtkDataArraySelection.h>
 #include <vtkDisplacementAlgorithm.h>
 #include <vtkExtractMorphBoundary.h>
 #include <vtkMorphAlgorithm.h>
@@ -29,6 +30,7 @@
 #include <string>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 namespace
 {
@@ -87,6 +89,33 @@ void configure(Morphing& morphing, const Arguments& arguments)
   morphing.method->SetValidity(vtkMorphAlgorithm::VALIDITY_REPAIR); // as Morph Mesh has it
   morphing.method->SetNumberOfThreads(arguments.threads);
   given.apply({ morphing.method }, "with " + arguments.method() + " and a given boundary");
+}
+
+/// The names of surfaces and zones as the grid, the input of the filter, has them.
+void spellNames(Morphing& morphing, GivenProperties& given, const Arguments& arguments)
+{
+  morphing.mesh->UpdateInformation();
+  std::vector<std::string> listed;
+  for (vtkDataArraySelection* list :
+    { morphing.mesh->GetSurfaceList(), morphing.mesh->GetZoneList() })
+  {
+    for (int i = 0; i < list->GetNumberOfArrays(); ++i)
+    {
+      listed.emplace_back(list->GetArrayName(i));
+    }
+  }
+  if (given.spell(listed))
+  {
+    morphing.mesh->RemoveAllSurfaces();
+    morphing.mesh->RemoveAllFixedSurfaces();
+    morphing.mesh->RemoveAllSlidingSurfaces();
+    morphing.mesh->RemoveAllFreeSurfaces();
+    morphing.mesh->RemoveAllContactSurfaces();
+    morphing.mesh->RemoveAllFixedZones();
+    morphing.mesh->RemoveAllRigidZones();
+    morphing.mesh->RemoveAllSoftZones();
+    given.apply({ morphing.mesh, morphing.method }, "with " + arguments.method());
+  }
 }
 
 /// Connects what says where the boundary goes.
@@ -255,7 +284,7 @@ int morphPart(Morphing& morphing, vtkUnstructuredGrid* grid, const Arguments& ar
   }
   if (!arguments.quiet)
   {
-    printReport(before, outcome, after);
+    printReport(before, outcome, after, output);
     if (written.rounding > 0)
     {
       std::cout << "largest rounding of a coordinate: " << std::scientific << written.rounding
@@ -283,6 +312,11 @@ int morphMesh(const Arguments& arguments)
   const vtkSmartPointer<vtkUnstructuredGrid> grid =
     readGrid(arguments.grid, hasOwn ? arguments.timeStep : -1);
   morphing.filter->SetInputDataObject(0, grid);
+  if (morphing.filter == morphing.mesh)
+  {
+    GivenProperties given = arguments.properties;
+    spellNames(morphing, given, arguments);
+  }
   setBoundary(morphing, grid, arguments);
   if (arguments.steps == 0)
   {

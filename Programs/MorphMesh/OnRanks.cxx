@@ -183,7 +183,7 @@ int morphPart(const Ranks& ranks, vtkMorphAlgorithm* filter, vtkUnstructuredGrid
   const Outcome outcome = outcomeOf(filter);
   if (isFirst && !arguments.quiet)
   {
-    printReport(before, outcome, nullptr);
+    printReport(before, outcome, nullptr, arguments.output);
   }
   return errors > 0 || (arguments.wantsValid() && !outcome.isValid()) ? 3 : 0;
 }

@@ -3,6 +3,8 @@
 
 #include "Arguments.h"
 
+#include <vtksys/SystemTools.hxx>
+
 #include <algorithm>
 #include <cctype>
 #include <cerrno>
@@ -229,6 +231,29 @@ const GivenProperties::Given* GivenProperties::find(const std::string& name) con
 bool GivenProperties::has(const std::string& name) const
 {
   return this->find(name) != nullptr;
+}
+
+bool GivenProperties::spell(const std::vector<std::string>& listed)
+{
+  bool isChanged = false;
+  for (Given& one : this->given_)
+  {
+    std::string& name = one.value.text;
+    if (one.property->kind != Property::Kind::Names ||
+        std::find(listed.begin(), listed.end(), name) != listed.end())
+    {
+      continue;
+    }
+    const auto isSame = [&](const std::string& other)
+    { return vtksys::SystemTools::LowerCase(other) == vtksys::SystemTools::LowerCase(name); };
+    const auto found = std::find_if(listed.begin(), listed.end(), isSame);
+    if (found != listed.end() && std::none_of(found + 1, listed.end(), isSame))
+    {
+      name = *found;
+      isChanged = true;
+    }
+  }
+  return isChanged;
 }
 
 std::string GivenProperties::text(const std::string& name) const

@@ -71,6 +71,9 @@ public:
   void imply(const std::string& name, const std::string& word, const std::string& option);
 
   bool has(const std::string& name) const;
+  /// Gives names of lists the case that they have in `listed`, if one there is the same but for
+  /// case. Returns whether any has changed.
+  bool spell(const std::vector<std::string>& listed);
   /// As it is given; empty where it is not.
   std::string text(const std::string& name) const;
   double number(const std::string& name, double otherwise) const;

@@ -138,7 +138,8 @@ Outcome outcomeOf(vtkAlgorithm* filter)
   return mesh ? of(mesh) : of(vtkMorphAlgorithm::SafeDownCast(filter));
 }
 
-void printReport(vtkScaledJacobian* before, const Outcome& outcome, vtkScaledJacobian* after)
+void printReport(vtkScaledJacobian* before, const Outcome& outcome, vtkScaledJacobian* after,
+  const std::string& output)
 {
   std::cout << outcome.grid->GetNumberOfPoints() << " nodes, " << outcome.prescribed
             << " of them prescribed; " << outcome.grid->GetNumberOfCells() << " cells\n";
@@ -159,7 +160,8 @@ void printReport(vtkScaledJacobian* before, const Outcome& outcome, vtkScaledJac
     printCriteria(before->GetOutput()->GetFieldData(), after->GetOutput()->GetFieldData());
   }
   std::cout << "prepared in " << outcome.prepareSeconds << " s, evaluated in "
-            << outcome.evaluateSeconds << " s, " << outcome.iterations << " iterations\n";
+            << outcome.evaluateSeconds << " s, " << outcome.iterations << " iterations\n"
+            << output << ": " << outcome.status << "\n";
 }
 
 void writeReport(vtkScaledJacobian* before, const Outcome& outcome, vtkScaledJacobian* after,

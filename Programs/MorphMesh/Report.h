@@ -38,9 +38,10 @@ struct Outcome
 /// Of a vtkMorphMesh or vtkMorphAlgorithm.
 Outcome outcomeOf(vtkAlgorithm* filter);
 
-/// Prints the mesh's size, its quality before and after, and the time taken, to standard output.
-/// `after`: null without criteria.
-void printReport(vtkScaledJacobian* before, const Outcome& outcome, vtkScaledJacobian* after);
+/// Prints the mesh's size, its quality before and after, the time taken, and the output with its
+/// status, to standard output. `after`: null without criteria.
+void printReport(vtkScaledJacobian* before, const Outcome& outcome, vtkScaledJacobian* after,
+  const std::string& output);
 
 /// Writes the same as JSON, numbers that are not finite as null. `seen`: messages, an error that
 /// comes with a result among them. Throws Failure.

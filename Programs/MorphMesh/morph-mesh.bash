@@ -20,7 +20,7 @@ _morph_mesh()
   fi
   case "$word" in
     -*)
-      names=$("${COMP_WORDS[0]}" --help | sed -n 's/^  \(--[a-z-]*\).*/\1/p')
+      names=$("${COMP_WORDS[0]}" --help | sed -n 's/^  \(-[a-zA-Z], \)\{0,1\}\(--[a-z-]*\).*/\2/p')
       mapfile -t COMPREPLY < <(compgen -W "$names" -- "$word") ;;
     *)
       if [ "$COMP_CWORD" -eq 1 ]; then

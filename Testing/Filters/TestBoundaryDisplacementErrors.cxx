@@ -97,6 +97,13 @@ TEST(BoundaryDisplacementErrors, WhatIsChosen)
         f->AddSurface("Surface 99");
       } },
     { "`FixedSurfaces` names 'Top'", [](auto* f) { f->AddFixedSurface("Top"); } },
+    { "'Surface 0' is in `Surfaces` and `FixedSurfaces`, which contradict each other",
+      [](auto* f)
+      {
+        f->SetMovingToSurfaces();
+        f->AddSurface("Surface 0");
+        f->AddFixedSurface("Surface 0");
+      } },
     { "No region", [](auto* f) { f->SetMovingToRegion(); } },
     { "inside the region",
       [](auto* f)

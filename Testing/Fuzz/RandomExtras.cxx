@@ -22,6 +22,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
+#include <string>
 
 namespace fuzz
 {
@@ -290,7 +292,8 @@ bool setMotion(Choices& choices, const RandomGrid& grid, vtkDisplacementAlgorith
     choices.pick("displace.region", { "none", "sphere", "box", "plane" }, { 1, 1, 1, 1 });
   filter->SetRegion(region(kind, middle, size, random, hostile));
   setControlPoints(grid, choices.stream("control points"), hostile, filter);
-  // Of all roles, and some twice.
+  // Of all roles; in two of them only if that may be refused.
+  std::set<std::string> named;
   const int surfaces = choices.whole("with.surfaces", 0, [](Random& r) { return r.below(5); });
   for (int i = 0; i < surfaces; ++i)
   {
@@ -298,8 +301,11 @@ bool setMotion(Choices& choices, const RandomGrid& grid, vtkDisplacementAlgorith
     const int last = random.below(6);
     const std::string name = (isSurface ? "Surface " : "Curve ") +
                              std::to_string(random.below(last + 1) - (hostile ? 2 : 0));
-    addSurface(
-      filter, i == 0 ? 0 : random.below(4), hostile && random.happens(0.3) ? "Surface x" : name);
+    const int role = i == 0 ? 0 : random.below(4);
+    if (named.insert(name).second || hostile)
+    {
+      addSurface(filter, role, hostile && random.happens(0.3) ? "Surface x" : name);
+    }
   }
   if (grid.hasWalls && choices.chance("with.wallsByName", 0.7))
   {

@@ -54,7 +54,7 @@ class MorphMeshOnRanks(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             distributed.write_pieces(folder, "part", points, cells, shape,
                                      rng.integers(0, FILES, len(cells)), FILES, with_ids)
-            status, said = morph_mesh(1, folder, "--extract-boundary", "part.pvtu", "b.vtp")
+            status, said = morph_mesh(1, folder, "extract", "part.pvtu", "b.vtp")
             self.assertEqual(status, 0, said)
             bend(os.path.join(folder, "b.vtp"), os.path.join(folder, "moved.vtp"))
             reports = []
@@ -85,7 +85,7 @@ class MorphMeshOnRanks(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             for arguments, expected in (
                     (("part.vtu", "moved.vtp", "out.vtu"), "reads a .pvtu and writes a .pvtu"),
-                    (("--extract-boundary", "part.pvtu", "b.vtp"), "needs one MPI rank"),
+                    (("extract", "part.pvtu", "b.vtp"), "needs one MPI rank"),
                     (("missing.pvtu", "moved.vtp", "out.pvtu"), "missing.pvtu")):
                 status, said = morph_mesh(2, folder, *arguments)
                 self.assertNotEqual(status, 0)

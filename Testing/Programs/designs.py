@@ -28,7 +28,7 @@ class Designs(unittest.TestCase):
         self.folder = Path(folder.name)
         self.shapes = [self.folder / "whole.vtp", self.folder / "again.vtp"]
         for shape in self.shapes:
-            self.assertEqual(run("--extract-boundary", BORE, shape).returncode, 0)
+            self.assertEqual(run("extract", BORE, shape).returncode, 0)
         self.table = self.folder / "doe.csv"
         self.table.write_text('note,"whole",again\na,0,0\nb,0.5,0.5\nc,1,0\n\nd,-8,0\n')
         self.designs = self.folder / "designs"

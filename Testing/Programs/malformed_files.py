@@ -128,7 +128,7 @@ class Cases:
         names = "grid_zlib.vtu", "grid.exo", "grid.inp", "grid.neu"
         for grid in [folder / name for name in names]:
             path = folder / f"boundary_of_{grid.name}.vtp"
-            result = subprocess.run([PROGRAM, "--extract-boundary", str(grid), str(path)],
+            result = subprocess.run([PROGRAM, "extract", str(grid), str(path)],
                                     capture_output=True, text=True)
             if result.returncode != 0:
                 raise SystemExit(f"{grid}: {result.stderr}")

@@ -47,7 +47,7 @@ class OutputFiles(unittest.TestCase):
         cls.common = tempfile.TemporaryDirectory()
         cls.addClassCleanup(cls.common.cleanup)
         cls.boundary = Path(cls.common.name) / "boundary.vtp"
-        subprocess.run([PROGRAM, "--extract-boundary", GRID, cls.boundary], check=True,
+        subprocess.run([PROGRAM, "extract", GRID, cls.boundary], check=True,
                        stdout=subprocess.DEVNULL)
 
         model, rng = models.random_model(SEED, sizes=(6, 8, 10))
@@ -129,7 +129,7 @@ class OutputFiles(unittest.TestCase):
 
     def whole(self, path):
         """Another run reads it."""
-        command = [PROGRAM, "--extract-boundary", str(path), str(path) + ".check.vtp"]
+        command = [PROGRAM, "extract", str(path), str(path) + ".check.vtp"]
         return self.run_program(command).returncode == 0
 
     def fails(self, result, message):
@@ -146,7 +146,7 @@ class OutputFiles(unittest.TestCase):
         for name in self.outputs:
             yield name, self.command(self.folder / name)
         for name in BOUNDARIES:
-            yield name, [PROGRAM, "--quiet", "--extract-boundary", GRID, str(self.folder / name)]
+            yield name, [PROGRAM, "extract", "--quiet", GRID, str(self.folder / name)]
 
     def test_a_limit_on_the_size_of_files_leaves_the_old_file(self):
         for name, command in self.commands():

@@ -590,7 +590,7 @@ class SolverFiles(unittest.TestCase):
                 wanted, out = (self.folder / (name + extension) for name in ("wanted", "out"))
                 boundary = self.folder / f"{extension[1:]}.vtp"
                 self.morph(path, wanted)
-                self.assertEqual(run("--extract-boundary", wanted, boundary).returncode, 0)
+                self.assertEqual(run("extract", wanted, boundary).returncode, 0)
                 # Its nodes are those of the original by their ids, and at their new places.
                 text, count = re.subn(rb'<DataArray [^>]*Name="RestPosition".*?</DataArray>', b"",
                                       boundary.read_bytes(), flags=re.S)

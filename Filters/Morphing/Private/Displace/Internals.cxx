@@ -87,6 +87,30 @@ std::set<std::string> symmetricOf(const morph::DisplacementOptions& options, vtk
   return names;
 }
 
+/// Throws morph::Error for a surface in two of the lists. One that moves may slide, too.
+void requireOneRole(const morph::DisplacementOptions& options)
+{
+  using Names = std::set<std::string>;
+  const bool areMoved = options.Moving == vtkDisplacementAlgorithm::MOVING_SURFACES;
+  const auto require = [](const Names& first, const Names& second, const std::string& lists)
+  {
+    for (const std::string& name : first)
+    {
+      if (second.count(name) > 0)
+      {
+        throw morph::Error(
+          "'" + name + "' is in " + lists + ", which contradict each other: take it out of one.");
+      }
+    }
+  };
+  const Names moved = areMoved ? options.Surfaces : Names();
+  require(moved, options.FixedSurfaces, "`Surfaces` and `FixedSurfaces`");
+  require(moved, options.FreeSurfaces, "`Surfaces` and `FreeSurfaces`");
+  require(options.FixedSurfaces, options.SlidingSurfaces, "`FixedSurfaces` and `SlidingSurfaces`");
+  require(options.FixedSurfaces, options.FreeSurfaces, "`FixedSurfaces` and `FreeSurfaces`");
+  require(options.SlidingSurfaces, options.FreeSurfaces, "`SlidingSurfaces` and `FreeSurfaces`");
+}
+
 void writeGaps(
   const morph::Contact::Gaps& before, const morph::Contact::Gaps& after, vtkFieldData* data)
 {
@@ -339,6 +363,7 @@ bool vtkDisplacementAlgorithm::vtkInternals::FindMoving(const Options& options, 
 {
   try
   {
+    requireOneRole(options);
     morph::ProgressRange classifying(monitor, 0, 0.5);
     this->Classify(options, input, classifying);
   }
