@@ -85,6 +85,33 @@ class Figures(unittest.TestCase):
                     self.check(cells[2 * number], row["prepare"])
                     self.check(cells[2 * number + 1], row["evaluate"])
 
+    def test_claims_of_the_study(self):
+        """Ratios of seconds, and meshes with inverted cells, that sentences of the page have."""
+        page = " ".join((ROOT / "Documentation/Study.md").read_text("utf-8").split())
+        data = {(r["model"], r["kind"], r["method"]): r for r in rows(STUDY / "timing.csv")
+                if r["stepping"] == "absolute"}
+        pairs = [(row, data[model, kind, "Simplex-linear"])
+                 for (model, kind, method), row in data.items() if method in ("FEMWARP", "LBWARP")]
+        faster = [float(one["evaluate"]) / float(ours["evaluate"]) for one, ours in pairs]
+        longer = [float(ours["prepare"]) / float(one["prepare"]) for one, ours in pairs]
+        self.assertIn(f"{min(faster):.0f} to {max(faster):.0f} times faster than FEMWARP and LBWARP;"
+                      f" preparing takes {min(longer):.1f} to {max(longer):.0f} times as long", page)
+        canister = data["canister", "hex", "FEMWARP"]
+        self.assertIn(f"takes {float(canister['evaluate']):.2f} s for an absolute step after "
+                      f"{float(canister['prepare']):.2f} s to prepare", page)
+        steps = [(r["surfaces"], int(r["inverted"]),
+                  int(r["boundary"]) + int(r["folded"]))
+                 for r in rows(STUDY / "results.csv")
+                 if r["method"] == "Inversion-free" and 0 < float(r["t"]) < 1.0001]
+        exact = [inverted for surfaces, inverted, _ in steps if surfaces == "exact"]
+        self.assertIn(f"has no inverted cell in all {len(exact)} meshes", page)
+        self.assertEqual(max(exact), 0)
+        others = [(inverted, boundary) for surfaces, inverted, boundary in steps
+                  if surfaces != "exact" and inverted > 0]
+        own = sum(inverted > boundary for inverted, boundary in others)
+        self.assertIn(f"{len(others)} of another {len(steps) - len(exact)} meshes have inverted "
+                      f"cells. In {own} of these some are the method's own", page)
+
     def test_performance(self):
         text = performance_page.PAGE.read_text(encoding="utf-8")
         self.assertEqual(text[text.index(performance_page.START):],

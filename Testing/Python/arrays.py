@@ -3,6 +3,8 @@
 
 Run: PYTHONPATH=<folder of meshmorphing> MESHMORPHING_MODELS=<small models> python3 arrays.py
 """
+import contextlib
+import io
 import os
 import pickle
 import re
@@ -29,6 +31,9 @@ except ImportError:
     pyvista = None
 
 ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "Utilities"))
+import howto_pictures  # noqa: E402  (needs the path above)
+
 MODELS = Path(os.environ["MESHMORPHING_MODELS"])
 LINEAR = (mm.FEMWARP, mm.LBWARP, mm.WeightedResidual, mm.SimplexLinear, mm.SimplexNaturalNeighbor,
           mm.RadialBasis)
@@ -536,9 +541,14 @@ class Pages(unittest.TestCase):
             self.addCleanup(os.chdir, os.getcwd())
             os.chdir(folder)
             Path("part.vtu").write_bytes((MODELS / "bore_hex_small.vtu").read_bytes())
-            names = {}
-            for number, block in enumerate(blocks, 1):
-                exec(compile(block, f"block {number}", "exec"), names)
+            names, printed = {}, io.StringIO()
+            with contextlib.redirect_stdout(printed):
+                for number, block in enumerate(blocks, 1):
+                    exec(compile(block, f"block {number}", "exec"), names)
+            patterns = howto_pictures.expected("MorphFromNumPy")
+            self.assertEqual(len(patterns), 5)
+            for pattern in patterns:
+                self.assertRegex(printed.getvalue(), pattern)
             self.assertTrue(Path("moved.vtk").exists())
 
     def test_optimization(self):
