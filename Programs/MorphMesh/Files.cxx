@@ -108,14 +108,17 @@ vtkSmartPointer<vtkAlgorithm> makeReader(const std::string& path)
   {
     throw Failure("Cannot read " + path + ": the folder has no mesh of OpenFOAM.");
   }
-  if (isOneOf(kind, { ".bdf", ".nas", ".fem", ".dat", ".k", ".key", ".dyn", ".cdb", ".su2", ".msh",
-                      ".g", ".gen" }))
+  const bool isOfSolver = isOneOf(kind,
+    { ".bdf", ".nas", ".fem", ".dat", ".k", ".key", ".dyn", ".cdb", ".su2", ".msh", ".g", ".gen" });
+  if (isOfSolver)
   {
     requireWholeFile(path);
-    throw Failure("Cannot read " + path + ": it does not begin as a " + kind +
-                  " file does. Its format is another one." + io::converterOf(path));
   }
-  throw Failure("Cannot read " + path + ": no format that --help lists has its extension.");
+  throw Failure(
+    "Cannot read " + path +
+    (isOfSolver ? ": it does not begin as a " + kind + " file does. Its format is another one."
+                : ": no format that --help lists has its extension.") +
+    io::converterOf(path));
 }
 
 vtkSmartPointer<vtkUnstructuredGrid> merged(vtkCompositeDataSet* blocks)
