@@ -18,7 +18,7 @@ namespace morph
 /// The most steps that raise the minimum scaled Jacobian, see raiseQuality().
 struct RaisingSteps
 {
-  static constexpr int None = 0, Quick = 24, Default = 40, Thorough = 200;
+  static constexpr int None = 0, Quick = 14, Default = 40, Thorough = 200;
 };
 
 struct ImprovementOptions
