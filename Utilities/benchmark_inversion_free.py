@@ -7,9 +7,10 @@
 
 Morphs cubes of hexahedra whose boundary is twisted (SIDE:DEGREES) and stretched, the models at S_F,
 and files of other people's meshes, whose point array `fixed` names the nodes that stay. The
-programs run in turn. Prints a row for each: median seconds and processor seconds of the morph, their ratio to the
-older commit's, minimum and mean scaled Jacobian, inverted cells and Newton steps. Needs this tree's
-target inversion-free-probe. The older commit's core is built under build/against."""
+programs run in turn. Prints a row for each: median seconds and processor seconds of the morph,
+their ratio to the older commit's, minimum and mean scaled Jacobian, inverted cells and Newton
+steps. Needs this tree's target inversion-free-probe. The older commit's core is built under
+build/against."""
 
 import argparse
 import math
@@ -19,6 +20,7 @@ import subprocess
 import sys
 import tempfile
 from pathlib import Path
+from typing import NamedTuple
 
 ROOT = Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT / "Data"))
@@ -35,31 +37,43 @@ TWISTS = ["30:360", "30:540", "30:720", "50:360"]
 EFFORTS = {"quick": 14, "default": 40, "thorough": 200}
 
 
-def write_problem(file, points, offsets, connectivity, types, prescribed, target):
-    """Writes what Testing/Benchmark/InversionFreeProbe.cxx reads: see readProblem() there."""
-    with open(file, "wb") as out:
-        sizes = [len(points), len(types), len(connectivity), len(prescribed)]
-        for array, kind in ((sizes, np.int64), (points, float), (target, float),
-                            (offsets, np.int64), (connectivity, np.int64), (prescribed, np.int64),
-                            (types, np.uint8)):
-            np.ascontiguousarray(array, kind).tofile(out)
+class Problem(NamedTuple):
+    """Cells in VTK's manner, and where the prescribed nodes go: (#prescribed, 3)."""
+
+    points: np.ndarray
+    offsets: np.ndarray
+    connectivity: np.ndarray
+    types: np.ndarray
+    prescribed: np.ndarray
+    target: np.ndarray
+
+    def write(self, file):
+        """What Testing/Benchmark/InversionFreeProbe.cxx reads: see readProblem() there."""
+        with open(file, "wb") as out:
+            sizes = [len(self.points), len(self.types), len(self.connectivity),
+                     len(self.prescribed)]
+            for array, kind in ((sizes, np.int64), (self.points, float), (self.target, float),
+                                (self.offsets, np.int64), (self.connectivity, np.int64),
+                                (self.prescribed, np.int64), (self.types, np.uint8)):
+                np.ascontiguousarray(array, kind).tofile(out)
 
 
-def write_cells(file, points, cells, cell_type, prescribed, target):
-    """The same for #cells x #corners, cells of one type."""
+def of_one_type(points, cells, cell_type, prescribed, target):
+    """`cells`: #cells x #corners."""
     count, corners = cells.shape
-    write_problem(file, points, np.arange(count + 1) * corners, cells.ravel(),
-                  np.full(count, cell_type), prescribed, target)
+    return Problem(points, np.arange(count + 1) * corners, cells.ravel(),
+                   np.full(count, cell_type), prescribed, target)
 
 
-def write_model(file, name, small):
-    model, kind = name.split("_")
-    mesh = Models.get(model).read_small(kind) if small else Models.get(model).make(kind)
-    write_cells(file, mesh.points, mesh.cells, HEXAHEDRON if kind == "hex" else TETRAHEDRON,
-                mesh.nodes, mesh.boundary_positions(1))
+def model(name, small=False):
+    geometry, kind = name.split("_")
+    found = Models.get(geometry)
+    mesh = found.read_small(kind) if small else found.make(kind)
+    return of_one_type(mesh.points, mesh.cells, HEXAHEDRON if kind == "hex" else TETRAHEDRON,
+                       mesh.nodes, mesh.boundary_positions(1))
 
 
-def write_twist(file, side, degrees):
+def twist(side, degrees):
     """A cube of side^3 unit hexahedra, twisted about z and stretched 1.5 times along it."""
     axis = np.arange(side + 1)
     z, y, x = (a.ravel() for a in np.meshgrid(axis, axis, axis, indexing="ij"))
@@ -76,20 +90,25 @@ def write_twist(file, side, degrees):
     target = np.column_stack([side / 2 + cosine * across[:, 0] - sine * across[:, 1],
                               side / 2 + sine * across[:, 0] + cosine * across[:, 1],
                               1.5 * boundary[:, 2]])
-    write_cells(file, points, cells, HEXAHEDRON, prescribed, target)
+    return of_one_type(points, cells, HEXAHEDRON, prescribed, target)
 
 
-def write_mesh(file, name):
-    """A file's mesh, whose nodes with fixed == 1 stay where they are."""
+def grid_of(file):
+    """(vtkUnstructuredGrid, its points) of a legacy VTK file."""
     reader = vtkUnstructuredGridReader()
-    reader.SetFileName(str(name))
+    reader.SetFileName(str(file))
     reader.Update()
     grid = reader.GetOutput()
-    points = vtk_to_numpy(grid.GetPoints().GetData()).astype(float)
+    return grid, vtk_to_numpy(grid.GetPoints().GetData()).astype(float)
+
+
+def mesh_of(file):
+    """A file's mesh, whose nodes with fixed == 1 stay where they are."""
+    grid, points = grid_of(file)
     fixed = np.flatnonzero(vtk_to_numpy(grid.GetPointData().GetArray("fixed")) == 1)
-    write_problem(file, points, vtk_to_numpy(grid.GetCells().GetOffsetsArray()),
-                  vtk_to_numpy(grid.GetCells().GetConnectivityArray()),
-                  vtk_to_numpy(grid.GetCellTypesArray()), fixed, points[fixed])
+    return Problem(points, vtk_to_numpy(grid.GetCells().GetOffsetsArray()),
+                   vtk_to_numpy(grid.GetCells().GetConnectivityArray()),
+                   vtk_to_numpy(grid.GetCellTypesArray()), fixed, points[fixed])
 
 
 def build_older(commit):
@@ -179,15 +198,14 @@ def main():
         programs[options.against] = [options.older_probe or build_older(options.against)]
     for name, steps in EFFORTS.items():
         programs[name] = [options.probe, str(steps)]
-    problems = [(f"twist {name}", write_twist, [int(part) for part in name.split(":")])
-                for name in options.twists]
-    problems += [(name, write_model, [name, options.quick]) for name in options.models]
-    problems += [(Path(name).stem, write_mesh, [name]) for name in options.meshes]
+    problems = [(f"twist {name}", twist, map(int, name.split(":"))) for name in options.twists]
+    problems += [(name, model, [name, options.quick]) for name in options.models]
+    problems += [(Path(name).stem, mesh_of, [name]) for name in options.meshes]
     inverted = 0
     with tempfile.TemporaryDirectory() as folder:
-        for title, write, arguments in problems:
-            problem = Path(folder) / "problem.bin"
-            write(problem, *arguments)
+        problem = Path(folder) / "problem.bin"
+        for title, make, arguments in problems:
+            make(*arguments).write(problem)
             inverted += compare(title, problem, programs, options)
     if inverted > 0:
         sys.exit(f"{inverted:.0f} cells are inverted")

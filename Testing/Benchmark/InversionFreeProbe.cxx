@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Times the inversion-free morph on one problem. It compiles against the cores of older states, too,
-// so that Utilities/benchmark_inversion_free.py runs both in turn.
+// Times the inversion-free morph on one problem. It compiles against the cores of older states,
+// too, so that Utilities/benchmark_inversion_free.py runs both in turn.
 #include "Mesh/Topology.h"
 #include "Quality/ScaledJacobian.h"
 #include "Untangling/InversionFree.h"
