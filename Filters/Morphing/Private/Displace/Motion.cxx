@@ -191,15 +191,9 @@ Points wholeMotion(const BoundaryModel& model, const Choice& choice, const Motio
     case vtkDisplacementAlgorithm::DISPLACEMENT_RADIUS:
       return morph::movedByRadius(model, choice, options.RadiusChange);
     case vtkDisplacementAlgorithm::DISPLACEMENT_DIMENSION:
-    {
-      morph::DimensionMotion motion = morph::movedToDimension(model, choice, options.Dimension,
-        static_cast<morph::DimensionSide>(options.DimensionSide), options.ScaleFactor);
-      if (presentDimension)
-      {
-        *presentDimension = motion.present.value;
-      }
-      return std::move(motion.to);
-    }
+      return morph::movedToDimension(model, choice, options.Dimension,
+        static_cast<morph::DimensionSide>(options.DimensionSide), options.ScaleFactor,
+        presentDimension);
     case vtkDisplacementAlgorithm::DISPLACEMENT_ARRAY:
     case vtkDisplacementAlgorithm::DISPLACEMENT_FIELD:
     case vtkDisplacementAlgorithm::DISPLACEMENT_TARGET:

@@ -41,11 +41,10 @@ morph::Points vtkDisplacementAlgorithm::vtkInternals::Fitted(const Options& opti
   place.featureAngle = options.FeatureAngle;
   place.normalAngle = options.TargetAngle;
   place.reach = options.TargetReach * this->Model.size;
-  morph::FitOptions how;
+  std::optional<Eigen::RowVector3d> along;
   if (options.ProjectAlong != PROJECT_ALONG_CLOSEST_POINT)
   {
-    how.project = morph::FitOptions::Project::Along;
-    how.direction = directionOf(options.ProjectAlong, options.ProjectVector);
+    along = directionOf(options.ProjectAlong, options.ProjectVector);
   }
   if (options.Moving == MOVING_SURFACES && options.Surfaces.empty())
   {
@@ -61,8 +60,8 @@ morph::Points vtkDisplacementAlgorithm::vtkInternals::Fitted(const Options& opti
   {
     monitor.warn(this->Fit.GetWarning());
   }
-  return morph::fittedTo(
-    *this->Fit.Get(), this->Model, this->Choice, sliding, how, this->Mover.surroundings(), monitor);
+  return morph::fittedTo(*this->Fit.Get(), this->Model, this->Choice, sliding,
+    along ? &*along : nullptr, this->Mover.surroundings(), monitor);
 }
 
 std::vector<morph::Handle> vtkDisplacementAlgorithm::vtkInternals::SelectedHandles(
