@@ -9,6 +9,7 @@
 #include <pqCoreUtilities.h>
 #include <pqPipelineSource.h>
 #include <pqProgressManager.h>
+#include <pqProgressWidget.h>
 #include <pqServerManagerModel.h>
 #include <vtkAlgorithm.h>
 #include <vtkCommand.h>
@@ -55,7 +56,6 @@ void StopButton::startup()
   {
     this->watch(source);
   }
-  QObject::connect(manager(), &pqProgressManager::abort, this, &StopButton::stop);
 }
 
 void StopButton::watch(pqPipelineSource* source)
@@ -90,6 +90,12 @@ void StopButton::progressed(vtkObject* filter)
   {
     manager()->setEnableAbort(true);
     this->IsOffered = true;
+    // The manager's own signal is gone from ParaView 6.1.
+    for (auto* const bar : pqCoreUtilities::mainWidget()->findChildren<pqProgressWidget*>())
+    {
+      QObject::connect(
+        bar, &pqProgressWidget::abortPressed, this, &StopButton::stop, Qt::UniqueConnection);
+    }
   }
   this->IsLooking = true;
   qApp->installEventFilter(this);

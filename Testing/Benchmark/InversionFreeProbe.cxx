@@ -1,17 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Times the inversion-free morph, and FEMWARP beside it, on one problem. It compiles against this
-// tree and against commit eab12e2, so that Utilities/benchmark_inversion_free.py runs both at once.
-#if __has_include("Untangling/InversionFree.h")
-#include "LinearMethods/FemWarp.h"
+// Times the inversion-free morph on one problem. It compiles against the cores of older states, too,
+// so that Utilities/benchmark_inversion_free.py runs both in turn.
 #include "Mesh/Topology.h"
 #include "Quality/ScaledJacobian.h"
 #include "Untangling/InversionFree.h"
-#else
-#include "FemWarp.h"
-#include "InversionFree.h"
-#include "ScaledJacobian.h"
-#include "Topology.h"
-#endif
 
 #include <algorithm>
 #include <chrono>
@@ -35,10 +27,13 @@ constexpr double Nanosecond = 1e-9;
 constexpr double MebiByte = 1024; // in kibibytes
 
 constexpr const char* Usage =
-  "Usage: inversion-free-probe PROBLEM femwarp|inversion-free THREADS\n"
-  "Times prepare and evaluate on a problem that Utilities/benchmark_inversion_free.py writes, and\n"
-  "prints one line of name=value pairs: seconds, processor seconds, minimum scaled Jacobian,\n"
-  "inverted cells, counts of the method, and memory in MiB before and at most.\n";
+  "Usage: inversion-free-probe PROBLEM THREADS [STEPS]\n"
+  "Times prepare and evaluate on a problem that Utilities/benchmark_inversion_free.py writes, "
+  "with\n"
+  "the default number of steps that raise the minimum, or with STEPS. Prints one line of "
+  "name=value\n"
+  "pairs: seconds, processor seconds, scaled Jacobian, inverted cells, counts of the method, and\n"
+  "memory in MiB before and at most.\n";
 
 class Threads : public morph::Monitor
 {
@@ -149,16 +144,15 @@ double mostMemory()
   return 0;
 }
 
-/// The counts were called `counts` once.
-template <typename Report>
-auto countsOf(const Report& report, int) -> decltype(report.statistics)
+/// An older state has no number of steps.
+template <typename Method>
+auto setSteps(Method& method, int steps, int) -> decltype(method.setSteps(steps))
 {
-  return report.statistics;
+  method.setSteps(steps);
 }
-template <typename Report>
-auto countsOf(const Report& report, long) -> decltype(report.counts)
+template <typename Method>
+void setSteps(Method&, int, long)
 {
-  return report.counts;
 }
 
 void measure(morph::Morpher& method, const Problem& problem, morph::Monitor& monitor)
@@ -178,7 +172,7 @@ void measure(morph::Morpher& method, const Problem& problem, morph::Monitor& mon
     static_cast<long long>(problem.mesh.numberOfCells()), prepared - start, end - prepared,
     preparedWork - startOfWork, endOfWork - preparedWork, quality.minimum, quality.mean,
     static_cast<long long>(quality.inverted), memory, most, report.iterations);
-  for (const auto& count : countsOf(report, 0))
+  for (const auto& count : report.statistics)
   {
     std::printf(" %s=%lld", count.name.c_str(), static_cast<long long>(count.value));
   }
@@ -188,7 +182,7 @@ void measure(morph::Morpher& method, const Problem& problem, morph::Monitor& mon
 
 int main(int argc, char** argv)
 {
-  if (argc != 4)
+  if (argc < 3 || argc > 4)
   {
     std::fputs(Usage, stderr);
     return 2;
@@ -196,19 +190,11 @@ int main(int argc, char** argv)
   try
   {
     const Problem problem = readProblem(argv[1]);
-    Threads monitor(std::max(1, std::atoi(argv[3])));
-    const std::string name = argv[2];
-    if (name == "femwarp")
-    {
-      morph::FemWarp method;
-      measure(method, problem, monitor);
-      return 0;
-    }
+    Threads monitor(std::max(1, std::atoi(argv[2])));
     morph::InversionFree method;
-    if (name != "inversion-free")
+    if (argc == 4)
     {
-      std::fputs(Usage, stderr);
-      return 2;
+      setSteps(method, std::atoi(argv[3]), 0);
     }
     measure(method, problem, monitor);
   }

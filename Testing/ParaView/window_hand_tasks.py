@@ -141,17 +141,21 @@ class HandTasks(unittest.TestCase):
         hands.button("Morph Mesh")
         hands.tick(ROWS, "Surface 0")
         hands.choose(PANEL + "Method/ComboBox", "Simplex-natural neighbor")
-        stop = hands.find("widget\tAbortButton", enabled=False)
+
+        def button():
+            return hands.find("widget\tAbortButton", enabled=False)
+
+        stop = button()
         delete = hands.find("button\tDelete")
         self.assertFalse(stop["enabled"])
         hands.button("Apply")
         time.sleep(2)
         hands.press_at(delete)
         picture("stop")
-        while hands.busy():
+        while hands.busy() or button()["enabled"]:  # ParaView 6.1 answers at work, too
             hands.press_at(stop)
         self.ended("Stopped: the mesh is undeformed".__eq__)
-        self.assertFalse(hands.find("widget\tAbortButton", enabled=False)["enabled"])
+        self.assertFalse(button()["enabled"])
 
     def test_boss(self):
         hands = self.hands

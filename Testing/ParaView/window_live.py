@@ -168,10 +168,9 @@ class LiveDrags(unittest.TestCase):
         frames, messages = played("region", events, MORPH_COLORS="1")
         self.assertNotIn("ERR|", messages)
         boxes = frames[-1]["boxes"]
-        # ParaView 5.13 draws thinner lines than 5.11, 147 pixels of blue and 160 of orange. Where
-        # the boxes coincide, one of them has next to none.
-        self.assertGreater(boxes["blue"], 100, frames)
-        self.assertGreater(boxes["orange"], boxes["blue"], frames)
+        # ParaView 5.13 draws thinner lines than 5.11, 147 pixels of blue and 160 of orange; 6.1 draws
+        # 343 and 339. Where the boxes coincide, one of them has next to none.
+        self.assertGreater(min(boxes.values()), 100, frames)
 
     def test_slider(self):
         import window_scene

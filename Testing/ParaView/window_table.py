@@ -70,8 +70,8 @@ class Table(Panels):
         self.assertEqual(list(morph.FixedSurfaces), ["Surface 0", "Surface 2"])
         self.assertEqual(len(morph.FreeSurfaces), 0)
         text = script.read_text(encoding="utf-8")
-        self.assertIn(".FixedSurfaces = ['Surface 0', 'Surface 2']", text)
-        self.assertIn(".SlidingSurfaces = ['Surface 1']", text)
+        self.assertRegex(text, r"FixedSurfaces ?= ?\['Surface 0', 'Surface 2'\]")
+        self.assertRegex(text, r"SlidingSurfaces ?= ?\['Surface 1'\]")
 
     def test_a_wide_panel_shows_the_shapes(self):
         self.events.filter("MorphMesh")

@@ -91,7 +91,7 @@ public:
     Points all = this->pieces_->extend(three), other = this->pieces_->extend(fourth);
     const std::vector<Index>& ids = this->method_->partition().prescribed;
     FourFields given(static_cast<Index>(ids.size()), 4);
-    given << all(ids, allColumns), other(ids, 0);
+    given << all(ids, allColumns), Points(other(ids, allColumns)).col(0);
     EvaluateReport report;
     const FourFields found = this->method_->fields(given, monitor, &report);
     all = found.leftCols<3>();
@@ -101,7 +101,7 @@ public:
     fourth = this->pieces_->reduce(other, std::move(fourth));
     this->ties_.apply(three);
     this->ties_.apply(fourth);
-    free << three(partition.free, allColumns), fourth(partition.free, 0);
+    free << three(partition.free, allColumns), Points(fourth(partition.free, allColumns)).col(0);
     return report;
   }
 
@@ -152,7 +152,7 @@ private:
     // A process that does not have all cells around a node may take it for a follower, or has
     // other weights of it.
     Points follows = Points::Zero(this->nodes_, 3);
-    follows(partition.higherOrderNodes, 0).setOnes();
+    follows(partition.higherOrderNodes, allColumns).setOnes();
     this->copies_->update(follows);
     std::vector<Index> followers;
     for (Index n = 0; n < this->nodes_; ++n)

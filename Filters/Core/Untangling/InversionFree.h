@@ -47,7 +47,7 @@ class InversionFree : public Morpher
 {
 public:
   /// For setSteps().
-  static constexpr int NoSteps = 0, QuickSteps = 24, DefaultSteps = 40, ThoroughSteps = 200;
+  static constexpr int NoSteps = 0, QuickSteps = 14, DefaultSteps = 40, ThoroughSteps = 200;
 
   /// Sets the tolerance of FEMWARP. Range (0, 1), default 1e-10.
   void setTolerance(double tolerance) { this->femWarp_.setTolerance(tolerance); }
