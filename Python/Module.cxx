@@ -442,9 +442,9 @@ MakeMethod makerOf(const std::string& name, const py::dict& options, const Mesh&
   }
   if (name == "InversionFree")
   {
-    using Steps = morph::RaisingSteps;
-    constexpr int Efforts[] = { Steps::Quick, Steps::Default, Steps::Thorough };
-    return maker<morph::InversionFree>(
+    using Method = morph::InversionFree;
+    constexpr int Efforts[] = { Method::QuickSteps, Method::DefaultSteps, Method::ThoroughSteps };
+    return maker<Method>(
       [steps = Efforts[integer("effort")]](auto& method) { method.setSteps(steps); });
   }
   throw morph::Error("There is no method " + name + ".");

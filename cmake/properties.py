@@ -304,8 +304,10 @@ def definitions(cls, options, row):
                 f"  Property::SetStatus(this, {kept}, name, status);\n}}\n"
                 f"void {cls}::RemoveAll{name}()\n{{\n  Property::Set(this, {kept}, {{}});\n}}\n")
     if row.kind in ("text", "array"):
+        # ParaView's choice of an array offers None.
+        set_to = "SetArray" if row.kind == "array" else "Set"
         return (f"void {cls}::Set{name}(const char* value)\n{{\n"
-                f'  Property::Set(this, {kept}, value ? value : "");\n}}\n'
+                f'  Property::{set_to}(this, {kept}, value ? value : "");\n}}\n'
                 f"const char* {cls}::Get{name}() const\n{{\n  return {kept}.c_str();\n}}\n")
     call = f'this, "{name}", {kept}, value, {bounds}'
     if row.kind == "flag":

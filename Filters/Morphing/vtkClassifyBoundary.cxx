@@ -163,11 +163,8 @@ filters::Geometry::Options vtkClassifyBoundary::vtkInternals::Options(
   const vtkClassifyBoundary* filter)
 {
   filters::Geometry::Options options;
-  options.FeatureAngle = filter->Options->FeatureAngle;
-  options.CornerAngle = filter->Options->CornerAngle;
+  options.Take(*filter->Options);
   options.FeaturesInside = filter->Options->FeaturesInside;
-  options.SurfaceIdArray = filters::Input::ArrayName(filter->Options->SurfaceIdArray);
-  options.UseGeometryArrays = filter->Options->UseGeometryArrays;
   return options;
 }
 

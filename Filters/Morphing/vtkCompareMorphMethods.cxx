@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkCompareMorphMethods.h"
 
-#include "Mesh/Topology.h"
 #include "Morpher/IncrementalMorph.h"
 #include "Private/Compare/Comparison.h"
 #include "Private/Compare/PeakMemory.h"
-#include "Private/Data/GridMesh.h"
 #include "Private/Data/Quality.h"
 #include "Private/Data/Results.h"
 #include "Private/Distributed/OnRanks.h"
@@ -22,19 +20,15 @@
 #include "vtkInversionFreeMorph.h"
 #include "vtkLBWarpMorph.h"
 #include "vtkRadialBasisMorph.h"
-#include "vtkScaledJacobian.h"
 #include "vtkSimplexLinearMorph.h"
 #include "vtkSimplexNaturalNeighborMorph.h"
 #include "vtkSmoothingMorph.h"
 #include "vtkWeightedResidualMorph.h"
 
 #include <vtkAlgorithmOutput.h>
-#include <vtkDataArray.h>
-#include <vtkFieldData.h>
 #include <vtkInformation.h>
 #include <vtkInformationDoubleVectorKey.h>
 #include <vtkInformationVector.h>
-#include <vtkMath.h>
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
 #include <vtkPointSet.h>
@@ -98,44 +92,14 @@ struct Method
   vtkSmartPointer<vtkMorphAlgorithm> (*Make)();
 };
 
-vtkIdType badCells(
-  vtkUnstructuredGrid* grid, const filters::RankGroup& processes, morph::Monitor& monitor)
+/// Measures the mesh, of which all `processes` have a part, also by `criteria`.
+morph::Quality measure(vtkUnstructuredGrid* grid,
+  std::vector<filters::Quality::OfCriterion>& criteria, const filters::RankGroup& processes,
+  morph::Monitor& monitor)
 {
-  if (processes.IsOfAll())
-  {
-    vtkNew<vtkUnstructuredGrid> measured;
-    std::vector<filters::Quality::OfCriterion> none;
-    const morph::Quality whole =
-      filters::OnRanks::Measure(grid, false, none, measured, monitor).first.Whole;
-    return static_cast<vtkIdType>(whole.inverted + whole.degenerate);
-  }
-  const morph::Mesh mesh = filters::GridMesh::FromGrid(grid);
-  return static_cast<vtkIdType>(morph::invertedCells(
-    mesh, mesh.points, morph::cellSigns(mesh, morph::connectedComponents(mesh)), monitor)
-                                  .size());
-}
-
-/// A column for each number that vtkScaledJacobian has of each of `criteria`.
-std::vector<std::pair<std::string, double>> measureCriteria(
-  vtkUnstructuredGrid* grid, const std::string& criteria)
-{
-  std::vector<std::pair<std::string, double>> result;
-  vtkNew<vtkScaledJacobian> measure;
-  measure->SetCriteria(criteria.c_str());
-  measure->SetInputData(grid);
-  measure->Update();
-  vtkFieldData* found = measure->GetOutput()->GetFieldData();
-  for (const filters::Quality::OfCriterion& criterion : filters::Quality::ReadCriteria(criteria))
-  {
-    for (const char* column : { "Limit", "Worst", "WorstCellId", "CellsBeyond" })
-    {
-      vtkDataArray* array = found->GetArray((std::string("Criterion") + column).c_str());
-      const auto row = static_cast<vtkIdType>(result.size() / 4);
-      result.emplace_back(
-        criterion.Label + column, array ? array->GetComponent(row, 0) : vtkMath::Nan());
-    }
-  }
-  return result;
+  const auto run = processes.IsOfAll() ? filters::OnRanks::Measure : filters::Quality::MeasureAlone;
+  vtkNew<vtkUnstructuredGrid> measured;
+  return run(grid, false, criteria, measured, monitor).first.Whole;
 }
 }
 
@@ -317,9 +281,12 @@ void vtkCompareMorphMethods::vtkInternals::Run(vtkMorphAlgorithm* method, vtkUns
     }
     run.Steps.push_back(filters::Comparison::Measure(
       results, mesh, motion.Steps.Time(motion.Step), options.Percentile, processes));
-    if (!options.Criteria.empty())
+    std::vector<filters::Quality::OfCriterion> criteria =
+      filters::Quality::ReadCriteria(options.Criteria);
+    if (!criteria.empty())
     {
-      run.Steps.back().Criteria = measureCriteria(mesh, options.Criteria);
+      measure(mesh, criteria, processes, part);
+      run.Steps.back().Criteria = std::move(criteria);
     }
   }
   run.PeakMegabytes = processes.Maximum(memory.Megabytes());
@@ -355,10 +322,13 @@ void vtkCompareMorphMethods::Compare(vtkUnstructuredGrid* grid,
                                         "one on.");
   }
 
-  filters::Quality::ReadCriteria(this->Options->Criteria); // an error before the work
+  std::vector<filters::Quality::OfCriterion> criteria =
+    filters::Quality::ReadCriteria(this->Options->Criteria);
   vtkInternals& kept = *this->Internals;
   const std::vector<double> times = kept.Times();
-  const vtkIdType badAtRest = badCells(grid, processes, monitor);
+  const morph::Quality atRest =
+    measure(grid, criteria, processes, monitor); // throws before the work
+  const vtkIdType badAtRest = atRest.inverted + atRest.degenerate;
   if (badAtRest > 0 && processes.IsFirst())
   {
     monitor.warn(

@@ -19,9 +19,8 @@ vtkFEMWarpMorph::~vtkFEMWarpMorph() = default;
 
 void vtkFEMWarpMorph::TakeInputs(vtkUnstructuredGrid* rest, vtkDataObject* boundary)
 {
-  const morph::FEMWarpMorphOptions& own = *this->Options;
-  *this->Taken = morph::filters::Stiffness::Take(
-    { own.Stiffness, own.StiffnessExponent, own.StiffnessArray, own.WallArray }, rest, boundary);
+  namespace stiffness = morph::filters::Stiffness;
+  *this->Taken = stiffness::Take(stiffness::Of(*this->Options), rest, boundary);
 }
 
 std::unique_ptr<morph::Morpher> vtkFEMWarpMorph::CreateMorpher()

@@ -19,9 +19,9 @@ vtkInversionFreeMorph::~vtkInversionFreeMorph() = default;
 
 std::unique_ptr<morph::Morpher> vtkInversionFreeMorph::CreateMorpher()
 {
-  using Steps = morph::RaisingSteps;
-  constexpr int steps[] = { Steps::Quick, Steps::Default, Steps::Thorough };
-  auto morpher = std::make_unique<morph::InversionFree>();
+  using Method = morph::InversionFree;
+  constexpr int steps[] = { Method::QuickSteps, Method::DefaultSteps, Method::ThoroughSteps };
+  auto morpher = std::make_unique<Method>();
   morpher->setSteps(steps[this->Options->Effort]);
   return morpher;
 }

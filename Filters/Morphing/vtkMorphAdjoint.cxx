@@ -218,7 +218,7 @@ int vtkMorphAdjoint::RequestData(
       vtkDataObject* holder = carrier ? carrier : rest;
       if (carrier && !isDistributed)
       {
-        const std::string name = filters::Input::ArrayName(this->Options->GradientArray);
+        const std::string& name = this->Options->GradientArray;
         holder = this->Internals->Ports.AsOne(carrier, "The gradient's data set", name.c_str());
       }
       if (shapes)
@@ -259,7 +259,7 @@ void vtkMorphAdjoint::ExecuteShapes(vtkMorphShapes* shapes, vtkUnstructuredGrid*
       carrier == rest ? rest : filters::Input::RequirePointSet(carrier, "The gradient's data set");
     if (!onRanks || rest->GetNumberOfPoints() > 0) // a rank without points has no arrays
     {
-      gradient = requireGradient(holder, filters::Input::ArrayName(this->Options->GradientArray));
+      gradient = requireGradient(holder, this->Options->GradientArray);
     }
   };
   filters::RankGroup(onRanks).Together(check);
@@ -293,7 +293,7 @@ void vtkMorphAdjoint::Execute(vtkMorphAlgorithm* morph, vtkUnstructuredGrid* res
       carrier == rest ? rest : filters::Input::RequirePointSet(carrier, "The gradient's data set");
     if (!onRanks || rest->GetNumberOfPoints() > 0) // a rank without points has no arrays
     {
-      gradient = requireGradient(holder, filters::Input::ArrayName(this->Options->GradientArray));
+      gradient = requireGradient(holder, this->Options->GradientArray);
     }
     // With a DisplacementArray the method does not use the points, but the output has them.
     if (const auto wrong =

@@ -316,8 +316,8 @@ void vtkMorphBoundary::vtkInternals::MorphOnRanks(vtkUnstructuredGrid* piece,
 filters::BoundaryMatch::Options vtkMorphBoundary::vtkInternals::Matching() const
 {
   filters::BoundaryMatch::Options matching;
-  matching.BoundaryIdArray = filters::Input::ArrayName(this->Filter->Options->BoundaryIdArray);
-  matching.displacementArray = filters::Input::ArrayName(this->Filter->Options->DisplacementArray);
+  matching.BoundaryIdArray = this->Filter->Options->BoundaryIdArray;
+  matching.displacementArray = this->Filter->Options->DisplacementArray;
   matching.scaleFactor = this->Filter->Options->ScaleFactor;
   matching.matchTolerance = this->Filter->Options->MatchTolerance;
   matching.fixUnnamedBoundary = false;
@@ -332,11 +332,8 @@ void vtkMorphBoundary::vtkInternals::Run(
   filters::Surface::WarnOfNone(faces, monitor);
   monitor.SetRange(0.1, 0.2);
   filters::Geometry::Options options;
-  options.FeatureAngle = this->Filter->Options->FeatureAngle;
-  options.CornerAngle = this->Filter->Options->CornerAngle;
+  options.Take(*this->Filter->Options);
   options.FeaturesInside = this->Filter->Options->FeaturesInside;
-  options.SurfaceIdArray = filters::Input::ArrayName(this->Filter->Options->SurfaceIdArray);
-  options.UseGeometryArrays = this->Filter->Options->UseGeometryArrays;
   const morph::Classification geometry =
     filters::Geometry::Classify(task.Grid, mesh, faces, options, monitor);
 
@@ -369,13 +366,9 @@ void vtkMorphBoundary::vtkInternals::Run(
   if (task.Target)
   {
     monitor.SetRange(0.3, 0.4);
-    morph::Target::Options options;
-    options.featureAngle = this->Filter->Options->FeatureAngle;
-    options.normalAngle = this->Filter->Options->TargetAngle;
-    options.reach = this->Filter->Options->TargetReach * task.Size;
     std::string warning;
-    place =
-      filters::TargetData::Make(task.Target, mesh.points, task.Size, options, warning, monitor);
+    place = filters::TargetData::Make(task.Target, mesh.points, task.Size,
+      filters::TargetData::OptionsOf(*this->Filter->Options, task.Size), warning, monitor);
     if (!warning.empty())
     {
       monitor.warn(warning);

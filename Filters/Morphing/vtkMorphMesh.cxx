@@ -503,7 +503,7 @@ filters::GridMorpher::Method vtkMorphMesh::vtkMorphing::MethodOf(vtkUnstructured
     {
       throw morph::Error("This method has no stiffness, so there are no soft zones. Use FEMWARP.");
     }
-    if (own.Stiffness != 0 || !filters::Input::ArrayName(own.StiffnessArray).empty())
+    if (filters::Stiffness::Of(own).AreGiven())
     {
       monitor.warn("This method has no stiffness: `Stiffness` counts for FEMWARP alone.");
     }
@@ -517,9 +517,8 @@ filters::GridMorpher::Method vtkMorphMesh::vtkMorphing::MethodOf(vtkUnstructured
         return morpher;
       } };
   }
-  auto stiffness = filters::Stiffness::Take(
-    { own.Stiffness, own.StiffnessExponent, own.StiffnessArray, own.WallArray }, grid,
-    this->Boundary, soft);
+  auto stiffness =
+    filters::Stiffness::Take(filters::Stiffness::Of(own), grid, this->Boundary, soft);
   return { options, [method, isRough, stiffness = std::move(stiffness)]
     {
       std::unique_ptr<morph::Morpher> morpher = method->CreateMorpher();

@@ -2,10 +2,7 @@
 #include "vtkScaledJacobian.h"
 
 #include "Mesh/CellShape.h"
-#include "Mesh/SharedCorners.h"
-#include "Mesh/Topology.h"
 #include "Private/Blocks/Blocks.h"
-#include "Private/Data/GridMesh.h"
 #include "Private/Data/Quality.h"
 #include "Private/Data/Results.h"
 #include "Private/Data/Version.h"
@@ -25,7 +22,6 @@
 #include <vtkUnstructuredGrid.h>
 
 #include <algorithm>
-#include <array>
 #include <numeric>
 #include <string>
 #include <utility>
@@ -43,23 +39,6 @@ public:
 
 namespace
 {
-using DimensionOfType = std::array<int, 256>;
-
-/// Dimension of each cell type that occurs in the mesh.
-DimensionOfType dimensions(const morph::Mesh& mesh)
-{
-  DimensionOfType result;
-  result.fill(-1);
-  for (const std::uint8_t type : mesh.types)
-  {
-    if (result[type] < 0)
-    {
-      result[type] = filters::GridMesh::Dimension(type);
-    }
-  }
-  return result;
-}
-
 std::string typeName(std::uint8_t type)
 {
   const morph::CellShape* shape = morph::cellShape(type);
@@ -86,27 +65,6 @@ void reportUnmeasured(
   }
   results.SetInteger(
     "UnmeasuredCells", std::accumulate(unmeasured.begin(), unmeasured.end(), vtkIdType(0)));
-}
-
-/// Measures a mesh that this process has all of, and counts its mirrored bodies.
-std::pair<filters::Quality::Measured, morph::Index> measureAlone(vtkUnstructuredGrid* grid,
-  bool certified, std::vector<filters::Quality::OfCriterion>& criteria, vtkUnstructuredGrid* output,
-  morph::Monitor& monitor)
-{
-  const morph::Mesh mesh = filters::GridMesh::FromGrid(grid, filters::GridMesh::UnknownCells::Keep);
-  const morph::ConnectedComponents bodies = morph::connectedComponents(mesh);
-  const std::vector<std::int8_t> orientation = morph::cellSigns(mesh, bodies);
-
-  // A mesh of unknown volume cells must not be judged by its boundary triangles.
-  const DimensionOfType dimension = dimensions(mesh);
-  const int highest = *std::max_element(dimension.begin(), dimension.end());
-  std::vector<std::uint8_t> skip(mesh.types.size());
-  std::transform(mesh.types.begin(), mesh.types.end(), skip.begin(),
-    [&](std::uint8_t type) { return dimension[type] < highest; });
-  const filters::Quality::Part part = { mesh, mesh, orientation, skip, highest,
-    morph::Communicator::alone() };
-  return { filters::Quality::MeasureAll(part, certified, criteria, grid, output, monitor),
-    morph::mirroredBodies(bodies, orientation) };
 }
 }
 
@@ -190,7 +148,7 @@ void vtkScaledJacobian::Measure(
   const bool certified = this->Options->Certify;
   const auto [measured, mirroredBodies] =
     isPiece ? filters::OnRanks::Measure(input, certified, criteria, output, monitor)
-            : measureAlone(input, certified, criteria, output, monitor);
+            : filters::Quality::MeasureAlone(input, certified, criteria, output, monitor);
   filters::Results& results = this->Internals->Results;
   results.Set(measured.Whole);
   results.SetInteger("MeasuredCells", measured.Whole.measured);

@@ -19,11 +19,10 @@ class vtkSMProxy;
 /// it is dragged. With nothing ticked there is no box: it would take the mouse from the view. Where
 /// a region moves, whose own box may be around the whole input as well, it is a bit larger than the
 /// input. When a rotation or a scale is typed, the translation is changed
-/// with it, so that the center stays where it is. The filter's property Center is the center where
-/// AutoCenter is off.
+/// with it, so that the center stays where it is, or the one that the filter is given.
 ///
-/// With the filter's TransformAboutCenter the numbers are about the center themselves. The box is
-/// hidden then: ParaView draws it about the origin.
+/// Where the filter takes the numbers about the center themselves, the box is hidden: ParaView
+/// draws it about the origin.
 class BoxAboutCenter : public QObject
 {
   Q_OBJECT

@@ -9,15 +9,20 @@
 
 namespace shapes
 {
-/// A mesh with its boundary, classified at the default angles.
+/// A mesh with its boundary, classified.
 struct ClassifiedShape
 {
   morph::Mesh mesh;
   morph::BoundaryFaces faces;
   morph::Classification geometry;
 
-  explicit ClassifiedShape(const morph::Mesh& m);
+  explicit ClassifiedShape(const morph::Mesh& m, const morph::ClassificationOptions& options = {});
 
+  /// Boundary nodes of a dimension of at most `highest`.
+  std::vector<Index> upTo(int highest) const;
+  /// A motion that prescribes the nodes `ids`, where `map` takes them.
+  morph::BoundaryMotion begin(
+    const std::vector<Index>& ids, const std::function<Row(const Row&)>& map) const;
   /// A motion that prescribes vertices and curves, where `map` takes them. Surfaces are not moved.
   morph::BoundaryMotion withEdgesMoved(const std::function<Row(const Row&)>& map) const;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "BoundaryShapes.h"
+#include "ClassifiedShape.h"
 
 #include "Boundary/FaceQuality.h"
 #include "BoundaryMorphing/BoundaryProjection.h"
@@ -31,30 +31,16 @@ struct Formula : ProjectionTarget
   }
 };
 
-struct Case
+struct Case : shapes::ClassifiedShape
 {
-  Mesh mesh;
-  BoundaryFaces faces;
-  Classification geometry;
   BoundaryMotion motion;
   meshes::ThreadedMonitor monitor{ 2 };
 
   /// Nodes of dimension 0 and 1 stay, and so do the surfaces, which may then be projected.
   explicit Case(const Mesh& m)
-    : mesh(m)
+    : ClassifiedShape(m)
+    , motion(this->begin(this->upTo(0), [](const Row& x) { return x; }))
   {
-    this->faces = boundaryFaces(this->mesh, this->monitor);
-    this->geometry = classify(this->mesh, this->faces, {}, this->monitor);
-    std::vector<Index> ids;
-    for (Index node : this->faces.nodes)
-    {
-      if (this->geometry.dimension[node] == 0)
-      {
-        ids.push_back(node);
-      }
-    }
-    this->motion =
-      beginMotion(this->mesh, this->faces, this->geometry, ids, meshes::rows(m.points, ids));
     morphCurves(this->geometry, UnattachedMotion::Stay, this->motion, this->monitor);
   }
   void surfaces() { morphSurfaces(this->faces, this->geometry, {}, this->motion, this->monitor); }

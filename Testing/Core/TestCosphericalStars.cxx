@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Geometry/CosphericalStars.h"
 
+#include "BoundaryShapes.h"
 #include "Interpolation/PointLocation.h"
 #include "LinearMethods/SimplexLinear.h"
 #include "Meshes.h"
@@ -48,28 +49,6 @@ Eigen::Matrix3d rotation(std::mt19937& generator)
   return Eigen::Quaterniond(value(generator), value(generator), value(generator), value(generator))
     .normalized()
     .toRotationMatrix();
-}
-
-/// A cylinder of radius 1 with rings of equal angles.
-Mesh cylinder(int n, int height)
-{
-  Mesh mesh = meshes::hexes(n, n, height);
-  meshes::transform(mesh,
-    [=](const Row& x)
-    {
-      const double u = 2 * x[0] / n - 1, v = 2 * x[1] / n - 1;
-      const double r = std::max(std::abs(u), std::abs(v));
-      if (r < 1e-12)
-      {
-        return Row(0, 0, 2 * x[2] / n);
-      }
-      const double quarter = std::atan(1.);
-      const double angle = std::abs(u) >= std::abs(v)
-                             ? quarter * v / u + (u < 0 ? 4 * quarter : 0)
-                             : quarter * (2 - u / v) + (v < 0 ? 4 * quarter : 0);
-      return Row(r * std::cos(angle), r * std::sin(angle), 2 * x[2] / n);
-    });
-  return mesh;
 }
 
 Points morphed(const Mesh& mesh, const NodePartition& partition, const Points& target)
@@ -196,7 +175,8 @@ TEST(CosphericalStars, ManySitesOnOneSphereAreOneCell)
 TEST(CosphericalStars, FillTheHullOfTurnedLatticesAndCylinders)
 {
   std::mt19937 generator(meshes::seed());
-  for (const Mesh& mesh : { meshes::hexes(6, 6, 6), meshes::hexes(5, 3, 9), cylinder(6, 8) })
+  for (const Mesh& mesh :
+    { meshes::hexes(6, 6, 6), meshes::hexes(5, 3, 9), shapes::cylinder(6, 8, 8 / 3.) })
   {
     const std::vector<Index> outer = motions::outerPartition(mesh).prescribed;
     for (int trial = 0; trial < 5; ++trial)
@@ -345,9 +325,9 @@ TEST(CosphericalStars, ThreadsDoNotShow)
 TEST(CosphericalStars, SimplexLinearFollowsAnyRotation)
 {
   std::mt19937 generator(meshes::seed());
-  for (const auto& [name, mesh] :
-    { std::make_pair("cube", meshes::hexes(12, 12, 12)),
-      std::make_pair("box", meshes::hexes(5, 7, 4)), std::make_pair("cylinder", cylinder(8, 10)) })
+  for (const auto& [name, mesh] : { std::make_pair("cube", meshes::hexes(12, 12, 12)),
+         std::make_pair("box", meshes::hexes(5, 7, 4)),
+         std::make_pair("cylinder", shapes::cylinder(8, 10, 2.5)) })
   {
     const NodePartition partition = motions::outerPartition(mesh);
     const double size = meshes::size(mesh.points);

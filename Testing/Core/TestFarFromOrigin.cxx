@@ -50,7 +50,7 @@ std::vector<Method> methods()
     []
     {
       auto method = std::make_unique<InversionFree>();
-      method->setSteps(RaisingSteps::None);
+      method->setSteps(InversionFree::NoSteps);
       method->setTolerance(1e-12);
       return method;
     },

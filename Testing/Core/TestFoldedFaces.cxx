@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Boundary/FaceQuality.h"
 #include "Boundary/FoldedFaces.h"
-#include "Meshes.h"
+#include "ClassifiedShape.h"
+#include "Motions.h"
 
 #include <gtest/gtest.h>
 
@@ -14,23 +15,13 @@ namespace
 using namespace morph;
 using Row = Eigen::RowVector3d;
 
-struct Boundary
+struct Boundary : shapes::ClassifiedShape
 {
-  explicit Boundary(Mesh given)
-    : mesh(std::move(given))
-    , faces(morph::boundaryFaces(this->mesh, this->monitor))
-    , geometry(morph::classify(this->mesh, this->faces, {}, this->monitor))
-  {
-  }
+  using ClassifiedShape::ClassifiedShape;
 
   Points moved(const std::function<Row(const Row&)>& motion) const
   {
-    Points result = this->mesh.points;
-    for (Index i = 0; i < result.rows(); ++i)
-    {
-      result.row(i) = motion(this->mesh.points.row(i));
-    }
-    return result;
+    return motions::mapped(this->mesh.points, motion);
   }
   std::vector<Index> folded(const Points& moved) const
   {
@@ -52,11 +43,6 @@ struct Boundary
     }
     return result;
   }
-
-  meshes::ThreadedMonitor monitor;
-  Mesh mesh;
-  morph::BoundaryFaces faces;
-  morph::Classification geometry;
 };
 
 /// A node of the top goes past its neighbors.

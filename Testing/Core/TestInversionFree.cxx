@@ -154,8 +154,8 @@ TEST(InversionFree, MoreEffortRaisesTheMinimumOfValidTetrahedra)
   ASSERT_LT(
     known, 0.75 * morph::measureCorners(mesh, mesh.points, orientation, {}, monitor).minimum);
   double least = known;
-  for (const int steps : { morph::RaisingSteps::None, morph::RaisingSteps::Quick,
-         morph::RaisingSteps::Default, morph::RaisingSteps::Thorough })
+  for (const int steps : { morph::InversionFree::NoSteps, morph::InversionFree::QuickSteps,
+         morph::InversionFree::DefaultSteps, morph::InversionFree::ThoroughSteps })
   {
     InversionFree method;
     method.setSteps(steps);
@@ -311,7 +311,7 @@ TEST(InversionFree, LinearIterationsOfUntanglingHardlyGrowWithTheMesh)
   {
     const Mesh mesh = meshes::hexes(side, side, side);
     InversionFree method;
-    method.setSteps(morph::RaisingSteps::None);
+    method.setSteps(morph::InversionFree::NoSteps);
     const Morphed result = run(method, mesh,
       target(mesh, [side](const motions::Row& x) { return motions::twist(x, side, side, 12.6); }));
     EXPECT_EQ(result.inverted, 0);

@@ -2,13 +2,13 @@
 // What of the inverted cells a motion has made.
 #include "Mesh/Topology.h"
 #include "Meshes.h"
+#include "Motions.h"
 #include "Quality/InvertedBefore.h"
 #include "Quality/ValidRange.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <functional>
 #include <utility>
 
 using namespace morph;
@@ -36,16 +36,6 @@ struct Case
   InvertedBefore before;
 };
 
-Points mapped(const Points& points, const std::function<Row(const Row&)>& map)
-{
-  Points result = points;
-  for (Index i = 0; i < result.rows(); ++i)
-  {
-    result.row(i) = map(points.row(i));
-  }
-  return result;
-}
-
 /// Two boxes in a row, the first of which is a hexahedron with two nodes twice: a wedge.
 Mesh withWedge()
 {
@@ -69,7 +59,7 @@ TEST(InvertedBefore, AMotionThatKeepsTheOrientationAddsNothing)
     EXPECT_TRUE(tangled.added(tangled.mesh.points).empty());
     // The scaled Jacobians change, some for the worse.
     EXPECT_TRUE(tangled
-                  .added(mapped(tangled.mesh.points, [](const Row& x)
+                  .added(motions::mapped(tangled.mesh.points, [](const Row& x)
                     { return Row(3 * x[0] + x[1], x[1] - 0.4 * x[2], 0.5 * x[2]); }))
                   .empty());
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "BoundaryShapes.h"
+#include "ClassifiedShape.h"
 
 #include "BoundaryMorphing/CurveMorph.h"
 #include "BoundaryMorphing/KnownMotion.h"
@@ -28,19 +28,13 @@ Mesh plateWithHoles(int n)
 }
 
 /// The vertices, and one node of `every` where that is above 0, moved at random.
-struct Case
+struct Case : shapes::ClassifiedShape
 {
-  Mesh mesh;
-  BoundaryFaces faces;
-  Classification geometry;
   BoundaryMotion motion;
 
   explicit Case(const Mesh& m, std::size_t every = 7)
-    : mesh(m)
+    : ClassifiedShape(m)
   {
-    Monitor monitor;
-    this->faces = boundaryFaces(this->mesh, monitor);
-    this->geometry = classify(this->mesh, this->faces, {}, monitor);
     std::vector<Index> ids;
     for (std::size_t i = 0; i < this->faces.nodes.size(); ++i)
     {

@@ -83,8 +83,6 @@ TEST(LogBarrierWarp, WeightsSumToOneAndReproduceTheRestPositions)
         EXPECT_TRUE(entry.col() == i ? entry.value() == 1 : entry.value() < 0) << name;
       }
     }
-    EXPECT_LE(method.mostWeightIterations(), 12) << name;
-    EXPECT_GE(method.meanWeightIterations(), 1) << name;
   }
 }
 

@@ -134,12 +134,11 @@ TEST(Multigrid, AnApexFollowsTheColumnsAroundItWithoutJoiningThem)
   }
   A.makeCompressed();
   Monitor monitor;
-  const std::vector<Nearness> near = nearNeighbors(A, places, monitor);
-  const Aggregates aggregates = aggregate(A, places, near);
-  ASSERT_EQ(aggregates.count, 2);
-  EXPECT_EQ(aggregates.of[0], aggregates.of[1]);
-  EXPECT_EQ(aggregates.of[2], aggregates.of[3]);
-  const CsrMatrixOf<float> P = smoothedProlongation(A, near, aggregates, monitor);
+  std::vector<int> aggregateOf;
+  const CsrMatrixOf<float> P = prolongation(A, places, aggregateOf, monitor);
+  ASSERT_EQ(P.cols(), 2);
+  EXPECT_EQ(aggregateOf[0], aggregateOf[1]);
+  EXPECT_EQ(aggregateOf[2], aggregateOf[3]);
   EXPECT_FLOAT_EQ(P.coeff(4, 0), 0.5f);
   EXPECT_FLOAT_EQ(P.coeff(4, 1), 0.5f);
 }
@@ -155,7 +154,7 @@ TEST(Multigrid, ACycleIsNearTheInverse)
     Multigrid multigrid;
     multigrid.prepare(A, Multigrid::Symmetry::Symmetric, placesOnLine(Rows), monitor);
     EXPECT_GE(multigrid.numberOfLevels(), 3);
-    Multigrid::Workspace workspace(multigrid);
+    Multigrid::Workspace workspace = multigrid.workspace();
     FloatMultiVector rhs(Rows), x(Rows);
     const auto exact = [&](int i) { return std::sin(3 * M_PI * (i + 1) / (Rows + 1)); };
     for (int i = 0; i < Rows; ++i)

@@ -56,7 +56,7 @@ std::vector<std::pair<std::string, Make>> allMethods()
     []() -> std::unique_ptr<Morpher>
     {
       auto method = std::make_unique<InversionFree>();
-      method->setSteps(RaisingSteps::None);
+      method->setSteps(InversionFree::NoSteps);
       method->setTolerance(1e-13);
       return method;
     });

@@ -5,7 +5,7 @@
 #include "Motions.h"
 #include "Quality/MovableQuality.h"
 #include "Quality/ScaledJacobian.h"
-#include "Untangling/MeshImprovement.h"
+#include "Untangling/InversionFree.h"
 #include "Untangling/QualityRaising.h"
 
 #include <gtest/gtest.h>
@@ -62,7 +62,8 @@ Index raise(const Mesh& mesh, const std::vector<std::int8_t>& orientation,
   const std::vector<Index>& free, Points& points, morph::Monitor& monitor, double goal = 1)
 {
   const MovableQuality quality(mesh, orientation, free);
-  return morph::raiseQuality(quality, goal, morph::RaisingSteps::Default, points, monitor).steps;
+  return morph::raiseQuality(quality, goal, morph::InversionFree::DefaultSteps, points, monitor)
+    .steps;
 }
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "BoundaryShapes.h"
+#include "ClassifiedShape.h"
 #include "Motions.h"
 
 #include "Boundary/FaceQuality.h"
@@ -24,43 +24,23 @@ using Method = SurfaceMorphOptions::Method;
 
 constexpr Method Methods[] = { Method::WeightedResidual, Method::HarmonicExtension };
 
-struct Case
+SurfaceMorphOptions by(Method method)
 {
-  Mesh mesh;
-  BoundaryFaces faces;
-  Classification geometry;
+  SurfaceMorphOptions options;
+  options.method = method;
+  return options;
+}
 
-  explicit Case(const Mesh& m, const ClassificationOptions& options = {})
-    : mesh(m)
-  {
-    Monitor monitor;
-    this->faces = boundaryFaces(this->mesh, monitor);
-    this->geometry = classify(this->mesh, this->faces, options, monitor);
-  }
+SurfaceMorphOptions leaving(UnattachedMotion how)
+{
+  SurfaceMorphOptions options;
+  options.unattached = how;
+  return options;
+}
 
-  /// Boundary nodes of a dimension of at most `highest`.
-  std::vector<Index> upTo(int highest) const
-  {
-    std::vector<Index> ids;
-    for (Index node : this->faces.nodes)
-    {
-      if (this->geometry.dimension[node] <= highest)
-      {
-        ids.push_back(node);
-      }
-    }
-    return ids;
-  }
-
-  BoundaryMotion begin(const std::vector<Index>& ids, const Map& map) const
-  {
-    Points targets(static_cast<Index>(ids.size()), 3);
-    for (std::size_t i = 0; i < ids.size(); ++i)
-    {
-      targets.row(static_cast<Index>(i)) = map(this->mesh.points.row(ids[i]));
-    }
-    return beginMotion(this->mesh, this->faces, this->geometry, ids, targets);
-  }
+struct Case : shapes::ClassifiedShape
+{
+  using ClassifiedShape::ClassifiedShape;
 
   Points morph(const std::vector<Index>& ids, const Map& map,
     const SurfaceMorphOptions& options = {}, int threads = 1,
@@ -181,14 +161,12 @@ TEST(SurfaceMorph, NoMotionIsTheIdentityBitForBit)
     const Case c(mesh);
     for (const Method method : Methods)
     {
-      SurfaceMorphOptions options;
-      options.method = method;
       for (int highest = 0; highest <= 2; ++highest)
       {
         const std::vector<Index> ids = c.upTo(highest);
         if (!ids.empty())
         {
-          const Points moved = c.morph(ids, same, options);
+          const Points moved = c.morph(ids, same, by(method));
           EXPECT_EQ(moved, mesh.points) << name;
         }
       }
@@ -207,14 +185,12 @@ TEST(SurfaceMorph, AffineMotionOfTheVerticesMovesEverything)
       const Case c(mesh);
       for (const Method method : Methods)
       {
-        SurfaceMorphOptions options;
-        options.method = method;
         for (int highest = 0; highest <= 1; ++highest)
         {
           const std::vector<Index> ids = c.upTo(highest);
           if (!ids.empty())
           {
-            EXPECT_LE(c.worst(c.morph(ids, map, options), map), 1e-10) << name;
+            EXPECT_LE(c.worst(c.morph(ids, map, by(method)), map), 1e-10) << name;
           }
         }
       }
@@ -318,9 +294,7 @@ TEST(SurfaceMorph, ClosedCurvesAndSurfacesWithoutAnythingKnown)
   const Map stretch = [](const Row& x) { return Row(2 * x[0], x[1], x[2] + 1); };
   const auto radii = [&](UnattachedMotion how)
   {
-    SurfaceMorphOptions options;
-    options.unattached = how;
-    const Points moved = hole.morph(hole.upTo(0), stretch, options);
+    const Points moved = hole.morph(hole.upTo(0), stretch, leaving(how));
     std::pair<double, double> range(1e9, 0);
     double lowest = 1e9;
     for (Index node : hole.geometry.curves[0].nodes)
@@ -363,10 +337,8 @@ TEST(SurfaceMorph, ClosedCurvesAndSurfacesWithoutAnythingKnown)
   for (const UnattachedMotion how :
     { UnattachedMotion::FollowAffinely, UnattachedMotion::FollowRigidly, UnattachedMotion::Stay })
   {
-    SurfaceMorphOptions options;
-    options.unattached = how;
     SurfaceMorphReport report;
-    const Points moved = ball.morph(outer, turn, options, 1, &report);
+    const Points moved = ball.morph(outer, turn, leaving(how), 1, &report);
     EXPECT_EQ(report.unattached.size(), 1u);
     for (Index node : ball.faces.nodes)
     {
@@ -396,10 +368,8 @@ TEST(SurfaceMorph, BodiesDoNotPullEachOther)
   for (const UnattachedMotion how :
     { UnattachedMotion::FollowAffinely, UnattachedMotion::FollowRigidly })
   {
-    SurfaceMorphOptions options;
-    options.unattached = how;
     const Map map = [](const Row& x) { return x[0] < 5 ? x : Row(x + Row(0, 3, 0)); };
-    EXPECT_LE(c.worst(c.morph(outer, map, options), map), 1e-12);
+    EXPECT_LE(c.worst(c.morph(outer, map, leaving(how)), map), 1e-12);
   }
 }
 
@@ -456,9 +426,7 @@ TEST(SurfaceMorph, ThreadsDoNotShow)
   const Case c(shapes::boxWithHole(32, 6, 6));
   for (const Method method : Methods)
   {
-    SurfaceMorphOptions options;
-    options.method = method;
-    EXPECT_EQ(c.morph(c.upTo(1), twist, options, 1), c.morph(c.upTo(1), twist, options, 4));
+    EXPECT_EQ(c.morph(c.upTo(1), twist, by(method), 1), c.morph(c.upTo(1), twist, by(method), 4));
   }
 }
 
@@ -467,10 +435,8 @@ TEST(SurfaceMorph, SmoothingStaysWithinTheResiduals)
   // One vertex of a box is pulled: u is affine, and what is left of the vertices' motion bounds
   // what is left inside.
   const Case c(meshes::hexes(5, 5, 5));
-  SurfaceMorphOptions options;
-  options.method = Method::HarmonicExtension;
   const Points moved = c.morph(
-    { 0 }, [](const Row& x) { return Row(x - Row(1, 1, 1)); }, options);
+    { 0 }, [](const Row& x) { return Row(x - Row(1, 1, 1)); }, by(Method::HarmonicExtension));
   for (Index node : c.faces.nodes)
   {
     const Row u = moved.row(node) - c.mesh.points.row(node);
@@ -508,9 +474,7 @@ TEST(SurfaceMorph, CoincidentEndsAndLengthlessCurves)
   const Case c(mesh);
   for (const Method method : Methods)
   {
-    SurfaceMorphOptions options;
-    options.method = method;
-    const Points moved = c.morph(c.upTo(0), twist, options);
+    const Points moved = c.morph(c.upTo(0), twist, by(method));
     EXPECT_TRUE(moved.allFinite());
     EXPECT_EQ(moved.row(1), moved.row(0));
   }

@@ -94,7 +94,7 @@ Index nodeAt(const Mesh& mesh, const motions::Row& x)
 
 void notRaised(InversionFree& method)
 {
-  method.setSteps(morph::RaisingSteps::None);
+  method.setSteps(morph::InversionFree::NoSteps);
 }
 
 /// Expects a mesh whose minimum is at most 3 % below that of one process where it is raised: that
@@ -190,7 +190,7 @@ TEST(RankInversionFree, TakesTheOptionsOfTheSerialMethod)
   Mesh mesh = meshes::hexes(4, 4, 4);
   meshes::jitterInterior(mesh, 0.1, meshes::seed());
   compare(ranks, "quick", mesh, waves,
-    [](InversionFree& method) { method.setSteps(morph::RaisingSteps::Quick); });
+    [](InversionFree& method) { method.setSteps(morph::InversionFree::QuickSteps); });
   EXPECT_EQ(onRanks(
               ranks, mesh, [](const motions::Row& x) { return x; }, [](InversionFree&) {})
               .moved,

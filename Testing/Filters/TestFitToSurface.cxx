@@ -147,46 +147,41 @@ vtkSmartPointer<vtkPolyData> withFlatTriangle(vtkPolyData* surface)
   return result.Get();
 }
 
-/// Hills about a height, over more than the brick's outline.
-vtkSmartPointer<vtkPolyData> hills(double height, double margin)
+/// A target over the brick's outline and more.
+vtkSmartPointer<vtkPolyData> overBrick(
+  double margin, int along, int across, const std::function<double(const Row&)>& height)
 {
   vtkNew<vtkPlaneSource> plane;
   plane->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
   plane->SetOrigin(-margin, -margin, 0);
   plane->SetPoint1(6 + margin, -margin, 0);
   plane->SetPoint2(-margin, 4 + margin, 0);
-  plane->SetResolution(40, 40);
+  plane->SetResolution(along, across);
   plane->Update();
   vtkPolyData* surface = plane->GetOutput();
   for (vtkIdType i = 0; i < surface->GetNumberOfPoints(); ++i)
   {
     Row x;
     surface->GetPoint(i, x.data());
-    x[2] = height + 0.5 * std::sin(1.3 * x[0] + 0.4) * std::cos(1.1 * x[1] - 0.3);
+    x[2] = height(x);
     surface->GetPoints()->SetPoint(i, x.data());
   }
   return surface;
 }
 
-/// Over the brick's outline: a floor at 0.5, and walls of 66 degrees.
+/// Hills about a height.
+vtkSmartPointer<vtkPolyData> hills(double height, double margin)
+{
+  return overBrick(margin, 40, 40,
+    [=](const Row& x)
+    { return height + 0.5 * std::sin(1.3 * x[0] + 0.4) * std::cos(1.1 * x[1] - 0.3); });
+}
+
+/// A floor at 0.5, and walls of 66 degrees.
 vtkSmartPointer<vtkPolyData> canyon()
 {
-  vtkNew<vtkPlaneSource> plane;
-  plane->SetOrigin(-0.5, -0.5, 0);
-  plane->SetPoint1(6.5, -0.5, 0);
-  plane->SetPoint2(-0.5, 4.5, 0);
-  plane->SetResolution(28, 20);
-  plane->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
-  plane->Update();
-  vtkPolyData* surface = plane->GetOutput();
-  for (vtkIdType i = 0; i < surface->GetNumberOfPoints(); ++i)
-  {
-    Row x;
-    surface->GetPoint(i, x.data());
-    x[2] = 0.5 + 2.25 * std::max(0., std::abs(x[0] - 3) - 0.75);
-    surface->GetPoints()->SetPoint(i, x.data());
-  }
-  return surface;
+  return overBrick(
+    0.5, 28, 20, [](const Row& x) { return 0.5 + 2.25 * std::max(0., std::abs(x[0] - 3) - 0.75); });
 }
 
 vtkSmartPointer<vtkMorphMesh> make(vtkUnstructuredGrid* grid, vtkPolyData* target)

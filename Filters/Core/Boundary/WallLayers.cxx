@@ -1,19 +1,141 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Boundary/WallLayers.h"
 
-#include "Boundary/LayerCells.h"
+#include "Mesh/CellShape.h"
+#include "Mesh/Mesh.h"
+#include "Mesh/Topology.h"
+#include "Support/Adjacency.h"
 #include "Support/Lists.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <iterator>
 #include <memory>
 #include <unordered_map>
 #include <utility>
+#include <vector>
 
 namespace morph
 {
 namespace
 {
+/// A face of a cell from which the next layer of cells grows, and the face that lies opposite.
+struct LayerFront
+{
+  Index cell;
+  int size; ///< 3 or 4
+  Index nodes[4];
+  Index opposite[4]; ///< of each of `nodes`
+};
+
+/// The corner that an edge outside the face joins with `corner`, or -1.
+int cornerAbove(const CellShape& shape, const FaceShape& face, int corner)
+{
+  if (shape.shape == Shape::Wedge)
+  {
+    return (corner + 3) % 6;
+  }
+  const auto isInFace = [&](int c)
+  { return std::find(face.corner, face.corner + face.size, c) != face.corner + face.size; };
+  for (const auto& direction : HexAxisEdges)
+  {
+    for (const auto& edge : direction)
+    {
+      const int other = edge[0] == corner ? edge[1] : edge[1] == corner ? edge[0] : -1;
+      if (other >= 0 && !isInFace(other))
+      {
+        return other;
+      }
+    }
+  }
+  return -1;
+}
+
+/// Finds the cells through which layers grow: hexahedra and, from triangles, wedges.
+class LayerCells
+{
+public:
+  /// `outerNodes`: those of the boundary. `isLayer`: #cells, the only cells that count; none: all.
+  /// Holds `mesh` and `isLayer` by reference. Cost: a pass over the mesh.
+  LayerCells(const Mesh& mesh, const std::vector<Index>& outerNodes,
+    const std::vector<std::uint8_t>& isLayer)
+    : mesh_(mesh)
+    , around_(nodeToCells(mesh))
+    , isLayer_(isLayer)
+    , isOuter_(mesh.numberOfNodes(), 0)
+  {
+    for (const Index node : outerNodes)
+    {
+      this->isOuter_[node] = 1;
+    }
+  }
+
+  /// The side of `cell` (CellShape::faces) with these nodes, from which a layer grows into it. -1
+  /// where the cell has no layer there.
+  int sideOf(Index cell, const Index* nodes, Index size) const
+  {
+    const CellShape& shape = *cellShape(this->mesh_, cell);
+    const bool isHex = shape.shape == Shape::Hex && size == 4;
+    const bool isWedge = shape.shape == Shape::Wedge && size == 3;
+    if ((!isHex && !isWedge) || (!this->isLayer_.empty() && !this->isLayer_[cell]))
+    {
+      return -1;
+    }
+    const Index* ids = this->mesh_.cell(cell);
+    for (int f = 0; f < shape.numberOfFaces; ++f)
+    {
+      const FaceShape& face = shape.faces[f];
+      const auto isOne = [&](int corner)
+      { return std::find(nodes, nodes + size, ids[shape.cornerNode[corner]]) != nodes + size; };
+      if (face.size == size && std::all_of(face.corner, face.corner + face.size, isOne))
+      {
+        return f;
+      }
+    }
+    return -1;
+  }
+
+  /// `side`: one that sideOf() tells.
+  LayerFront front(Index cell, int side) const
+  {
+    const CellShape& shape = *cellShape(this->mesh_, cell);
+    const FaceShape& face = shape.faces[side];
+    const Index* ids = this->mesh_.cell(cell);
+    LayerFront front = { cell, face.size, {}, {} };
+    for (int k = 0; k < face.size; ++k)
+    {
+      front.nodes[k] = ids[shape.cornerNode[face.corner[k]]];
+      front.opposite[k] = ids[shape.cornerNode[cornerAbove(shape, face, face.corner[k])]];
+    }
+    return front;
+  }
+
+  /// The cell beyond the opposite face, or -1 at the boundary.
+  Index beyond(const LayerFront& front) const
+  {
+    const Index first = front.opposite[0];
+    for (const Index* cell = this->around_.begin(first); cell != this->around_.end(first); ++cell)
+    {
+      const bool hasAll = std::all_of(front.opposite, front.opposite + front.size,
+        [&](Index node)
+        { return std::binary_search(this->around_.begin(node), this->around_.end(node), *cell); });
+      if (*cell != front.cell && hasAll)
+      {
+        return *cell;
+      }
+    }
+    return -1;
+  }
+
+  bool isOuter(Index node) const { return this->isOuter_[node] != 0; }
+
+private:
+  const Mesh& mesh_;
+  Adjacency around_;
+  const std::vector<std::uint8_t>& isLayer_;
+  std::vector<std::uint8_t> isOuter_; ///< #nodes
+};
+
 std::vector<Index> onAll(std::vector<Index> nodes, const Communicator& processes)
 {
   processes.spread(nodes);

@@ -245,14 +245,18 @@ Dimension dimensionOf(const BoundaryModel& model, const Choice& choice)
   return Measurement(model, choice).take();
 }
 
-DimensionMotion movedToDimension(const BoundaryModel& model, const Choice& choice, double wanted,
-  DimensionSide side, double fraction)
+Points movedToDimension(const BoundaryModel& model, const Choice& choice, double wanted,
+  DimensionSide side, double fraction, double* present)
 {
   const Points from = model.points()(choice.moving, allColumns);
   const Measured measured = Measurement(model, choice).take();
+  if (present)
+  {
+    *present = measured.value;
+  }
   if (wanted == 0)
   {
-    return { measured, from };
+    return from;
   }
   if (measured.kind == Kind::Angle && wanted >= 180)
   {
@@ -304,6 +308,6 @@ DimensionMotion movedToDimension(const BoundaryModel& model, const Choice& choic
     throw Error("`Dimension` moves two surfaces apart that share nodes: point ids " +
                 listIds(torn) + ". Choose surfaces that do not touch, or whose angle changes.");
   }
-  return { measured, std::move(to) };
+  return to;
 }
 }

@@ -44,17 +44,12 @@ std::vector<Index> movingSurfaces(const BoundaryModel& model, const Choice& choi
 /// nodes.
 Dimension dimensionOf(const BoundaryModel& model, const Choice& choice);
 
-struct DimensionMotion
-{
-  Dimension present;
-  Points to; ///< where what moves goes: #moving x 3
-};
-
-/// Changes the dimension by `fraction` of what it lacks to be `wanted`. A distance changes along
-/// the shortest line between the shapes. A radius and a thickness change away from axis or
-/// center, and an angle about the line in which the planes meet. With 0 wanted all stays. Throws
-/// Error as dimensionOf() does, and for an angle of 180 degrees and more, a radius that is left
-/// with nothing, and nodes that two surfaces would take apart.
-DimensionMotion movedToDimension(const BoundaryModel& model, const Choice& choice, double wanted,
-  DimensionSide side, double fraction);
+/// Returns where what moves goes, #moving x 3. `present`: becomes the value that the dimension has;
+/// null: unwanted. Changes the dimension by `fraction` of what it lacks to be `wanted`. A distance
+/// changes along the shortest line between the shapes. A radius and a thickness change away from
+/// axis or center, and an angle about the line in which the planes meet. With 0 wanted all stays.
+/// Throws Error as dimensionOf() does, and for an angle of 180 degrees and more, a radius that is
+/// left with nothing, and nodes that two surfaces would take apart.
+Points movedToDimension(const BoundaryModel& model, const Choice& choice, double wanted,
+  DimensionSide side, double fraction, double* present);
 }

@@ -212,12 +212,10 @@ Points movingNormals(const BoundaryModel& model, const Choice& choice, const Poi
 }
 
 void moveAlong(Target& target, const BoundaryModel& model, const Choice& choice,
-  const TargetRim& rim, const FitOptions& options, BoundaryMotion& motion,
-  std::vector<Index>& missed)
+  const TargetRim& rim, const Row& along, BoundaryMotion& motion, std::vector<Index>& missed)
 {
-  Points directions =
-    options.direction.normalized().replicate(static_cast<Index>(choice.moving.size()), 1);
-  if (options.direction.isZero(0))
+  Points directions = along.normalized().replicate(static_cast<Index>(choice.moving.size()), 1);
+  if (along.isZero(0))
   {
     directions = nodeNormals(
       model.outwardAreas(model.points()), model.faces, choice.isMovingFace, choice.moving);
@@ -393,8 +391,7 @@ std::string reachFor(
 }
 
 Points fittedTo(Target& target, const BoundaryModel& model, const Choice& all,
-  const std::vector<Index>& sliding, const FitOptions& options, Surroundings& surroundings,
-  Monitor& monitor)
+  const std::vector<Index>& sliding, const Row* along, Surroundings& surroundings, Monitor& monitor)
 {
   const Classification& geometry = model.geometry;
   const ShellLayer& layer = model.mesh.layer;
@@ -403,21 +400,20 @@ Points fittedTo(Target& target, const BoundaryModel& model, const Choice& all,
                         [&](Index node) { return layer.frontOf(node) != node; }),
     choice.moving.end());
   const TargetRim rim(model, choice, sliding, surroundings);
-  const bool isAlong = options.project == FitOptions::Project::Along;
   std::vector<Index> missed;
   BoundaryMotion motion;
-  if (isAlong)
+  if (along)
   {
     motion = allHeld(model);
-    moveAlong(target, model, choice, rim, options, motion, missed);
+    moveAlong(target, model, choice, rim, *along, motion, missed);
   }
   else
   {
     motion = begin(model, choice, vertexPlaces(model, choice, target, rim),
       WithCurves(target, rim, curvesAt(model.points(), geometry, choice)), missed);
   }
-  SurfaceMorphOptions how;
-  how.unattached = UnattachedMotion::Stay;
+  SurfaceMorphOptions following;
+  following.unattached = UnattachedMotion::Stay;
   ProgressRange onCurves(monitor, 0.55, 0.75), onSurfaces(monitor, 0.75, 1);
   const auto add = [&missed](const ProjectionReport& report)
   {
@@ -426,16 +422,16 @@ Points fittedTo(Target& target, const BoundaryModel& model, const Choice& all,
       missed.insert(missed.end(), some->begin(), some->end());
     }
   };
-  morphCurves(geometry, how.unattached, motion, onCurves);
+  morphCurves(geometry, following.unattached, motion, onCurves);
   await(choice, geometry, 1, BoundaryMotion::OnCurve, motion);
   const WithCurves place(target, rim, curvesAt(motion.moved(), geometry, choice));
-  if (!isAlong)
+  if (!along)
   {
     add(projectCurves(geometry, place, motion, monitor));
   }
-  morphSurfaces(model.faces, geometry, how, motion, onSurfaces);
+  morphSurfaces(model.faces, geometry, following, motion, onSurfaces);
   await(choice, geometry, 2, BoundaryMotion::OnSurface, motion);
-  if (!isAlong)
+  if (!along)
   {
     const Points moved = motion.moved();
     target.assign(geometry, moved);
@@ -443,21 +439,21 @@ Points fittedTo(Target& target, const BoundaryModel& model, const Choice& all,
     add(projectSurfaces(model.faces, geometry, place, motion, monitor));
   }
   std::sort(missed.begin(), missed.end());
-  const std::string along = isAlong ? " along the direction" : "";
-  const std::string needed = isAlong ? "" : reachFor(target, model, missed);
+  const std::string how = along ? " along the direction" : "";
+  const std::string needed = along ? "" : reachFor(target, model, missed);
   if (missed.size() == choice.moving.size())
   {
     throw Error("No node that moves reaches the target: it has no place within "
                 "`TargetReach`" +
-                along + " whose normal is within `TargetAngle`. Align the target" +
+                how + " whose normal is within `TargetAngle`. Align the target" +
                 (needed.empty() ? "." : ", or" + needed));
   }
   if (!missed.empty())
   {
-    monitor.warn(
-      "Nodes do not reach the target, since it has no place within `TargetReach`" + along +
-      " whose normal is within `TargetAngle`, or faces would fold there: point ids " +
-      listIds(missed) + " of the input." + (needed.empty() ? "" : " To let them," + needed));
+    monitor.warn("Nodes do not reach the target, since it has no place within `TargetReach`" + how +
+                 " whose normal is within `TargetAngle`, or faces would fold there: point ids " +
+                 listIds(missed) + " of the input." +
+                 (needed.empty() ? "" : " To let them," + needed));
   }
   for (const auto& [front, back] : imagesAmong(layer, all.moving))
   {

@@ -75,29 +75,17 @@ private:
   std::map<Index, Node> nodes_;
 };
 
-struct FitOptions
-{
-  enum class Project
-  {
-    Closest,
-    Along
-  };
-  Project project = Project::Closest;
-  /// of Along; zero: each node's normal
-  Eigen::RowVector3d direction = Eigen::RowVector3d::Zero();
-};
-
-/// Returns the positions of choice.moving on the target, #moving x 3. Closest: vertices go to
-/// vertices of the target, then curves to its feature edges, then surfaces follow and go to the
+/// Returns the positions of choice.moving on the target, #moving x 3. Without `along` vertices go
+/// to vertices of the target, then curves to its feature edges, then surfaces follow and go to the
 /// target, as projectCurves() and projectSurfaces() move them. What has no such place within reach
 /// goes to the nearest place of the target. So does a vertex if another one is nearer to its place,
-/// and a curve if another one is less than half as far from the edge. Along: each node goes to the
-/// nearest place of the target along the direction; what has none follows the others, but for
-/// vertices, which stay. Nodes on surfaces that slide, by their numbers in `sliding`, go to places
-/// that are on both. Of a layer the front goes there, and its images along with it. The target is
-/// oriented by the nodes that move. A warning names nodes that do not reach the target. Throws
-/// Error where none does.
+/// and a curve if another one is less than half as far from the edge. Else each node goes to the
+/// nearest place of the target along this direction, or its normal if that is zero; what has none
+/// follows the others, but for vertices, which stay. Nodes on surfaces that slide, by their numbers
+/// in `sliding`, go to places that are on both. Of a layer the front goes there, and its images
+/// along with it. The target is oriented by the nodes that move. A warning names nodes that do not
+/// reach the target. Throws Error where none does.
 Points fittedTo(Target& target, const BoundaryModel& model, const Choice& choice,
-  const std::vector<Index>& sliding, const FitOptions& options, Surroundings& surroundings,
+  const std::vector<Index>& sliding, const Eigen::RowVector3d* along, Surroundings& surroundings,
   Monitor& monitor);
 }

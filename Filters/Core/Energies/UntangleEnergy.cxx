@@ -44,7 +44,7 @@ struct BatchValue
     {
       SimdMatrix normal;
       SimdDouble4 gap;
-      missing(x, part->corner, load(tetrahedra.volumes[t].inverse), tetrahedra.margin, normal, gap);
+      missing(x, part->corner, load(tetrahedra.inverse[t].data()), tetrahedra.margin, normal, gap);
       square += gap * gap;
     }
     for (int lane = 0; lane < SimdWidth; ++lane)
@@ -67,7 +67,7 @@ struct BatchGradient
     {
       SimdMatrix normal;
       SimdDouble4 gap;
-      const SimdDouble4 inverse = load(tetrahedra.volumes[t].inverse);
+      const SimdDouble4 inverse = load(tetrahedra.inverse[t].data());
       missing(x, part->corner, inverse, tetrahedra.margin, normal, gap);
       if (!any(gap > 0.))
       {
@@ -105,15 +105,14 @@ Tetrahedra tetrahedraOf(const CellBatches& batches, const TargetMatrices& target
       {
         if (targets.includes(cell, t) && batches.moves(batch, lane, parts.tets[t].corner))
         {
-          result.volumes.resize(
-            std::max(result.volumes.size(), static_cast<std::size_t>(first + t + 1)));
-          result.volumes[first + t].inverse[lane] =
-            1 / targets.edges(cell, parts.tets[t]).determinant();
+          result.inverse.resize(
+            std::max(result.inverse.size(), static_cast<std::size_t>(first + t + 1)));
+          result.inverse[first + t][lane] = 1 / targets.edges(cell, parts.tets[t]).determinant();
           ++result.count;
         }
       }
     }
-    result.first.push_back(static_cast<Index>(result.volumes.size()));
+    result.first.push_back(static_cast<Index>(result.inverse.size()));
   }
   return result;
 }

@@ -5,6 +5,7 @@
 #include "Energies/TargetMatrices.h"
 #include "Optimization/Objective.h"
 
+#include <array>
 #include <vector>
 
 namespace morph
@@ -28,17 +29,12 @@ public:
   Value value(const Points& points, Monitor& monitor) const override;
   void gradient(const Points& points, Points& result, Monitor& monitor) const override;
 
-  /// One tetrahedron in each cell of a batch: 1 / determinant of its target, with its sign; 0 if
-  /// left out.
-  struct Volumes
-  {
-    double inverse[SimdWidth];
-  };
   /// The tetrahedra of all batches, in order.
   struct Tetrahedra
   {
     std::vector<Index> first{ 0 }; ///< #batches + 1
-    std::vector<Volumes> volumes;
+    /// Of one in each cell of a batch: 1 / determinant of its target, with its sign; 0 if left out.
+    std::vector<std::array<double, SimdWidth>> inverse;
     double margin;
     Index count = 0; ///< those that are not left out, of all processes
   };

@@ -59,8 +59,6 @@ public:
   const std::vector<int>& columns() const { return this->columns_; }
   /// One per column, sum 1.
   const std::vector<double>& weights() const { return this->weights_; }
-  /// Returns the Newton steps of the last compute().
-  int iterations() const { return this->iterations_; }
 
 private:
   void gather(Index node);
@@ -79,7 +77,6 @@ private:
   std::vector<int> columns_;
   std::vector<double> weights_;
   std::vector<std::array<double, 3>> offsets_;
-  int iterations_ = 0;
   SparseRow met_; ///< the node's own column and those gathered
 };
 
@@ -168,11 +165,10 @@ void NodeWeights::takeTangents(Index node)
 bool NodeWeights::logBarrier()
 {
   this->weights_.resize(this->columns_.size());
-  const LogBarrierWeights::Result result =
-    this->solver_.compute(reinterpret_cast<const double(*)[3]>(this->offsets_.data()),
-      static_cast<int>(this->columns_.size()), this->weights_.data());
-  this->iterations_ += result.iterations;
-  return result.place != LogBarrierWeights::Place::Outside;
+  const auto* offsets = reinterpret_cast<const double(*)[3]>(this->offsets_.data());
+  return this->solver_
+           .compute(offsets, static_cast<int>(this->columns_.size()), this->weights_.data())
+           .place != LogBarrierWeights::Place::Outside;
 }
 
 /// Minimizes |w - 1 / k|^2 with sum w_j = 1 and sum w_j d_j = 0: w_j = (1 - (d_j - m) . C^-1 m) /
@@ -257,7 +253,6 @@ NodeWeights::Kind NodeWeights::compute(Index node, bool relax)
     std::sort(this->columns_.begin(), this->columns_.end());
     this->takeOffsets(node);
   };
-  this->iterations_ = 0;
   oneRing();
   if (this->logBarrier())
   {
@@ -281,16 +276,10 @@ NodeWeights::Kind NodeWeights::compute(Index node, bool relax)
   return this->stiffness(node) ? Kind::Stiffness : Kind::None;
 }
 
-/// How a node got its weights.
-struct Found
-{
-  NodeWeights::Kind kind;
-  int steps; ///< of Newton's method
-};
-
 /// Returns I - W_I and -W_B, whose rows sum to zero. `found`: becomes one a row.
 SplitMatrix weightRows(const Mesh& mesh, const std::vector<Index>& rows,
-  const std::vector<Index>& prescribed, bool relax, std::vector<Found>& found, Monitor& monitor)
+  const std::vector<Index>& prescribed, bool relax, std::vector<NodeWeights::Kind>& found,
+  Monitor& monitor)
 {
   const Adjacency around = nodeToCells(mesh, monitor);
   const WeightColumns columns(mesh.numberOfNodes(), rows, prescribed);
@@ -303,7 +292,7 @@ SplitMatrix weightRows(const Mesh& mesh, const std::vector<Index>& rows,
     return [&, weights = NodeWeights(mesh, around, columns)](Index i, SparseRow& row) mutable
     {
       const NodeWeights::Kind kind = weights.compute(rows[i], relax);
-      found[i] = { kind, weights.iterations() };
+      found[i] = kind;
       row.add(static_cast<int>(i), 1);
       for (std::size_t k = 0; kind != NodeWeights::Kind::None && k < weights.columns().size(); ++k)
       {
@@ -323,33 +312,24 @@ void LogBarrierWarp::doPrepare(const Mesh& rest, Monitor& monitor)
   requirePrescribedBodies(parts, partition, processes);
   const std::vector<Index> columns = this->setRows(rest, partition.free, parts);
   const bool relax = this->outsideHull_ == OutsideHull::Relax;
-  std::vector<Found> found;
+  std::vector<NodeWeights::Kind> found;
   SplitMatrix matrix = weightRows(rest, this->rows(), columns, relax, found, monitor);
   monitor.check();
   monitor.progress(0.5);
   std::vector<Index> emptyHere, outsideHere;
-  Index steps = 0;
-  this->mostWeightIterations_ = 0;
   for (std::size_t i = 0; i < found.size(); ++i)
   {
-    steps += found[i].steps;
-    this->mostWeightIterations_ = std::max(this->mostWeightIterations_, found[i].steps);
-    if (found[i].kind != NodeWeights::Kind::OneRing)
+    if (found[i] != NodeWeights::Kind::OneRing)
     {
       outsideHere.push_back(this->rows()[i]);
     }
-    if (found[i].kind == NodeWeights::Kind::None)
+    if (found[i] == NodeWeights::Kind::None)
     {
       emptyHere.push_back(this->rows()[i]);
     }
   }
-  this->meanWeightIterations_ =
-    static_cast<double>(steps) / static_cast<double>(std::max<std::size_t>(1, found.size()));
   const auto count = [&](NodeWeights::Kind kind)
-  {
-    return processes.sum(Index(std::count_if(
-      found.begin(), found.end(), [kind](const Found& one) { return one.kind == kind; })));
-  };
+  { return processes.sum(Index(std::count(found.begin(), found.end(), kind))); };
   const std::vector<Index> empty = processes.gatherNodes(emptyHere),
                            outside = processes.gatherNodes(outsideHere);
   if (!empty.empty() && relax)

@@ -46,10 +46,6 @@ public:
   /// The second ring of a node's neighbors is a fall-back.
   int layers() const override { return 2; }
 
-  /// Newton steps for the weights: the mean and the maximum over the nodes.
-  double meanWeightIterations() const { return this->meanWeightIterations_; }
-  int mostWeightIterations() const { return this->mostWeightIterations_; }
-
 protected:
   /// Reports count OutsideHullNodes, and the TwoRingNodes, AffineNodes and StiffnessNodes among
   /// them.
@@ -61,7 +57,5 @@ protected:
 
 private:
   OutsideHull outsideHull_ = OutsideHull::Error;
-  double meanWeightIterations_ = 0;
-  int mostWeightIterations_ = 0;
 };
 }

@@ -51,18 +51,4 @@ std::vector<Index> SubMesh::numbersOf(const std::vector<Index>& ids) const
     });
   return result;
 }
-
-std::vector<Index> SubMesh::cellNumbersOf(const std::vector<Index>& ids) const
-{
-  std::vector<Index> numbers;
-  for (const Index id : ids)
-  {
-    const auto found = std::lower_bound(this->cells.begin(), this->cells.end(), id);
-    if (found != this->cells.end() && *found == id)
-    {
-      numbers.push_back(found - this->cells.begin());
-    }
-  }
-  return numbers;
-}
 }

@@ -21,9 +21,6 @@ struct SubMesh
 
   /// Returns the numbers here of nodes of the whole mesh, -1 for those outside. `ids`: ascending.
   std::vector<Index> numbersOf(const std::vector<Index>& ids) const;
-  /// Returns the numbers here of cells of the whole mesh; those outside are left out. `ids`:
-  /// ascending.
-  std::vector<Index> cellNumbersOf(const std::vector<Index>& ids) const;
   /// Returns the part's own of `values`, one a cell of the whole mesh.
   template <typename Value>
   std::vector<Value> take(const std::vector<Value>& values) const

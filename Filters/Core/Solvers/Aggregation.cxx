@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 namespace morph
 {
@@ -18,8 +19,16 @@ double distance2(const Points& points, Index i, Index j)
   const double d[3] = { a[0] - b[0], a[1] - b[1], a[2] - b[2] };
   return d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
 }
-}
 
+/// How near the column of an entry is to its row; Far for the diagonal.
+enum class Nearness : std::uint8_t
+{
+  Far,
+  OneSided, ///< near as seen from the row, not from the column
+  Mutual
+};
+
+/// Of each entry of A.
 std::vector<Nearness> nearNeighbors(
   const CsrRows<float>& A, const Points& coordinates, Monitor& monitor)
 {
@@ -52,11 +61,19 @@ std::vector<Nearness> nearNeighbors(
   return near;
 }
 
-Aggregates aggregate(
-  const CsrRows<float>& A, const Points& coordinates, const std::vector<Nearness>& near)
+/// The aggregate of each row.
+struct Aggregates
 {
-  Aggregates result;
-  std::vector<int>& group = result.of;
+  std::vector<int>& of; ///< #rows
+  int count = 0;
+  int ofMutual = 0; ///< so many, the first ones, started from mutual neighbors
+};
+
+Aggregates aggregate(const CsrRows<float>& A, const Points& coordinates,
+  const std::vector<Nearness>& near, std::vector<int>& of)
+{
+  Aggregates result = { of };
+  std::vector<int>& group = of;
   int& groups = result.count;
   const int n = static_cast<int>(A.rows);
   constexpr int None = -1;
@@ -157,6 +174,18 @@ CsrMatrixOf<float> smoothedProlongation(const CsrRows<float>& A, const std::vect
     [&] {
       return makeRow;
     }).inside);
+}
+}
+
+CsrMatrixOf<float> prolongation(const CsrRows<float>& A, const Points& coordinates,
+  std::vector<int>& aggregateOf, Monitor& monitor)
+{
+  constexpr double MostShare = 0.8;
+  const std::vector<Nearness> near = nearNeighbors(A, coordinates, monitor);
+  const Aggregates aggregates = aggregate(A, coordinates, near, aggregateOf);
+  return aggregates.count > MostShare * static_cast<double>(A.rows)
+           ? CsrMatrixOf<float>()
+           : smoothedProlongation(A, near, aggregates, monitor);
 }
 
 CsrMatrix tripleProduct(const CsrMatrixOf<float>& R, const CsrMatrix& A,

@@ -38,16 +38,16 @@ Eigen::MatrixXd inverseOf(const Eigen::MatrixXd& A, Multigrid::Symmetry symmetry
 }
 
 /// The mean places of the rows of each aggregate.
-Points centersOf(const Points& places, const Aggregates& aggregates)
+Points centersOf(const Points& places, const std::vector<int>& aggregateOf, Index aggregates)
 {
-  Points centers = Points::Zero(aggregates.count, 3);
-  std::vector<int> members(aggregates.count, 0);
+  Points centers = Points::Zero(aggregates, 3);
+  std::vector<int> members(aggregates, 0);
   for (Index i = 0; i < places.rows(); ++i)
   {
-    centers.row(aggregates.of[i]) += places.row(i);
-    ++members[aggregates.of[i]];
+    centers.row(aggregateOf[i]) += places.row(i);
+    ++members[aggregateOf[i]];
   }
-  for (int g = 0; g < aggregates.count; ++g)
+  for (Index g = 0; g < aggregates; ++g)
   {
     centers.row(g) /= members[g];
   }
@@ -118,16 +118,13 @@ void Multigrid::prepare(
     monitor.check();
     Level& level = this->levels_.back();
     const CsrRows<float> A = this->matrix(this->levels_.size() - 1);
-    std::vector<Nearness> near = nearNeighbors(A, places, monitor);
-    const Aggregates aggregates = aggregate(A, places, near);
-    if (aggregates.count > 0.8 * static_cast<double>(level.rows))
+    std::vector<int> aggregateOf;
+    level.P = prolongation(A, places, aggregateOf, monitor);
+    if (level.P.cols() == 0)
     {
       break; // nothing left to group: this level only has the smoother
     }
-    progress(0.3);
-    level.P = smoothedProlongation(A, near, aggregates, monitor);
     level.R = level.P.transpose();
-    near = {};
     progress(0.4);
 
     CsrMatrix coarse = this->numberOfLevels() == 1
@@ -142,7 +139,7 @@ void Multigrid::prepare(
     }
     this->levels_.back().A.swap(single);
     exact.swap(coarse);
-    places = centersOf(places, aggregates);
+    places = centersOf(places, aggregateOf, level.P.cols());
   }
 
   Level& last = this->levels_.back();
@@ -171,18 +168,20 @@ void Multigrid::prepareTransposed(const Multigrid& other, const CsrMatrix& matri
   this->coarsestInverse_ = other.coarsestInverse_.transpose();
 }
 
-Multigrid::Workspace::Workspace(const Multigrid& multigrid)
+Multigrid::Workspace Multigrid::workspace() const
 {
-  for (const Multigrid::Level& level : multigrid.levels_)
+  Workspace vectors;
+  for (const Level& level : this->levels_)
   {
-    Level& own = this->levels_.emplace_back();
+    Vectors& own = vectors.emplace_back();
     own.work.resize(level.rows);
-    if (this->levels_.size() > 1) // the caller has the finest level's
+    if (vectors.size() > 1) // the caller has the finest level's
     {
       own.rhs.resize(level.rows);
       own.x.resize(level.rows);
     }
   }
+  return vectors;
 }
 
 void Multigrid::apply(const Row* rhs, Row* x, Workspace& workspace, Monitor& monitor) const
@@ -198,7 +197,7 @@ void Multigrid::cycle(
 {
   const Level& level = this->levels_[k];
   const CsrRows<float> A = this->matrix(k);
-  Row* work = workspace.levels_[k].work.data();
+  Row* work = workspace[k].work.data();
   if (k + 1 == this->levels_.size())
   {
     if (this->coarsestInverse_.size() > 0)
@@ -214,7 +213,7 @@ void Multigrid::cycle(
     return;
   }
 
-  Workspace::Level& below = workspace.levels_[k + 1];
+  Vectors& below = workspace[k + 1];
   level.smoother.sweep(A, rhs, work, monitor);
   Row* residual = x;
   level.smoother.residual(A, work, residual, monitor);

@@ -36,7 +36,7 @@ public:
   };
 
   /// Makes the levels. `matrix` must outlive this object and stay in place. Aggregates consist of
-  /// near nodes, see nearNeighbors(); `coordinates`: #rows x 3. Throws Error of kind Singular where
+  /// near nodes, see prolongation(); `coordinates`: #rows x 3. Throws Error of kind Singular where
   /// a diagonal entry is about 1e38 times smaller than the largest one. A matrix of no rows has no
   /// level, and apply() does nothing.
   void prepare(
@@ -44,20 +44,13 @@ public:
   /// Makes the transpose of `other`. `matrix`: the transpose of its matrix, as above.
   void prepareTransposed(const Multigrid& other, const CsrMatrix& matrix);
 
-  /// The vectors of all levels, one set per concurrent solve.
-  class Workspace
+  struct Vectors
   {
-  public:
-    explicit Workspace(const Multigrid& multigrid);
-
-  private:
-    friend class Multigrid;
-    struct Level
-    {
-      FloatMultiVector rhs, work, x; ///< of the finest level, `work` alone
-    };
-    std::vector<Level> levels_;
+    FloatMultiVector rhs, work, x; ///< of the finest level, `work` alone
   };
+  using Workspace = std::vector<Vectors>; ///< of all levels
+  /// Returns one for a solve; several may run at once, each with its own.
+  Workspace workspace() const;
 
   /// The matrix in its cycles is in units of this, a power of two. The largest entry has then the
   /// size 2^LargestExponent, which gives entries of very different rows room in single precision.

@@ -53,7 +53,7 @@ protected:
       , residual32(rows)
       , step(rows)
       , direction(rows)
-      , multigrid(multigrid)
+      , multigrid(multigrid.workspace())
     {
     }
 

@@ -2,14 +2,15 @@
 #pragma once
 
 #include "Boundary/Classification.h"
-#include "Energies/MeshEnergy.h"
 #include "Energies/TargetMatrices.h"
 #include "LinearMethods/FemWarp.h"
 #include "Mesh/OwnCells.h"
 #include "Morpher/Morpher.h"
-#include "Untangling/MeshImprovement.h"
-#include "Untangling/WarpPreconditioner.h"
+#include "Optimization/NodePreconditioner.h"
+#include "Quality/MovableQuality.h"
+#include "Untangling/Untangling.h"
 
+#include <functional>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -45,16 +46,19 @@ namespace morph
 class InversionFree : public Morpher
 {
 public:
+  /// For setSteps().
+  static constexpr int NoSteps = 0, QuickSteps = 14, DefaultSteps = 40, ThoroughSteps = 200;
+
   /// Sets the tolerance of FEMWARP. Range (0, 1), default 1e-10.
   void setTolerance(double tolerance) { this->femWarp_.setTolerance(tolerance); }
   double tolerance() const { return this->femWarp_.tolerance(); }
-  /// Sets how many steps may raise the minimum scaled Jacobian, 0 or more: see RaisingSteps.
+  /// Sets how many steps may raise the minimum scaled Jacobian, see raiseQuality(): 0
+  /// or more, default DefaultSteps.
   void setSteps(int steps) { this->steps_ = steps; }
   int steps() const { return this->steps_; }
   /// Sets whether the minimum of a mesh that needs no untangling rises, too. Default on. Off for
   /// pieces of polyhedra, as their minimum may rise while that of the polyhedra falls.
   void setRaisesValid(bool on) { this->raisesValid_ = on; }
-  bool raisesValid() const { return this->raisesValid_; }
 
   /// Sets whether repair() moves only nodes near inverted cells, or none where these cannot be
   /// untangled so. prepare() then takes passes over the cells alone, and evaluate() throws Error.
@@ -87,17 +91,39 @@ private:
   /// Returns the target for which to untangle it.
   TargetConstruction findStart(const Points& boundary, const MovableQuality& quality,
     Points& points, EvaluateReport& report, Monitor& monitor) const;
-  /// Of coordinates times scale_.
-  MeshImprovement improvement(const std::vector<Index>& hopeless) const;
-  /// MeshImprovement::run(), again with the tangent planes of its result while a curved shell has
-  /// inverted cells.
-  MeshImprovement::Outcome run(const MeshImprovement& improvement, const Points& guide,
+  /// Below, coordinates are those times scale_. `hopeless`: cells, ascending, that the boundary
+  /// inverts (boundaryDeterminedInversions()): the others are improved without them.
+  MovableQuality quality(const std::vector<Index>& hopeless) const;
+  /// Returns the minimum scaled Jacobian beyond which raising it is of no use, as the boundary
+  /// holds that of the whole mesh there; infinite where it does not.
+  double goal(const MovableQuality& quality, const Points& points) const;
+  /// Untangles from `start`, whose inverted cells are `inverted`. At a folded face of the boundary
+  /// (see foldedFaces()) either its cell or the neighbors are inverted. The mesh is then first
+  /// untangled without the tetrahedra on folded faces, and next without those that stay inverted at
+  /// two or more fixed nodes; from there with all, near the inverted ones. Keeps what is better.
+  /// Returns the cells on folds.
+  std::vector<Index> untangle(const Aim& aim, const std::vector<Index>& inverted,
+    const Points& start, const std::function<bool(const Points& trial)>& keepBetter,
+    MinimizerEffort& effort, Monitor& monitor) const;
+  struct Outcome;
+  /// Improves `points`, #nodes x 3. The result has no more inverted cells or, with as many, no
+  /// lower minimum. `guide`: #nodes x 3, gives the targets' edge lengths. `target`: with which it
+  /// is untangled; where that fails and the undeformed mesh is tangled, IdealSkew is next.
+  /// `isRepair`: raises the minimum within ten rings of cells that were inverted alone.
+  Outcome improve(const std::vector<Index>& hopeless, const Points& guide,
     TargetConstruction target, bool isRepair, Points& points, Monitor& monitor) const;
+  /// Improves, again with the tangent planes of the result while a curved shell has inverted cells.
+  Outcome improveInTurns(const std::vector<Index>& hopeless, const Points& guide,
+    TargetConstruction target, bool isRepair, Points& points, Monitor& monitor) const;
+  /// Warns of what stays inverted, and returns the counts. `determined`: cells that the boundary
+  /// itself inverts, ascending. Ids are those of the whole mesh.
+  static EvaluateReport report(
+    const Outcome& outcome, const std::vector<Index>& determined, Monitor& monitor);
   /// Returns the method's mesh in coordinates times scale_.
   Points moved(
     const Morpher& method, const Points& boundary, EvaluateReport& report, Monitor& monitor) const;
 
-  int steps_ = RaisingSteps::Default;
+  int steps_ = DefaultSteps;
   bool nearOnly_ = false;
   bool raisesValid_ = true;
 
@@ -110,7 +136,8 @@ private:
   double minimumAtRest_ = 0; ///< of the scaled Jacobian
   FemWarp femWarp_;
   bool hasFemWarp_ = false; ///< a tangled mesh may leave a node without a cell that has volume
-  std::unique_ptr<WarpPreconditioner> preconditioner_; ///< null: not of the energy's rows
+  /// for Newton's linear systems of the whole mesh; null: FEMWARP's are not of the energy's rows
+  std::unique_ptr<NodePreconditioner> preconditioner_;
   std::unique_ptr<Morpher> simplexLinear_; ///< null: a flat boundary has no tessellation
 };
 }

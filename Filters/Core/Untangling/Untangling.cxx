@@ -103,23 +103,27 @@ TargetMatrices includedTargets(const Mesh& mesh, const std::vector<std::int8_t>&
 
 TargetMatrices Untangling::targets(const Aim& aim, Monitor& monitor) const
 {
-  return includedTargets(this->mesh_, this->orientation_, aim, monitor, this->communicator_);
+  return includedTargets(
+    this->own_.mesh(), this->own_.orientation(), aim, monitor, this->own_.communicator());
 }
 
 bool Untangling::run(std::vector<Index> seeds, const Aim& aim, bool nearOnly, Points& points,
   MinimizerEffort& effort, Monitor& monitor) const
 {
-  const Adjacency around = nodeToCells(this->mesh_);
+  const Mesh& mesh = this->own_.mesh();
+  const Communicator& communicator = this->own_.communicator();
+  const std::vector<Index>& free = this->own_.partition().free;
+  const Adjacency around = nodeToCells(mesh);
   const auto count = [&](const std::vector<Index>& ids)
-  { return this->communicator_.sum(static_cast<double>(ids.size())); };
+  { return communicator.sum(static_cast<double>(ids.size())); };
   Points trial = points;
   double before = -1;
   for (int rings = FirstRings;; rings *= Widening)
   {
-    KRing ring = kRingOfCells(this->mesh_, around, this->free_, seeds, rings, this->communicator_);
+    KRing ring = kRingOfCells(mesh, around, free, seeds, rings, communicator);
     const double nodes = count(ring.nodes);
     // A part that has stopped to grow is a body of its own.
-    const bool isWhole = 2 * nodes > count(this->free_) || nodes == before;
+    const bool isWhole = 2 * nodes > count(free) || nodes == before;
     before = nodes;
     if (isWhole && nearOnly && rings > FirstRings)
     {
@@ -127,25 +131,25 @@ bool Untangling::run(std::vector<Index> seeds, const Aim& aim, bool nearOnly, Po
     }
     if (isWhole)
     {
-      ring.nodes = this->free_;
+      ring.nodes = free;
       ring.cells.clear();
-      for (Index c = 0; c < this->mesh_.numberOfCells(); ++c)
+      for (Index c = 0; c < mesh.numberOfCells(); ++c)
       {
-        if (hasCorners(this->mesh_, c))
+        if (hasCorners(mesh, c))
         {
           ring.cells.push_back(c);
         }
       }
     }
-    const SubMesh part(this->mesh_, ring.cells);
-    const std::unique_ptr<Communicator> processes = this->communicator_.part(part.nodes);
+    const SubMesh part(mesh, ring.cells);
+    const std::unique_ptr<Communicator> processes = communicator.part(part.nodes);
     const Points guide = aim.guide(part.nodes, allColumns);
-    const TargetMatrices targets = includedTargets(part.mesh, part.take(this->orientation_),
+    const TargetMatrices targets = includedTargets(part.mesh, part.take(this->own_.orientation()),
       { guide, aim.target, part.take(aim.included) }, monitor, *processes);
     MeshEnergy energy(part.mesh, part.numbersOf(ring.nodes), *processes);
     energy.setTargets(targets);
     Points local = trial(part.nodes, allColumns);
-    const bool isSame = part.mesh.numberOfNodes() == this->mesh_.numberOfNodes();
+    const bool isSame = part.mesh.numberOfNodes() == mesh.numberOfNodes();
     const bool done = minimizeFoldover(
       energy, isWhole && isSame ? this->preconditioner_ : nullptr, local, effort, monitor);
     const std::vector<Index> left = tangledCells(part.mesh, local, targets);

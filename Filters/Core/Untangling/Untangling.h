@@ -2,6 +2,7 @@
 #pragma once
 
 #include "Energies/TargetMatrices.h"
+#include "Mesh/OwnCells.h"
 #include "Optimization/Minimizers.h"
 #include "Optimization/NodePreconditioner.h"
 
@@ -23,17 +24,11 @@ struct Aim
 class Untangling
 {
 public:
-  /// `mesh`: the reference shapes; `orientation`: #cells, see cellSigns() in Topology.h; `free`:
-  /// ids of the nodes that may move, ascending; `preconditioner`: for Newton's linear systems of
-  /// the whole mesh, by unknownOrdering(); null: none. Holds all by reference.
-  Untangling(const Mesh& mesh, const std::vector<std::int8_t>& orientation,
-    const std::vector<Index>& free, const NodePreconditioner* preconditioner,
-    const Communicator& communicator = Communicator::alone())
-    : mesh_(mesh)
-    , orientation_(orientation)
-    , free_(free)
+  /// `own`: the reference shapes, with edges about 1 long. `preconditioner`: for Newton's linear
+  /// systems of the whole mesh, by unknownOrdering(); null: none. Holds both by reference.
+  Untangling(const OwnCells& own, const NodePreconditioner* preconditioner)
+    : own_(own)
     , preconditioner_(preconditioner)
-    , communicator_(communicator)
   {
   }
 
@@ -50,10 +45,7 @@ public:
     MinimizerEffort& effort, Monitor& monitor) const;
 
 private:
-  const Mesh& mesh_;
-  const std::vector<std::int8_t>& orientation_;
-  const std::vector<Index>& free_;
+  const OwnCells& own_;
   const NodePreconditioner* preconditioner_;
-  const Communicator& communicator_;
 };
 }

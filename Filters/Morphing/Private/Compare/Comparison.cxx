@@ -198,12 +198,15 @@ void WriteSteps(const std::vector<MethodRun>& runs, vtkTable* output)
     boundary(output, "BoundaryInvertedCells");
   Numbers prepare(output, "PrepareSeconds"), evaluate(output, "EvaluateSeconds"),
     memory(output, "PeakMegabytes");
-  std::deque<Numbers> criteria;
+  std::deque<Numbers> criteria; // four columns of each
   const auto any =
     std::find_if(runs.begin(), runs.end(), [](const MethodRun& run) { return !run.Steps.empty(); });
-  for (const auto& [name, value] : any->Steps.front().Criteria)
+  for (const Quality::OfCriterion& criterion : any->Steps.front().Criteria)
   {
-    criteria.emplace_back(output, name.c_str());
+    for (const char* column : { "Limit", "Worst", "WorstCellId", "CellsBeyond" })
+    {
+      criteria.emplace_back(output, (criterion.Label + column).c_str());
+    }
   }
   for (const MethodRun& run : runs)
   {
@@ -223,9 +226,14 @@ void WriteSteps(const std::vector<MethodRun>& runs, vtkTable* output)
       prepare.Add(step.PrepareSeconds);
       evaluate.Add(step.EvaluateSeconds);
       memory.Add(run.PeakMegabytes);
-      for (std::size_t k = 0; k < criteria.size(); ++k)
+      auto column = criteria.begin();
+      for (const Quality::OfCriterion& found : step.Criteria)
       {
-        criteria[k].Add(step.Criteria[k].second);
+        for (const double value : { found.Limit, found.Worst, static_cast<double>(found.WorstCell),
+               static_cast<double>(found.Beyond) })
+        {
+          column++->Add(value);
+        }
       }
     }
   }

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Private/Data/Quality.h"
+
 #include <vtkType.h>
 
 #include <string>
-#include <utility>
 #include <vector>
 
 class vtkTable;
@@ -24,7 +25,7 @@ struct MethodRun
     double Minimum, Mean, Low; ///< scaled Jacobians; Low: the percentile
     vtkIdType Inverted, Degenerate, BoundaryInverted;
     double PrepareSeconds, EvaluateSeconds;
-    std::vector<std::pair<std::string, double>> Criteria; ///< names and values of columns
+    std::vector<Quality::OfCriterion> Criteria;
   };
   std::string Method;
   std::string Stepping;

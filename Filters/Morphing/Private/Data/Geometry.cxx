@@ -14,6 +14,7 @@
 #include <vtkIdTypeArray.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
+#include <vtkPointSet.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkSignedCharArray.h>
@@ -22,6 +23,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <sstream>
 
 namespace morph::filters
 {
@@ -199,6 +201,30 @@ morph::ClassificationOptions coreOptions(const Geometry::Options& options)
 
 namespace Geometry
 {
+std::string Key(vtkPointSet* input, const Options& options)
+{
+  std::ostringstream key;
+  key.precision(17);
+  key << input->GetClassName() << ' ' << options.FeatureAngle << ' ' << options.CornerAngle << ' '
+      << options.FeaturesInside << ' ' << options.UseGeometryArrays << ' '
+      << options.SurfaceIdArray;
+  const auto add = [&key](vtkAbstractArray* array) {
+    key << '\n' << array << ' ' << (array ? array->GetMTime() : 0);
+  };
+  if (!options.SurfaceIdArray.empty())
+  {
+    add(input->GetCellData()->GetAbstractArray(options.SurfaceIdArray.c_str()));
+  }
+  else if (options.UseGeometryArrays)
+  {
+    for (const char* name : { DimensionName, IdName, ParameterName })
+    {
+      add(input->GetPointData()->GetAbstractArray(name));
+    }
+  }
+  return key.str();
+}
+
 morph::Classification Classify(vtkUnstructuredGrid* grid, const morph::Mesh& mesh,
   const morph::BoundaryFaces& faces, const Options& options, morph::Monitor& monitor)
 {

@@ -7,6 +7,7 @@
 #include <vector>
 
 class vtkDataSetAttributes;
+class vtkPointSet;
 class vtkPolyData;
 class vtkUnstructuredGrid;
 
@@ -25,6 +26,16 @@ struct Options
   std::string SurfaceIdArray;       ///< a cell array; empty: none
   bool UseGeometryArrays = true;    ///< the point arrays above, where the grid has them
   std::vector<morph::Index> Sheets; ///< of the last faces, see morph::ClassificationOptions
+
+  /// Takes those that all filters have that classify a boundary.
+  template <typename FilterOptions>
+  void Take(const FilterOptions& from)
+  {
+    this->FeatureAngle = from.FeatureAngle;
+    this->CornerAngle = from.CornerAngle;
+    this->SurfaceIdArray = from.SurfaceIdArray;
+    this->UseGeometryArrays = from.UseGeometryArrays;
+  }
 };
 
 /// Classifies the boundary of `grid`. `mesh`, `faces`: of `grid`. Surface ids come from
@@ -41,6 +52,9 @@ morph::Classification Classify(vtkUnstructuredGrid* grid, const morph::Mesh& mes
 /// the surface.
 morph::Classification Classify(vtkPolyData* surface, const morph::Points& points,
   const morph::BoundaryFaces& faces, const Options& options, morph::Monitor& monitor);
+
+/// The arrays and options that the geometry of an input depends on beside its points and faces.
+std::string Key(vtkPointSet* input, const Options& options);
 
 /// Adds the three arrays above for `nodes` (one tuple each), replacing arrays of these names:
 /// signed char, vtkIdType and double.

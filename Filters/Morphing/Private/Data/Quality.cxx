@@ -2,7 +2,9 @@
 #include "Private/Data/Quality.h"
 
 #include "Mesh/CellShape.h"
+#include "Mesh/SharedCorners.h"
 #include "Private/Data/Arrays.h"
+#include "Private/Data/GridMesh.h"
 #include "Private/Data/WrittenPoints.h"
 #include "Quality/ScaledJacobian.h"
 #include "Support/Error.h"
@@ -24,6 +26,7 @@
 #include <vtkUnstructuredGrid.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
@@ -349,6 +352,32 @@ Measured MeasureAll(const Part& part, bool certified, std::vector<OfCriterion>& 
     Write(result.Certificates, output);
   }
   return result;
+}
+
+std::pair<Measured, morph::Index> MeasureAlone(vtkUnstructuredGrid* grid, bool certified,
+  std::vector<OfCriterion>& criteria, vtkUnstructuredGrid* output, morph::Monitor& monitor)
+{
+  const morph::Mesh mesh = GridMesh::FromGrid(grid, GridMesh::UnknownCells::Keep);
+  const morph::ConnectedComponents bodies = morph::connectedComponents(mesh);
+  const std::vector<std::int8_t> orientation = morph::cellSigns(mesh, bodies);
+
+  // A mesh of unknown volume cells must not be judged by its boundary triangles.
+  std::array<int, 256> dimension;
+  dimension.fill(-1);
+  for (const std::uint8_t type : mesh.types)
+  {
+    if (dimension[type] < 0)
+    {
+      dimension[type] = GridMesh::Dimension(type);
+    }
+  }
+  const int highest = *std::max_element(dimension.begin(), dimension.end());
+  std::vector<std::uint8_t> skip(mesh.types.size());
+  std::transform(mesh.types.begin(), mesh.types.end(), skip.begin(),
+    [&](std::uint8_t type) { return dimension[type] < highest; });
+  const Part part = { mesh, mesh, orientation, skip, highest, morph::Communicator::alone() };
+  return { MeasureAll(part, certified, criteria, grid, output, monitor),
+    morph::mirroredBodies(bodies, orientation) };
 }
 
 void Remove(vtkDataSet* output)

@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 class vtkDataSet;
@@ -110,6 +111,9 @@ struct Measured
 /// with the arrays. Collective.
 Measured MeasureAll(const Part& part, bool certified, std::vector<OfCriterion>& criteria,
   vtkUnstructuredGrid* grid, vtkUnstructuredGrid* output, morph::Monitor& monitor);
+/// MeasureAll() of a mesh that this process has all of, and the number of mirrored bodies.
+std::pair<Measured, morph::Index> MeasureAlone(vtkUnstructuredGrid* grid, bool certified,
+  std::vector<OfCriterion>& criteria, vtkUnstructuredGrid* output, morph::Monitor& monitor);
 
 /// Removes the scaled Jacobian, the certificate and its counts, so that those of an input do not
 /// pass for the output's.

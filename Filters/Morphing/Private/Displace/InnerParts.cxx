@@ -75,7 +75,7 @@ void vtkDisplacementAlgorithm::vtkInternals::FindInner(const Options& options,
   morph::BoundaryMover::Options& mover) const
 {
   mover.inner.keepLayers = options.KeepLayers;
-  mover.inner.layersName = filters::Input::ArrayName(options.LayersArray);
+  mover.inner.layersName = options.LayersArray;
   if (!zones.Any() && mover.inner.keepLayers == 0)
   {
     return;

@@ -22,7 +22,6 @@
 #include <vtkUnstructuredGrid.h>
 
 #include <algorithm>
-#include <sstream>
 #include <utility>
 
 namespace morph::filters
@@ -31,31 +30,6 @@ namespace
 {
 using morph::Error;
 using morph::Index;
-
-/// The arrays and options that the geometry of an input depends on beside its points and faces.
-std::string geometryKey(vtkPointSet* input, const Geometry::Options& options)
-{
-  std::ostringstream key;
-  key.precision(17);
-  key << input->GetClassName() << ' ' << options.FeatureAngle << ' ' << options.CornerAngle << ' '
-      << options.FeaturesInside << ' ' << options.UseGeometryArrays << ' '
-      << options.SurfaceIdArray;
-  const auto add = [&key](vtkAbstractArray* array) {
-    key << '\n' << array << ' ' << (array ? array->GetMTime() : 0);
-  };
-  if (!options.SurfaceIdArray.empty())
-  {
-    add(input->GetCellData()->GetAbstractArray(options.SurfaceIdArray.c_str()));
-  }
-  else if (options.UseGeometryArrays)
-  {
-    for (const char* name : { Geometry::DimensionName, Geometry::IdName, Geometry::ParameterName })
-    {
-      add(input->GetPointData()->GetAbstractArray(name));
-    }
-  }
-  return key.str();
-}
 
 /// An array that vtkExtractMorphBoundary wrote.
 vtkDataArray* requireExtracted(vtkPolyData* surface, const char* name, int components)
@@ -178,7 +152,7 @@ void InputBoundary::FindInnerSurfaces(
 
 void InputBoundary::Update(vtkPointSet* input, const Options& options, morph::Monitor& monitor)
 {
-  const std::string key = geometryKey(input, options);
+  const std::string key = Geometry::Key(input, options);
   if (this->Input == input && this->InputTime == input->GetMTime() && this->GeometryKey == key &&
       this->asked == this->Asked(options.Names))
   {

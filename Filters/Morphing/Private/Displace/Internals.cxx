@@ -266,10 +266,7 @@ void vtkDisplacementAlgorithm::vtkInternals::Classify(
   const Options& options, vtkPointSet* input, morph::Monitor& monitor)
 {
   filters::InputBoundary::Options geometry;
-  geometry.FeatureAngle = options.FeatureAngle;
-  geometry.CornerAngle = options.CornerAngle;
-  geometry.SurfaceIdArray = filters::Input::ArrayName(options.SurfaceIdArray);
-  geometry.UseGeometryArrays = options.UseGeometryArrays;
+  geometry.Take(options);
   for (const auto* names : { &options.Surfaces, &options.FixedSurfaces, &options.SlidingSurfaces,
          &options.FreeSurfaces, &options.ContactSurfaces })
   {
@@ -329,7 +326,7 @@ void vtkDisplacementAlgorithm::vtkInternals::Choose(
   }
   else if (options.Moving == MOVING_ARRAY)
   {
-    by.ArrayName = filters::Input::ArrayName(options.MovingArray);
+    by.ArrayName = options.MovingArray;
   }
   if (this->ChosenVersion != this->Model.inputVersion || !(this->ChosenBy == by))
   {

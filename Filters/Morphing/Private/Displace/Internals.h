@@ -179,7 +179,7 @@ private:
   static morph::LatticeMotion LatticeOf(const Options& options, const morph::Points& from);
   /// The displacements of what moves by DISPLACEMENT_FIELD; NaN for none. With Whole, collective.
   morph::Points ByField(const Options& options, vtkDataObject* field, morph::Monitor& monitor);
-  std::vector<morph::Handle> SelectedHandles(
+  std::vector<morph::Handle> ChosenHandles(
     const Options& options, vtkPointSet* input, vtkSelection* selection);
   void SelectOnRanks(vtkUnstructuredGrid* piece, vtkSelection* selection);
   /// Finds zones and the cells of layers. `grid`: null for a surface. Collective on ranks.

@@ -191,15 +191,9 @@ Points wholeMotion(const BoundaryModel& model, const Choice& choice, const Motio
     case vtkDisplacementAlgorithm::DISPLACEMENT_RADIUS:
       return morph::movedByRadius(model, choice, options.RadiusChange);
     case vtkDisplacementAlgorithm::DISPLACEMENT_DIMENSION:
-    {
-      morph::DimensionMotion motion = morph::movedToDimension(model, choice, options.Dimension,
-        static_cast<morph::DimensionSide>(options.DimensionSide), options.ScaleFactor);
-      if (presentDimension)
-      {
-        *presentDimension = motion.present.value;
-      }
-      return std::move(motion.to);
-    }
+      return morph::movedToDimension(model, choice, options.Dimension,
+        static_cast<morph::DimensionSide>(options.DimensionSide), options.ScaleFactor,
+        presentDimension);
     case vtkDisplacementAlgorithm::DISPLACEMENT_ARRAY:
     case vtkDisplacementAlgorithm::DISPLACEMENT_FIELD:
     case vtkDisplacementAlgorithm::DISPLACEMENT_TARGET:
@@ -292,7 +286,7 @@ Points Targets(const BoundaryModel& model, const Choice& choice, const Options& 
 
 Points OfArray(vtkPointSet* input, const Options& options, const Choice& choice)
 {
-  Points rows = arrayRows(input, Input::ArrayName(options.DisplacementArray), choice.moving);
+  Points rows = arrayRows(input, options.DisplacementArray, choice.moving);
   vtkDataArray* mask = input->GetPointData()->GetArray(DataCheck::MaskName);
   for (Index i = 0; i < rows.rows(); ++i)
   {
@@ -324,7 +318,7 @@ std::vector<Index> TakeMissing(
   const bool byField = options.Displacement == vtkDisplacementAlgorithm::DISPLACEMENT_FIELD;
   const std::string property = byField ? "`Field`" : "`DisplacementArray`";
   const std::string why = byField ? "they are farther than `FieldDistance` from the field, or it"
-                                  : "'" + Input::ArrayName(options.DisplacementArray) + "'";
+                                  : "'" + options.DisplacementArray + "'";
   if (moving.empty())
   {
     throw Error(property + " has no value where the boundary is to move: at all of its nodes " +

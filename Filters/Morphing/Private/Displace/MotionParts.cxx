@@ -37,15 +37,11 @@ morph::Points vtkDisplacementAlgorithm::vtkInternals::Fitted(const Options& opti
   vtkPointSet* input, vtkSelection* selection, vtkPolyData* target,
   const std::vector<morph::Index>& sliding, morph::Monitor& monitor)
 {
-  morph::Target::Options place;
-  place.featureAngle = options.FeatureAngle;
-  place.normalAngle = options.TargetAngle;
-  place.reach = options.TargetReach * this->Model.size;
-  morph::FitOptions how;
+  const morph::Target::Options place = filters::TargetData::OptionsOf(options, this->Model.size);
+  std::optional<Eigen::RowVector3d> along;
   if (options.ProjectAlong != PROJECT_ALONG_CLOSEST_POINT)
   {
-    how.project = morph::FitOptions::Project::Along;
-    how.direction = directionOf(options.ProjectAlong, options.ProjectVector);
+    along = directionOf(options.ProjectAlong, options.ProjectVector);
   }
   if (options.Moving == MOVING_SURFACES && options.Surfaces.empty())
   {
@@ -61,11 +57,11 @@ morph::Points vtkDisplacementAlgorithm::vtkInternals::Fitted(const Options& opti
   {
     monitor.warn(this->Fit.GetWarning());
   }
-  return morph::fittedTo(
-    *this->Fit.Get(), this->Model, this->Choice, sliding, how, this->Mover.surroundings(), monitor);
+  return morph::fittedTo(*this->Fit.Get(), this->Model, this->Choice, sliding,
+    along ? &*along : nullptr, this->Mover.surroundings(), monitor);
 }
 
-std::vector<morph::Handle> vtkDisplacementAlgorithm::vtkInternals::SelectedHandles(
+std::vector<morph::Handle> vtkDisplacementAlgorithm::vtkInternals::ChosenHandles(
   const Options& options, vtkPointSet* input, vtkSelection* selection)
 {
   std::vector<std::uint8_t> isSelected = this->IsSelected;
@@ -96,7 +92,7 @@ morph::Points vtkDisplacementAlgorithm::vtkInternals::ByControlPoints(const Opti
     std::vector<morph::Handle> handles = filters::ControlPoints::Handles(points, this->Handles);
     if (options.SelectedHandles)
     {
-      const std::vector<morph::Handle> more = this->SelectedHandles(options, input, selection);
+      const std::vector<morph::Handle> more = this->ChosenHandles(options, input, selection);
       handles.insert(handles.end(), more.begin(), more.end());
     }
     filters::ControlPoints::Write(handles, this->ControlPoints);
@@ -138,7 +134,7 @@ morph::LatticeMotion vtkDisplacementAlgorithm::vtkInternals::LatticeOf(
 morph::Points vtkDisplacementAlgorithm::vtkInternals::ByField(
   const Options& options, vtkDataObject* field, morph::Monitor& monitor)
 {
-  const std::string array = filters::Input::ArrayName(options.FieldArray);
+  const std::string& array = options.FieldArray;
   const auto origin = std::make_tuple(field, field ? field->GetMTime() : 0, array,
     options.FieldDistance, this->Model.inputVersion, this->ChooseCount);
   if (!this->Whole && field && this->FieldOrigin == origin)

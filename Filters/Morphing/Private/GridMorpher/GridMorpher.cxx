@@ -66,8 +66,8 @@ MotionOptions GridMorpher::OptionsOf(const Method& method) const
   const MorphOptions& from = method.Options;
   MotionOptions options;
   options.method = this->Filter->GetClassName();
-  options.Matching.BoundaryIdArray = Input::ArrayName(from.BoundaryIdArray);
-  options.Matching.displacementArray = Input::ArrayName(from.DisplacementArray);
+  options.Matching.BoundaryIdArray = from.BoundaryIdArray;
+  options.Matching.displacementArray = from.DisplacementArray;
   options.Matching.scaleFactor = from.ScaleFactor;
   options.Matching.matchTolerance = from.MatchTolerance;
   options.Matching.fixUnnamedBoundary = from.FixUnnamedBoundary;

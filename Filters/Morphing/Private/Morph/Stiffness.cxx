@@ -59,7 +59,7 @@ morph::CellStiffness Take(const Options& options, vtkUnstructuredGrid* rest,
   stiffness.exponent = options.StiffnessExponent;
   stiffness.values = factors;
   const vtkIdType cells = rest->GetNumberOfCells(), nodes = rest->GetNumberOfPoints();
-  const std::string name = Input::ArrayName(options.StiffnessArray);
+  const std::string& name = options.StiffnessArray;
   if (cells > 0 && !name.empty()) // a rank without cells has no arrays
   {
     vtkDataArray* array = require(rest->GetCellData(), name, cells, "StiffnessArray");
@@ -73,7 +73,7 @@ morph::CellStiffness Take(const Options& options, vtkUnstructuredGrid* rest,
   {
     return stiffness;
   }
-  const std::string walls = Input::ArrayName(options.WallArray);
+  const std::string& walls = options.WallArray;
   if (walls.empty())
   {
     stiffness.walls = movingNodes(boundary);

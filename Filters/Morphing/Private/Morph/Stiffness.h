@@ -18,7 +18,15 @@ struct Options
   int Stiffness;
   double StiffnessExponent;
   std::string StiffnessArray, WallArray;
+
+  bool AreGiven() const { return this->Stiffness != 0 || !this->StiffnessArray.empty(); }
 };
+/// Those of a filter that has them.
+template <typename FilterOptions>
+Options Of(const FilterOptions& from)
+{
+  return { from.Stiffness, from.StiffnessExponent, from.StiffnessArray, from.WallArray };
+}
 
 /// `factors`: #cells, multiply the stiffness; empty: 1. Of a mesh on several MPI processes `rest`
 /// is a piece, and walls that come from the boundary are global. Throws morph::Error for arrays

@@ -268,10 +268,5 @@ Mesh TakeMesh(vtkDataObject* input, Blocks& blocks, int coincidentPoints, Use us
   rethrow();
   return mesh;
 }
-
-std::string ArrayName(const std::string& name)
-{
-  return name == "None" ? std::string() : name;
-}
 }
 }

@@ -73,8 +73,4 @@ struct Mesh
 /// fail there. `filter`: what the message says needs one rank. `boundary`: the mesh's, or null.
 Mesh TakeMesh(vtkDataObject* input, Blocks& blocks, int coincidentPoints, Use use,
   const char* filter, morph::Monitor& monitor, vtkDataObject* boundary = nullptr);
-
-/// The name of an array as a property holds it. Empty for none, or "None", which ParaView's choice
-/// of an array offers.
-std::string ArrayName(const std::string& name);
 }

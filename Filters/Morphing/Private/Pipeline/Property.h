@@ -29,6 +29,12 @@ void Set(vtkObject* filter, Value& kept, const std::common_type_t<Value>& value)
   }
 }
 
+/// Sets the name of an array: empty for none, or "None", which ParaView's choice of one offers.
+inline void SetArray(vtkObject* filter, std::string& kept, const std::string& name)
+{
+  Set(filter, kept, name == "None" ? std::string() : name);
+}
+
 /// Whether `value` is finite and in [minimum, maximum]. If not, it raises an error of `filter` that
 /// names the property, the value, the range and `current`, the value that stays. VTK's own macros
 /// accept a NaN.

@@ -17,6 +17,13 @@ class vtkPolyData;
 /// Target surfaces as VTK's data.
 namespace morph::filters::TargetData
 {
+/// Those of a filter that has a target. `size`: of its mesh.
+template <typename FilterOptions>
+morph::Target::Options OptionsOf(const FilterOptions& from, double size)
+{
+  return { from.FeatureAngle, from.TargetAngle, from.TargetReach * size, 0 };
+}
+
 /// The polygons and strips of `surface` as a target of `mesh`. `options`: without the rounding,
 /// which is found here. `warning`: becomes what to warn of where the rounding shows, else empty.
 /// `size`: of the mesh. Throws as morph::Target does.

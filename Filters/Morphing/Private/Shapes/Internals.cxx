@@ -66,10 +66,8 @@ std::unique_ptr<morph::LinearMorpher> makeMethod(int method, double tolerance)
 filters::ShapeModes::Options vtkMorphShapes::vtkInternals::Options() const
 {
   filters::ShapeModes::Options options;
-  options.Matching.BoundaryIdArray =
-    filters::Input::ArrayName(this->Filter->Options->BoundaryIdArray);
-  options.Matching.displacementArray =
-    filters::Input::ArrayName(this->Filter->Options->DisplacementArray);
+  options.Matching.BoundaryIdArray = this->Filter->Options->BoundaryIdArray;
+  options.Matching.displacementArray = this->Filter->Options->DisplacementArray;
   options.Matching.matchTolerance = this->Filter->Options->MatchTolerance;
   options.Matching.fixUnnamedBoundary = this->Filter->Options->FixUnnamedBoundary;
   options.CreateMorpher = [filter = this->Filter]
