@@ -6,8 +6,6 @@
 #include "Mesh/NodePartition.h"
 #include "Mesh/PolyhedronPieces.h"
 
-#include <Eigen/SparseCore>
-
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -42,21 +40,16 @@ public:
   std::vector<double> extend(const std::vector<double>& values) const override;
 
 private:
-  using Means = Eigen::SparseMatrix<double, Eigen::RowMajor, int>;
-
-  Piece ownPieces(const PolyhedronPieces& cut, const Points& points);
-  void takeMeans(const PolyhedronPieces& cut, const std::vector<Index>& centers);
-  void numberCenters(const PolyhedronPieces& cut, const std::vector<Index>& centers,
-    const std::vector<std::uint8_t>& isAtGhost, std::vector<std::int64_t>& ids) const;
-  void agreeOnFaces(const std::vector<Index>& rows, const PolyhedronPieces& cut,
-    std::int64_t firstId, std::vector<std::int64_t>& idOfRow) const;
+  Piece ownPieces(const Points& points);
+  std::vector<std::int64_t> idsOfNodes(const std::vector<std::uint8_t>& isAtGhost) const;
+  std::vector<std::int64_t> agreeOnFaces(
+    const std::vector<Index>& centers, std::int64_t firstId) const;
 
   const DistributedMesh* whole_;
+  std::unique_ptr<const PolyhedronPieces> cut_; ///< of all local cells of the whole mesh
   std::unique_ptr<DistributedMesh> pieces_;
-  std::vector<Index> nodeOf_;    ///< #local nodes of the whole mesh
-  std::vector<Index> wholeNode_; ///< of each of this rank's nodes of pieces that is no center
-  std::vector<Index> cellOf_;    ///< of each of this rank's pieces
-  Index faceCenters_ = 0;        ///< this rank's; they are the first rows of means_
-  Means means_;                  ///< #this rank's centers x #local nodes of the whole mesh
+  std::vector<Index> nodeOf_; ///< #local nodes of the whole mesh
+  std::vector<Index> nodes_;  ///< of each of this rank's nodes of pieces that of cut_
+  std::vector<Index> cellOf_; ///< of each of this rank's pieces
 };
 }

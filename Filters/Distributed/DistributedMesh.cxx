@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Distributed/DistributedMesh.h"
 
+#include "Distributed/RankCommunicator.h"
 #include "Mesh/CellShape.h"
 #include "Mesh/FacesOfCells.h"
 #include "Mesh/Polyhedra.h"
-#include "Mesh/ShapeVolumes.h"
-#include "Mesh/SharedCorners.h"
 #include "Support/Error.h"
 #include "Support/Lists.h"
 
@@ -77,18 +76,20 @@ struct DistributedMesh::Builder
     bool operator==(const Node& other) const { return this->id == other.id; }
   };
 
-  DistributedMesh& mesh;
+  const DistributedMesh& from;
+  DistributedMesh& mesh;                            ///< that gets the cells
   std::set<std::pair<Index, int>> sent;             ///< cells, by rank
   std::vector<std::vector<Node>> nodes;             ///< for each rank
   std::vector<std::set<Index>> nodesSent;           ///< by rank
   std::vector<std::vector<std::int64_t>> cells;     ///< for each rank
   std::vector<std::vector<Index>> packed, unpacked; ///< cells of all layers, for each rank
 
-  explicit Builder(DistributedMesh& owner)
-    : mesh(owner)
-    , nodesSent(owner.ranks_->count())
-    , packed(owner.ranks_->count())
-    , unpacked(owner.ranks_->count())
+  Builder(const DistributedMesh& source, DistributedMesh& target)
+    : from(source)
+    , mesh(target)
+    , nodesSent(source.ranks_->count())
+    , packed(source.ranks_->count())
+    , unpacked(source.ranks_->count())
   {
   }
 
@@ -106,20 +107,20 @@ struct DistributedMesh::Builder
     {
       return;
     }
-    const Mesh& m = this->mesh.mesh_;
+    const Mesh& m = this->from.mesh_;
     this->packed[rank].push_back(cell);
     std::vector<std::int64_t>& stream = this->cells[rank];
-    stream.push_back(this->mesh.cellIds_[cell]);
+    stream.push_back(this->from.cellIds_[cell]);
     stream.push_back(m.types[cell]);
     stream.push_back(m.cellSize(cell));
     for (Index k = 0; k < m.cellSize(cell); ++k)
     {
       const Index node = m.cell(cell)[k];
-      stream.push_back(this->mesh.nodeIds_[node]);
+      stream.push_back(this->from.nodeIds_[node]);
       if (this->nodesSent[rank].insert(node).second)
       {
-        this->nodes[rank].push_back({ this->mesh.nodeIds_[node],
-          { m.points(node, 0), m.points(node, 1), m.points(node, 2) }, this->mesh.owner_[node] });
+        this->nodes[rank].push_back({ this->from.nodeIds_[node],
+          { m.points(node, 0), m.points(node, 1), m.points(node, 2) }, this->from.owner_[node] });
       }
     }
     const std::size_t length = stream.size();
@@ -130,7 +131,7 @@ struct DistributedMesh::Builder
         stream.push_back(size);
         for (Index k = 0; k < size; ++k)
         {
-          stream.push_back(this->mesh.nodeIds_[face[k]]);
+          stream.push_back(this->from.nodeIds_[face[k]]);
         }
       });
     stream[length] = static_cast<std::int64_t>(stream.size() - length - 1);
@@ -139,15 +140,15 @@ struct DistributedMesh::Builder
   /// Packs the cells around nodes for the ranks that ask for them.
   void packAround(const std::vector<Directory::Request>& requests)
   {
-    const Mesh& m = this->mesh.mesh_;
+    const Mesh& m = this->from.mesh_;
     std::unordered_map<Index, std::vector<int>> ranksOf;
     for (const Directory::Request& request : requests)
     {
-      ranksOf[this->mesh.nodeOf(request.id)].push_back(static_cast<int>(request.rank));
+      ranksOf[this->from.nodeOf(request.id)].push_back(static_cast<int>(request.rank));
     }
-    for (Index c = 0; c < this->mesh.pieceCells_ && !ranksOf.empty(); ++c)
+    for (Index c = 0; c < this->from.pieceCells_ && !ranksOf.empty(); ++c)
     {
-      if (this->mesh.isGhost_[c] != 0 || !isVolume(m, c))
+      if (this->from.isGhost_[c] != 0 || !isVolume(m, c))
       {
         continue;
       }
@@ -278,7 +279,6 @@ DistributedMesh::DistributedMesh(const Ranks& ranks, Piece piece, int layers, Mo
   this->halo_ =
     Halo(ranks, this->nodeIds_, this->owner_, [this](std::int64_t id) { return this->nodeOf(id); });
   this->findBodies(monitor);
-  this->findOuter(monitor);
 }
 
 /// Fills byId_ and doubles_; returns what the directory is to know.
@@ -322,19 +322,6 @@ std::vector<Index> DistributedMesh::idsOfNodes(const std::vector<Index>& nodes) 
     ids.push_back(this->nodeIds_[node]);
   }
   return ids;
-}
-
-std::vector<Index> DistributedMesh::gatherCells(const std::vector<Index>& cells) const
-{
-  std::vector<Index> ids;
-  for (const Index cell : cells)
-  {
-    if (this->isGhost_[cell] == 0)
-    {
-      ids.push_back(this->cellIds_[cell]);
-    }
-  }
-  return this->ranks_->gatherSorted(ids);
 }
 
 Index DistributedMesh::nodeOf(std::int64_t id) const
@@ -384,7 +371,7 @@ void DistributedMesh::addGhosts(int layers, Monitor& monitor)
       wanted.push_back(this->nodeIds_[n]);
     }
   }
-  Builder builder(*this);
+  Builder builder(*this, *this);
   for (int layer = 0; layer < layers; ++layer)
   {
     const std::vector<Directory::Request> requests = this->directory_->requests(wanted);
@@ -396,100 +383,17 @@ void DistributedMesh::addGhosts(int layers, Monitor& monitor)
   this->cellHalo_ = Halo(builder.packed, builder.unpacked);
 }
 
-namespace
-{
-/// The cells with faces that one cell alone has, of all ranks, in the order of their ids.
-struct FacesOfRanks
-{
-  Mesh mesh;                         ///< of these cells; nodes in the order of their ids
-  std::vector<std::int64_t> nodeIds; ///< #nodes
-  std::vector<std::int64_t> cellIds; ///< #cells
-  std::vector<int> ranks;            ///< #cells, that own them
-  std::vector<Index> numbers;        ///< #cells, local there
-  BoundaryFaces faces;
-
-  /// `sides`: of this rank's own cells. Collective.
-  FacesOfRanks(const DistributedMesh& part, const std::map<Index, std::vector<int>>& sides)
-  {
-    const Mesh& own = part.mesh();
-    std::vector<std::int64_t> stream;
-    std::map<std::int64_t, NodeRecord> nodes;
-    for (const auto& [cell, its] : sides)
-    {
-      stream.insert(stream.end(), { part.cellId(cell), part.ranks().rank(), cell, own.types[cell],
-                                    own.cellSize(cell), static_cast<std::int64_t>(its.size()) });
-      for (Index k = 0; k < own.cellSize(cell); ++k)
-      {
-        const Index node = own.cell(cell)[k];
-        const auto x = own.points.row(node);
-        stream.push_back(part.nodeId(node));
-        nodes[part.nodeId(node)] = { part.nodeId(node), { x[0], x[1], x[2] }, 1 };
-      }
-      stream.insert(stream.end(), its.begin(), its.end());
-    }
-    std::vector<NodeRecord> records;
-    std::transform(nodes.begin(), nodes.end(), std::back_inserter(records),
-      [](const auto& node) { return node.second; });
-    stream = part.ranks().gather(stream);
-    for (const NodeRecord& node : part.ranks().gather(records))
-    {
-      nodes.emplace(node.id, node);
-    }
-    this->mesh.points.resize(static_cast<Index>(nodes.size()), 3);
-    for (const auto& [id, node] : nodes)
-    {
-      const auto [x, y, z] = node.x;
-      this->mesh.points.row(static_cast<Index>(this->nodeIds.size())) << x, y, z;
-      this->nodeIds.push_back(id);
-    }
-    this->takeCells(stream);
-  }
-
-private:
-  void takeCells(const std::vector<std::int64_t>& stream)
-  {
-    constexpr std::size_t Head = 6;
-    std::map<std::int64_t, std::size_t> starts;
-    for (std::size_t at = 0; at < stream.size(); at += Head + stream[at + 4] + stream[at + 5])
-    {
-      starts[stream[at]] = at;
-    }
-    std::vector<std::pair<Index, int>> places;
-    this->mesh.offsets = { 0 };
-    for (const auto& [id, at] : starts)
-    {
-      for (std::int64_t k = 0; k < stream[at + 5]; ++k)
-      {
-        places.emplace_back(static_cast<Index>(this->cellIds.size()),
-          static_cast<int>(stream[at + Head + stream[at + 4] + k]));
-      }
-      this->cellIds.push_back(id);
-      this->ranks.push_back(static_cast<int>(stream[at + 1]));
-      this->numbers.push_back(stream[at + 2]);
-      this->mesh.types.push_back(static_cast<std::uint8_t>(stream[at + 3]));
-      for (std::int64_t k = 0; k < stream[at + 4]; ++k)
-      {
-        const auto node =
-          std::lower_bound(this->nodeIds.begin(), this->nodeIds.end(), stream[at + Head + k]);
-        this->mesh.connectivity.push_back(node - this->nodeIds.begin());
-      }
-      this->mesh.offsets.push_back(static_cast<Index>(this->mesh.connectivity.size()));
-    }
-    this->faces = facesAt(this->mesh, places);
-  }
-};
-}
-
 /// A node may hang on a face of another rank's cell, of which it has no node. So every rank gets
 /// the faces that one cell alone has, and finds the same ties as one process.
 void DistributedMesh::findHanging(Builder& builder, Monitor& monitor)
 {
   const Ranks& ranks = *this->ranks_;
-  if (ranks.sum(Index(hasPolyhedra(this->mesh_))) > 0)
+  struct Side
   {
-    return;
-  }
-  std::map<Index, std::vector<int>> sides;
+    std::int64_t cell, side;
+  };
+  std::vector<Side> sides;
+  std::vector<Index> ofSides; // own cells
   bool mayBe = false;
   ranks.together(
     [&]
@@ -503,7 +407,8 @@ void DistributedMesh::findHanging(Builder& builder, Monitor& monitor)
       {
         if (isOwn[faces.cells[f]] != 0)
         {
-          sides[faces.cells[f]].push_back(faces.sides[f]);
+          sides.push_back({ this->cellIds_[faces.cells[f]], faces.sides[f] });
+          ofSides.push_back(faces.cells[f]);
         }
       }
     });
@@ -511,14 +416,32 @@ void DistributedMesh::findHanging(Builder& builder, Monitor& monitor)
   {
     return;
   }
-  const FacesOfRanks all(*this, sides);
+  DistributedMesh all(ranks); // of the cells with faces that one cell alone has, of all ranks
+  Builder ofAll(*this, all);
+  ofAll.open();
+  for (int r = 0; r < ranks.count(); ++r)
+  {
+    std::for_each(ofSides.begin(), ofSides.end(), [&](Index cell) { ofAll.pack(cell, r); });
+  }
+  ofAll.exchange();
+  std::map<std::int64_t, Index> numberOf; // of a cell's id
+  for (Index c = 0; c < all.mesh_.numberOfCells(); ++c)
+  {
+    numberOf.emplace(all.cellIds_[c], c);
+  }
+  std::vector<std::pair<Index, int>> places;
+  for (const Side& side : ranks.gather(sides))
+  {
+    places.emplace_back(numberOf.at(side.cell), static_cast<int>(side.side));
+  }
+  std::sort(places.begin(), places.end());
   HangingNodes hanging;
   Mesh conforming;
   ranks.together(
     [&]
     {
-      hanging.find(all.mesh, all.faces, monitor);
-      conforming = hanging.conforming(all.mesh);
+      hanging.find(all.mesh_, facesAt(all.mesh_, places), monitor);
+      conforming = hanging.conforming(all.mesh_);
     });
   this->hasHanging_ = !hanging.empty();
   if (!this->hasHanging_)
@@ -527,28 +450,32 @@ void DistributedMesh::findHanging(Builder& builder, Monitor& monitor)
   }
   // Cells and the nodes that lie on them, but are not theirs: each rank gets all around its nodes.
   std::vector<std::int64_t> wanted;
-  std::vector<std::vector<Index>> asked(ranks.count());
-  for (Index c = 0; c < all.mesh.numberOfCells(); ++c)
+  std::vector<std::vector<Index>> asked(ranks.count()); // by their places in what a rank sent
+  for (int r = 0; r < ranks.count(); ++r)
   {
-    const Index *begin = all.mesh.cell(c), *end = begin + all.mesh.cellSize(c);
-    bool isAround = false;
-    for (Index k = 0; k < conforming.cellSize(c); ++k)
+    for (std::size_t k = 0; k < ofAll.unpacked[r].size(); ++k)
     {
-      const Index node = conforming.cell(c)[k];
-      if (std::find(begin, end, node) != end)
+      const Index c = ofAll.unpacked[r][k];
+      const Index *begin = all.mesh_.cell(c), *end = begin + all.mesh_.cellSize(c);
+      bool isAround = false;
+      for (Index n = 0; n < conforming.cellSize(c); ++n)
       {
-        continue;
+        const Index node = conforming.cell(c)[n];
+        if (std::find(begin, end, node) == end)
+        {
+          const Index local = this->nodeOf(all.nodeIds_[node]);
+          isAround =
+            isAround || (local >= 0 && local < this->pieceNodes_ && this->isUsed_[local] != 0);
+          if (r == ranks.rank())
+          {
+            wanted.push_back(all.nodeIds_[node]);
+          }
+        }
       }
-      const Index local = this->nodeOf(all.nodeIds[node]);
-      isAround = isAround || (local >= 0 && local < this->pieceNodes_ && this->isUsed_[local] != 0);
-      if (all.ranks[c] == ranks.rank())
+      if (isAround && r != ranks.rank())
       {
-        wanted.push_back(all.nodeIds[node]);
+        asked[r].push_back(static_cast<Index>(k));
       }
-    }
-    if (isAround && all.ranks[c] != ranks.rank())
-    {
-      asked[all.ranks[c]].push_back(all.numbers[c]);
     }
   }
   sortUnique(wanted);
@@ -557,13 +484,13 @@ void DistributedMesh::findHanging(Builder& builder, Monitor& monitor)
   const auto requests = ranks.exchange(asked);
   for (int r = 0; r < ranks.count(); ++r)
   {
-    std::for_each(
-      requests[r].begin(), requests[r].end(), [&](Index cell) { builder.pack(cell, r); });
+    std::for_each(requests[r].begin(), requests[r].end(),
+      [&](Index k) { builder.pack(ofAll.packed[r][k], r); });
   }
   builder.exchange();
 
-  std::vector<Index> nodeOf, cellOf(all.cellIds.size(), -1), known, cells;
-  for (const std::int64_t id : all.nodeIds)
+  std::vector<Index> nodeOf, cellOf(all.cellIds_.size(), -1), known, cells;
+  for (const std::int64_t id : all.nodeIds_)
   {
     nodeOf.push_back(this->nodeOf(id));
     if (nodeOf.back() >= 0)
@@ -573,31 +500,24 @@ void DistributedMesh::findHanging(Builder& builder, Monitor& monitor)
   }
   for (std::size_t c = 0; c < this->cellIds_.size(); ++c)
   {
-    const auto found = std::lower_bound(all.cellIds.begin(), all.cellIds.end(), this->cellIds_[c]);
+    const auto found = numberOf.find(this->cellIds_[c]);
     const bool isCopy = static_cast<Index>(c) < this->pieceCells_ && this->isGhost_[c] != 0;
-    if (!isCopy && found != all.cellIds.end() && *found == this->cellIds_[c])
+    if (!isCopy && found != numberOf.end())
     {
-      cellOf[found - all.cellIds.begin()] = static_cast<Index>(c);
-      cells.push_back(found - all.cellIds.begin());
+      cellOf[found->second] = static_cast<Index>(c);
+      cells.push_back(found->second);
     }
   }
   std::sort(cells.begin(), cells.end());
   std::vector<Builder::Node> missing;
-  std::vector<std::int64_t> ids;
   for (const Index node : hanging.reach(known, cells))
   {
     if (nodeOf[node] < 0)
     {
-      const auto x = all.mesh.points.row(node);
-      nodeOf[node] = this->mesh_.numberOfNodes() + static_cast<Index>(ids.size());
-      ids.push_back(all.nodeIds[node]);
-      missing.push_back({ ids.back(), { x[0], x[1], x[2] }, -1 });
+      const auto x = all.mesh_.points.row(node);
+      nodeOf[node] = this->mesh_.numberOfNodes() + static_cast<Index>(missing.size());
+      missing.push_back({ all.nodeIds_[node], { x[0], x[1], x[2] }, all.owner_[node] });
     }
-  }
-  const std::vector<int> owners = this->directory_->owners(ids);
-  for (std::size_t i = 0; i < missing.size(); ++i)
-  {
-    missing[i].owner = owners[i];
   }
   builder.append(missing);
   this->hanging_ = hanging.renumbered(nodeOf, cellOf, this->mesh_.numberOfNodes());
@@ -650,92 +570,17 @@ Index DistributedMesh::join(std::vector<Index>& ofNode) const
   return static_cast<Index>(lowest.size());
 }
 
+/// By what the ranks tell one another, not what this mesh knows.
 void DistributedMesh::findBodies(Monitor& monitor)
 {
-  const Ranks& ranks = *this->ranks_;
-  this->bodies_ = connectedComponents(this->mesh_, monitor);
-  this->bodies_.count = this->join(this->bodies_.ofNode);
-  for (std::size_t c = 0; c < this->bodies_.ofCell.size(); ++c)
+  struct Processes : RankCommunicator
   {
-    Index& body = this->bodies_.ofCell[c];
-    body = body < 0 ? body : this->bodies_.ofNode[*this->mesh_.cell(static_cast<Index>(c))];
-  }
-
-  ShapeVolumes volumes = shapeVolumes(this->mesh_, this->bodies_, this->isGhost_, monitor);
-  ranks.sum(volumes.volume.data(), volumes.volume.size());
-  ranks.sum(volumes.cells.data(), volumes.cells.size());
-  this->orientation_ = cellSigns(this->mesh_, this->bodies_, volumes);
-  std::vector<Index> mirrored(this->bodies_.count, 0);
-  for (std::size_t c = 0; c < this->orientation_.size(); ++c)
-  {
-    if (this->orientation_[c] < 0)
-    {
-      mirrored[this->bodies_.ofCell[c]] = 1;
-    }
-  }
-  ranks.sum(mirrored.data(), mirrored.size());
-  this->mirrored_ =
-    std::count_if(mirrored.begin(), mirrored.end(), [](Index count) { return count > 0; });
-}
-
-void DistributedMesh::findOuter(Monitor& monitor)
-{
-  BoundaryFaces all;
-  this->ranks_->together(
-    [&]
-    {
-      all = facesOfOneCell(this->mesh_, monitor);
-      if (!this->hanging_.empty())
-      {
-        all = boundaryFaces(this->mesh_, all, this->hanging_);
-      }
-      this->repeated_ = morph::repeatedCells(this->mesh_, monitor);
-      this->touching_ = this->hanging_.empty()
-                          ? morph::touchingNodes(this->mesh_, all)
-                          : morph::touchingNodes(this->hanging_.conforming(this->mesh_), all);
-    });
-  const auto keepOwn = [](std::vector<Index>& ids, const auto& isOther)
-  { ids.erase(std::remove_if(ids.begin(), ids.end(), isOther), ids.end()); };
-  keepOwn(this->repeated_, [this](Index cell) { return this->isGhost_[cell] != 0; });
-  keepOwn(this->touching_, [this](Index node) { return !this->owns(node); });
-  std::vector<std::uint8_t> isOwn(this->isGhost_.size());
-  std::transform(this->isGhost_.begin(), this->isGhost_.end(), isOwn.begin(),
-    [](std::uint8_t ghost) { return ghost == 0; });
-  this->outerFaces_ = facesOfCells(this->mesh_, all, isOwn);
-  this->hanging_.divideEdges(this->outerFaces_);
-  // All cells around a node of the piece's own cells are here, so that its faces are known.
-  this->outerNodes_.between.offsets = { 0 };
-  for (std::size_t i = 0; i < all.nodes.size(); ++i)
-  {
-    const Index node = all.nodes[i];
-    if (node >= this->pieceNodes_ || this->isUsed_[node] == 0)
-    {
-      continue;
-    }
-    this->outerNodes_.nodes.push_back(node);
-    Adjacency& between = this->outerNodes_.between;
-    const Index k = static_cast<Index>(i);
-    between.add(all.between.begin(k), all.between.end(k));
-  }
-}
-
-BoundaryFaces DistributedMesh::facesOfPiece() const
-{
-  const BoundaryFaces& all = this->outerFaces_;
-  BoundaryFaces faces =
-    facesOfCells(this->mesh_, all, std::vector<std::uint8_t>(this->cellIds_.size(), 1));
-  std::vector<Index> offsets = { 0 }, connectivity;
-  for (std::size_t f = 0; f < all.cells.size(); ++f)
-  {
-    std::copy_if(all.connectivity.begin() + all.offsets[f],
-      all.connectivity.begin() + all.offsets[f + 1], std::back_inserter(connectivity),
-      [this](Index node) { return node < this->pieceNodes_; });
-    offsets.push_back(static_cast<Index>(connectivity.size()));
-  }
-  if (!this->hanging_.empty())
-  {
-    setCorners(std::move(offsets), std::move(connectivity), faces);
-  }
-  return faces;
+    using RankCommunicator::RankCommunicator;
+    const ConnectedComponents* bodies() const override { return nullptr; }
+    const std::vector<std::int8_t>* orientation() const override { return nullptr; }
+  };
+  const Processes processes(*this);
+  this->bodies_ = connectedComponents(this->mesh_, monitor, processes);
+  this->orientation_ = cellSigns(this->mesh_, this->bodies_, monitor, processes);
 }
 }

@@ -39,7 +39,7 @@ public:
   /// each of their nodes, and 8 for each corner.
   DistributedMesh(const Ranks& ranks, Piece piece, int layers, Monitor& monitor);
 
-  /// Moves the nodes alone: bodies, orientation, outer boundary and size stay as they were found.
+  /// Moves the nodes alone: bodies, orientation and size stay as they were found.
   /// `points`: #nodes x 3, ghosts as their owners have them. Not collective.
   void setPoints(Points points) { this->mesh_.points = std::move(points); }
 
@@ -62,9 +62,6 @@ public:
   const std::vector<std::int64_t>& cellIds() const { return this->cellIds_; }
   /// Global ids of nodes or cells, for messages.
   std::vector<Index> idsOfNodes(const std::vector<Index>& nodes) const;
-  /// The global ids of these cells of all ranks, ascending. `cells`: local; ghosts are left out.
-  /// Collective.
-  std::vector<Index> gatherCells(const std::vector<Index>& cells) const;
   /// Returns the local node of a global id, or -1.
   Index nodeOf(std::int64_t id) const;
 
@@ -81,27 +78,12 @@ public:
   const ConnectedComponents& bodies() const { return this->bodies_; }
   /// cellSigns() of the whole mesh; #cells.
   const std::vector<std::int8_t>& orientation() const { return this->orientation_; }
-  /// The number of bodies with cells of orientation -1.
-  Index mirroredBodies() const { return this->mirrored_; }
-  /// The outer faces of the whole mesh that belong to this rank's cells.
-  const BoundaryFaces& outerFaces() const { return this->outerFaces_; }
-  /// Those, with edges that are divided by nodes of the piece alone; see hanging().
-  BoundaryFaces facesOfPiece() const;
   /// What hangs in the whole mesh, of the local nodes and cells. What a local node is tied to, and
   /// the nodes on faces and edges of local cells, are local nodes. Cells that a node lies on count
   /// as those around it.
   const HangingNodes& hanging() const { return this->hanging_; }
   /// Whether any rank has nodes that hang, or cells at divided faces.
   bool hasHanging() const { return this->hasHanging_; }
-  /// The nodes of this rank's cells that lie on the outer boundary of the whole mesh, with
-  /// `between`; its faces are not those.
-  const BoundaryFaces& outerNodes() const { return this->outerNodes_; }
-  /// This rank's cells that are there twice in the whole mesh, and its nodes where bodies touch, by
-  /// local numbers; see SharedCorners.h.
-  ///@{
-  const std::vector<Index>& repeatedCells() const { return this->repeated_; }
-  const std::vector<Index>& touchingNodes() const { return this->touching_; }
-  ///@}
   /// The diagonal of the bounding box of the nodes that volume cells use.
   double size() const { return this->size_; }
   /// Volume cells of all ranks.
@@ -109,11 +91,16 @@ public:
 
 private:
   struct Builder;
+  /// Without cells.
+  explicit DistributedMesh(const Ranks& ranks)
+    : ranks_(&ranks)
+  {
+    this->mesh_.offsets = { 0 };
+  }
   std::vector<NodeRecord> numberNodes();
   void addGhosts(int layers, Monitor& monitor);
   void findHanging(Builder& builder, Monitor& monitor);
   void findBodies(Monitor& monitor);
-  void findOuter(Monitor& monitor);
   void measure();
 
   const Ranks* ranks_;
@@ -129,11 +116,8 @@ private:
   Halo halo_, cellHalo_;
   ConnectedComponents bodies_;
   std::vector<std::int8_t> orientation_;
-  Index mirrored_ = 0;
   HangingNodes hanging_;
   bool hasHanging_ = false;
-  BoundaryFaces outerFaces_, outerNodes_;
-  std::vector<Index> repeated_, touching_;
   double size_ = 0;
   Index volumeCells_ = 0;
 };

@@ -2,6 +2,7 @@
 #include "Distributed/Halo.h"
 
 #include <algorithm>
+#include <iterator>
 
 namespace morph::distributed
 {
@@ -58,24 +59,12 @@ Halo::Halo(const Ranks& ranks, const std::vector<std::int64_t>& ids, const std::
       ghosts[owner[n]].push_back(static_cast<Index>(n));
     }
   }
-  const auto asked = ranks.exchange(wanted);
-  for (int r = 0; r < ranks.count(); ++r)
+  std::vector<std::vector<Index>> sends;
+  for (const std::vector<std::int64_t>& asked : ranks.exchange(wanted))
   {
-    if (!ghosts[r].empty())
-    {
-      this->sources_.push_back(r);
-      this->receives_.push_back(std::move(ghosts[r]));
-    }
-    if (!asked[r].empty())
-    {
-      this->targets_.push_back(r);
-      std::vector<Index>& list = this->sends_.emplace_back();
-      for (std::int64_t id : asked[r])
-      {
-        list.push_back(localOf(id));
-      }
-    }
+    std::transform(asked.begin(), asked.end(), std::back_inserter(sends.emplace_back()), localOf);
   }
+  *this = Halo(sends, ghosts);
 }
 
 Halo::Halo(

@@ -4,6 +4,8 @@
 #include "Distributed/SharedPlaces.h"
 #include "Support/Error.h"
 
+#include <algorithm>
+#include <iterator>
 #include <string>
 
 namespace morph::distributed
@@ -55,27 +57,22 @@ void requireNodeIds(const Ranks& ranks, Piece& piece)
   piece.nodeIds = SharedPlaces(ranks, places).ids();
 }
 
+std::vector<std::int64_t> newCellIds(const Ranks& ranks, const std::vector<std::uint8_t>& isGhost)
+{
+  std::int64_t next = ranks.sumBefore(std::count(isGhost.begin(), isGhost.end(), 0));
+  std::vector<std::int64_t> ids;
+  std::transform(isGhost.begin(), isGhost.end(), std::back_inserter(ids),
+    [&next](std::uint8_t ghost) { return ghost != 0 ? -1 : next++; });
+  return ids;
+}
+
 void requireCellIds(const Ranks& ranks, Piece& piece)
 {
-  const Index cells = piece.mesh.numberOfCells();
-  if (haveIds(ranks, !piece.cellIds.empty(), cells > 0, "cell"))
+  if (!haveIds(ranks, !piece.cellIds.empty(), piece.mesh.numberOfCells() > 0, "cell"))
   {
-    return;
-  }
-  const auto isOwn = [&](Index c) { return piece.isGhost.empty() || piece.isGhost[c] == 0; };
-  Index own = 0;
-  for (Index c = 0; c < cells; ++c)
-  {
-    own += isOwn(c);
-  }
-  std::int64_t next = ranks.sumBefore(own);
-  piece.cellIds.assign(cells, -1);
-  for (Index c = 0; c < cells; ++c)
-  {
-    if (isOwn(c))
-    {
-      piece.cellIds[c] = next++;
-    }
+    std::vector<std::uint8_t> isGhost = piece.isGhost;
+    isGhost.resize(piece.mesh.types.size(), 0);
+    piece.cellIds = newCellIds(ranks, isGhost);
   }
 }
 }

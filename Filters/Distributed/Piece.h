@@ -28,7 +28,9 @@ std::vector<std::uint8_t> usedNodes(const Mesh& mesh, const std::vector<std::uin
 /// too: ids alone tell which of them are one. Collective. Cost: that of SharedPlaces.
 void requireNodeIds(const Ranks& ranks, Piece& piece);
 
-/// Gives each cell that is not a ghost a global id where no rank has ids, rank by rank; ghosts get
-/// -1 then. Throws as above. Collective.
+/// Returns new ids of the cells that are no ghosts, rank by rank; -1 for ghosts. Collective.
+std::vector<std::int64_t> newCellIds(const Ranks& ranks, const std::vector<std::uint8_t>& isGhost);
+
+/// Gives cells new ids where no rank has ids. Throws as above. Collective.
 void requireCellIds(const Ranks& ranks, Piece& piece);
 }

@@ -3,6 +3,7 @@
 
 #include "Distributed/CutMesh.h"
 #include "Distributed/HypreSolver.h"
+#include "Mesh/Polyhedra.h"
 #include "Support/Lists.h"
 #include "Support/ReproducibleSum.h"
 
@@ -217,7 +218,10 @@ std::vector<Index> RankCommunicator::gatherNodes(const std::vector<Index>& nodes
 
 std::vector<Index> RankCommunicator::gatherCells(const std::vector<Index>& cells) const
 {
-  return this->mesh_.gatherCells(cells);
+  std::vector<Index> own;
+  std::copy_if(cells.begin(), cells.end(), std::back_inserter(own),
+    [this](Index cell) { return !this->isCopy(cell); });
+  return this->mesh_.ranks().gatherSorted(this->idsOfCells(own));
 }
 
 std::vector<Index> RankCommunicator::nodesOf(const std::vector<Index>& ids) const
@@ -289,5 +293,15 @@ std::shared_ptr<CellPieces> RankCommunicator::cut(
   const Mesh& mesh, int layers, Monitor& monitor) const
 {
   return std::make_shared<CutMesh>(this->mesh_, mesh, layers, monitor);
+}
+
+std::shared_ptr<const UndeformedMesh> undeformedMesh(
+  const std::shared_ptr<const DistributedMesh>& mesh, Monitor& monitor)
+{
+  const auto processes = std::make_shared<const RankCommunicator>(*mesh);
+  const bool needsPieces = !processes->all(!hasPolyhedra(mesh->mesh()) && !mesh->hasHanging());
+  UndeformedMesh::Part part{ std::shared_ptr<const Mesh>(mesh, &mesh->mesh()), mesh->hanging(),
+    needsPieces, mesh->size(), processes };
+  return std::make_shared<const UndeformedMesh>(std::move(part), monitor);
 }
 }

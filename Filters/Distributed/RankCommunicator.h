@@ -3,6 +3,7 @@
 
 #include "Distributed/DistributedMesh.h"
 
+#include "Session/UndeformedMesh.h"
 #include "Support/Communicator.h"
 
 #include <cstdint>
@@ -45,7 +46,10 @@ public:
   {
     return &this->mesh_.orientation();
   }
+  Index sumBefore(Index value) const override { return this->mesh_.ranks().sumBefore(value); }
   bool isCopy(Index cell) const override { return this->mesh_.isGhost()[cell] != 0; }
+  bool owns(Index node) const override { return this->mesh_.owns(node); }
+  void update(Points& rows) const override { this->mesh_.halo().update(this->mesh_.ranks(), rows); }
   std::vector<double> gather(const std::vector<double>& values) const override
   {
     return this->mesh_.ranks().gather(values);
@@ -71,4 +75,8 @@ private:
   const DistributedMesh& mesh_;
   std::vector<Index> nodes_;
 };
+
+/// The mesh for a session. Collective.
+std::shared_ptr<const UndeformedMesh> undeformedMesh(
+  const std::shared_ptr<const DistributedMesh>& mesh, Monitor& monitor);
 }

@@ -20,14 +20,6 @@ struct ErrorOfAll : Error
 };
 
 template <typename Value>
-Value reduce(MPI_Comm communicator, Value value, MPI_Datatype type, MPI_Op operation)
-{
-  Value all = value;
-  MPI_Allreduce(&value, &all, 1, type, operation, communicator);
-  return all;
-}
-
-template <typename Value>
 void reduceAll(
   MPI_Comm communicator, Value* values, std::size_t size, MPI_Datatype type, MPI_Op operation)
 {
@@ -77,8 +69,8 @@ double Ranks::meet(double value, const std::exception_ptr& failure) const
   {
     message = std::string("Unexpected failure: ") + error.what();
   }
-  const int first =
-    reduce(this->communicator_, failure ? this->rank_ : this->count_, MPI_INT, MPI_MIN);
+  int first = failure ? this->rank_ : this->count_;
+  reduceAll(this->communicator_, &first, 1, MPI_INT, MPI_MIN);
   int header[2] = { static_cast<int>(kind), static_cast<int>(message.size()) };
   MPI_Bcast(header, 2, MPI_INT, first, this->communicator_);
   message.resize(header[1]);
@@ -115,57 +107,21 @@ void Ranks::together(const std::function<void()>& work) const
   this->meet(0, failure);
 }
 
-void Ranks::sum(double* values, std::size_t size) const
+void Ranks::reduce(double* values, std::size_t size, MPI_Op operation) const
 {
   this->vote();
-  reduceAll(this->communicator_, values, size, MPI_DOUBLE, MPI_SUM);
+  reduceAll(this->communicator_, values, size, MPI_DOUBLE, operation);
 }
 
-void Ranks::sum(Index* values, std::size_t size) const
+void Ranks::reduce(Index* values, std::size_t size, MPI_Op operation) const
 {
   this->vote();
-  reduceAll(this->communicator_, values, size, MPI_INT64_T, MPI_SUM);
-}
-
-void Ranks::maximum(double* values, std::size_t size) const
-{
-  this->vote();
-  reduceAll(this->communicator_, values, size, MPI_DOUBLE, MPI_MAX);
-}
-
-Index Ranks::sum(Index value) const
-{
-  this->vote();
-  return reduce(this->communicator_, value, MPI_INT64_T, MPI_SUM);
+  reduceAll(this->communicator_, values, size, MPI_INT64_T, operation);
 }
 
 double Ranks::sum(double value) const
 {
   return this->meet(value, nullptr);
-}
-
-double Ranks::minimum(double value) const
-{
-  this->vote();
-  return reduce(this->communicator_, value, MPI_DOUBLE, MPI_MIN);
-}
-
-double Ranks::maximum(double value) const
-{
-  this->vote();
-  return reduce(this->communicator_, value, MPI_DOUBLE, MPI_MAX);
-}
-
-Index Ranks::minimum(Index value) const
-{
-  this->vote();
-  return reduce(this->communicator_, value, MPI_INT64_T, MPI_MIN);
-}
-
-Index Ranks::maximum(Index value) const
-{
-  this->vote();
-  return reduce(this->communicator_, value, MPI_INT64_T, MPI_MAX);
 }
 
 Index Ranks::sumBefore(Index value) const

@@ -43,46 +43,93 @@ public:
   /// rank waits for one that has given up. Calls may be nested.
   void together(const std::function<void()>& work) const;
 
-  /// Element-wise over the ranks; all get the result.
+  /// Over the ranks, element-wise; all get the result. Values are double or Index.
   ///@{
-  void sum(double* values, std::size_t size) const;
-  void sum(Index* values, std::size_t size) const;
-  void maximum(double* values, std::size_t size) const;
-  Index sum(Index value) const;
+  template <typename Value>
+  void sum(Value* values, std::size_t size) const
+  {
+    this->reduce(values, size, MPI_SUM);
+  }
+  template <typename Value>
+  void maximum(Value* values, std::size_t size) const
+  {
+    this->reduce(values, size, MPI_MAX);
+  }
+  template <typename Value>
+  Value sum(Value value) const
+  {
+    this->reduce(&value, 1, MPI_SUM);
+    return value;
+  }
   double sum(double value) const;
-  double minimum(double value) const;
-  double maximum(double value) const;
-  Index minimum(Index value) const;
-  Index maximum(Index value) const;
+  template <typename Value>
+  Value minimum(Value value) const
+  {
+    this->reduce(&value, 1, MPI_MIN);
+    return value;
+  }
+  template <typename Value>
+  Value maximum(Value value) const
+  {
+    this->reduce(&value, 1, MPI_MAX);
+    return value;
+  }
   ///@}
   /// Returns the sum over the ranks before this one.
   Index sumBefore(Index value) const;
 
-  /// Sends `to[r]` to each rank r, and returns what each rank sent here. Throws Error on all ranks
-  /// where a list has more than 2^31 - 1 items.
+  /// Sends `to[r]` to each rank r, and returns what each rank sent here. Items are trivially
+  /// copyable, or lists or texts of such. Throws Error on all ranks where a list has more than
+  /// 2^31 - 1 items.
   template <typename Item>
   std::vector<std::vector<Item>> exchange(const std::vector<std::vector<Item>>& to) const
   {
-    static_assert(std::is_trivially_copyable_v<Item>);
-    std::vector<int> sent(this->count_), received;
-    std::vector<const void*> from(this->count_);
-    std::size_t longest = 0;
-    for (int r = 0; r < this->count_; ++r)
-    {
-      longest = std::max(longest, to[r].size());
-      sent[r] = static_cast<int>(to[r].size());
-    }
-    this->requireMessageSize(longest);
-    received = this->exchangeSizes(sent);
     std::vector<std::vector<Item>> result(this->count_);
-    std::vector<void*> into(this->count_);
-    for (int r = 0; r < this->count_; ++r)
+    if constexpr (std::is_trivially_copyable_v<Item>)
     {
-      result[r].resize(received[r]);
-      from[r] = to[r].data();
-      into[r] = result[r].data();
+      std::vector<int> sent(this->count_), received;
+      std::vector<const void*> from(this->count_);
+      std::size_t longest = 0;
+      for (int r = 0; r < this->count_; ++r)
+      {
+        longest = std::max(longest, to[r].size());
+        sent[r] = static_cast<int>(to[r].size());
+      }
+      this->requireMessageSize(longest);
+      received = this->exchangeSizes(sent);
+      std::vector<void*> into(this->count_);
+      for (int r = 0; r < this->count_; ++r)
+      {
+        result[r].resize(received[r]);
+        from[r] = to[r].data();
+        into[r] = result[r].data();
+      }
+      this->exchangeBytes(sizeof(Item), sent, from, received, into);
     }
-    this->exchangeBytes(sizeof(Item), sent, from, received, into);
+    else
+    {
+      std::vector<std::vector<std::size_t>> sizes(this->count_);
+      std::vector<std::vector<typename Item::value_type>> values(this->count_);
+      for (int r = 0; r < this->count_; ++r)
+      {
+        for (const Item& list : to[r])
+        {
+          sizes[r].push_back(list.size());
+          values[r].insert(values[r].end(), list.begin(), list.end());
+        }
+      }
+      sizes = this->exchange(sizes);
+      values = this->exchange(values);
+      for (int r = 0; r < this->count_; ++r)
+      {
+        auto at = values[r].begin();
+        for (const std::size_t size : sizes[r])
+        {
+          result[r].emplace_back(at, at + static_cast<std::ptrdiff_t>(size));
+          at += static_cast<std::ptrdiff_t>(size);
+        }
+      }
+    }
     return result;
   }
 
@@ -135,6 +182,8 @@ private:
   double meet(double value, const std::exception_ptr& failure) const;
   /// Called before a communication: throws if another rank has failed in together() meanwhile.
   void vote() const;
+  void reduce(double* values, std::size_t size, MPI_Op operation) const;
+  void reduce(Index* values, std::size_t size, MPI_Op operation) const;
   void requireMessageSize(std::size_t items) const;
   std::vector<int> exchangeSizes(const std::vector<int>& sent) const;
   void exchangeBytes(std::size_t itemSize, const std::vector<int>& sent,

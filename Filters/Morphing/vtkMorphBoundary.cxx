@@ -272,8 +272,9 @@ void vtkMorphBoundary::vtkInternals::Morph(vtkUnstructuredGrid* grid, vtkDataObj
   const morph::BoundaryFaces faces = morph::boundaryFaces(mesh, monitor);
   const std::vector<Index> bodyOfNode = morph::bodyOfNodes(mesh, morph::connectedComponents(mesh));
   const double size = morph::meshSize(mesh);
-  const auto match = [&]
-  { return filters::BoundaryMatch::Match(given, mesh, faces, size, this->Matching()); };
+  const auto match = [&] {
+    return filters::BoundaryMatch::Match(given, { mesh, faces, size }, this->Matching());
+  };
   this->Run({ grid, mesh, faces, bodyOfNode, nullptr, size, match, surface }, output, monitor);
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Octree.h"
 
+#include "PolyhedralMeshes.h"
+
 #include <algorithm>
 #include <random>
 #include <utility>
@@ -19,7 +21,7 @@ constexpr Place Nodes[20] = { { 0, 0, 0 }, { 2, 0, 0 }, { 2, 2, 0 }, { 0, 2, 0 }
 
 int nodesOf(int order)
 {
-  return order == 1 ? 8 : 20;
+  return order == 2 ? 20 : 8;
 }
 
 /// Of a box from `low` on, `step` in parts of its edges, of which there are `parts`.
@@ -76,11 +78,15 @@ Octree::Octree(unsigned seed, int order, const Place& cubes)
     {
       nodes.push_back(this->node(at(low, Nodes[k], size, 2)));
     }
-    add(this->mesh, order == 1 ? morph::Hexahedron : morph::QuadraticHexahedron, nodes);
+    add(this->mesh, order == 2 ? morph::QuadraticHexahedron : morph::Hexahedron, nodes);
   }
   for (const auto& [low, size] : boxes)
   {
     this->findHanging(low, size, order);
+  }
+  if (order == 0)
+  {
+    this->mesh = asPolyhedra(this->mesh, [](Index cell) { return cell % 3 == 0; });
   }
 }
 

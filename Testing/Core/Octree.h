@@ -27,7 +27,8 @@ struct Octree
   std::map<Place, Index> nodeAt;
   std::vector<Hanging> hanging;
 
-  /// `order`: 1, or 2 for hexahedra of 20 nodes. `cubes`: along each side, 2 of them at least.
+  /// `order`: 1, or 2 for hexahedra of 20 nodes; 0: as 1, with every third one as a polyhedron.
+  /// `cubes`: along each side, 2 of them at least.
   explicit Octree(unsigned seed, int order = 1, const Place& cubes = { Width, Width, Height });
 
   /// The nodes on the sides of the box, ascending.

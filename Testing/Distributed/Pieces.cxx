@@ -83,6 +83,14 @@ morph::distributed::DistributedMesh distribute(
     monitor };
 }
 
+std::shared_ptr<const morph::UndeformedMesh> undeformed(
+  const morph::distributed::DistributedMesh& mesh)
+{
+  morph::Monitor monitor;
+  return morph::distributed::undeformedMesh(
+    std::shared_ptr<const morph::distributed::DistributedMesh>(&mesh, [](const auto*) {}), monitor);
+}
+
 std::vector<morph::Index> localNodes(
   const morph::distributed::DistributedMesh& mesh, const std::vector<morph::Index>& ids)
 {

@@ -6,6 +6,7 @@
 #include "Distributed/Ranks.h"
 #include "Mesh/Mesh.h"
 #include "Morpher/Morpher.h"
+#include "Session/UndeformedMesh.h"
 
 #include <functional>
 #include <memory>
@@ -28,6 +29,10 @@ morph::distributed::Piece pieceOf(
 /// This rank's random part of a mesh, with ghosts.
 morph::distributed::DistributedMesh distribute(
   const morph::distributed::Ranks& ranks, const morph::Mesh& whole, int layers, unsigned seed);
+
+/// This rank's part as a session takes it. Holds `mesh` by reference.
+std::shared_ptr<const morph::UndeformedMesh> undeformed(
+  const morph::distributed::DistributedMesh& mesh);
 
 /// The local nodes whose global ids are in `ids`, which are ascending.
 std::vector<morph::Index> localNodes(

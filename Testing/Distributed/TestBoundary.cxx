@@ -14,6 +14,7 @@
 #include <vtkDataArray.h>
 #include <vtkDataArraySelection.h>
 #include <vtkDoubleArray.h>
+#include <vtkFEMWarpMorph.h>
 #include <vtkIdTypeArray.h>
 #include <vtkImageData.h>
 #include <vtkMorphBoundary.h>
@@ -399,6 +400,49 @@ TEST(RankBoundary, EachRankSelectsInItsPiece)
   filter->Update();
   EXPECT_EQ(ranks.sum(static_cast<Index>(listener.Errors.size())), 1);
   EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 0);
+}
+
+TEST(RankBoundary, TellsAMorphItsAffineMotionAsOnOneRank)
+{
+  const Ranks ranks = pieces::world();
+  morph::Mesh mesh = meshes::hexes(5, 4, 3);
+  bend(mesh);
+  const auto whole = grids::make(mesh),
+             piece = rank_grids::part(ranks, whole, mesh, meshes::seed());
+  const auto morphed = [](vtkUnstructuredGrid* grid, double tolerance, bool isTold)
+  {
+    auto displace = grids::of<vtkBoundaryDisplacement>(grid);
+    displace->SetMovingToSurfaces();
+    displace->AddSurface("Surface 1");
+    displace->SetDisplacementToTranslateRotateScale();
+    displace->SetSurroundingsToFade();
+    auto morph = grids::of<vtkFEMWarpMorph>(grid);
+    morph->SetTolerance(tolerance);
+    for (const double size : { 2, 1 }) // drags it back
+    {
+      displace->SetTranslation(0.1 * size, 0, 0.1 * size);
+      displace->SetRotation(5 * size, 0, 10 * size);
+      displace->Update();
+      vtkNew<vtkPolyData> boundary;
+      boundary->ShallowCopy(displace->GetOutput());
+      if (!isTold)
+      {
+        boundary->GetPointData()->RemoveArray("AffineFields");
+      }
+      morph->SetBoundaryData(boundary);
+      grids::update(morph);
+    }
+    return vtkSmartPointer<vtkUnstructuredGrid>(morph->GetOutput());
+  };
+  vtkSmartPointer<vtkUnstructuredGrid> serial;
+  rank_grids::alone([&] { serial = morphed(whole, 1e-12, true); });
+
+  EXPECT_LT(rank_grids::distance(ranks, morphed(piece, 1e-12, true), serial), 1e-9);
+
+  // Four fields are solved for, so that another part of the tolerance is left.
+  const morph::Points told = grids::points(morphed(piece, 1e-2, true)),
+                      untold = grids::points(morphed(piece, 1e-2, false));
+  EXPECT_GT(ranks.maximum(told.rows() > 0 ? (told - untold).norm() : 0.), 1e-9);
 }
 
 TEST(RankBoundary, MorphBoundaryMovesTheRestAsOnOneRank)

@@ -111,11 +111,12 @@ TEST(DistributedMesh, HasTheOuterFacesBodiesAndOrientationOfTheWhole)
     meshes::transform(
       whole, [](const Eigen::RowVector3d& x) { return Eigen::RowVector3d(-x[0], x[1], 2 * x[2]); });
     const DistributedMesh mesh = pieces::distribute(ranks, whole, 1, meshes::seed());
+    const auto rest = pieces::undeformed(mesh);
     const morph::BoundaryFaces faces = morph::boundaryFaces(whole, monitor);
-    EXPECT_EQ(ranks.sum(static_cast<Index>(mesh.outerFaces().cells.size())),
+    EXPECT_EQ(ranks.sum(static_cast<Index>(rest->outerFaces().cells.size())),
       static_cast<Index>(faces.cells.size()))
       << name;
-    for (Index node : mesh.outerNodes().nodes)
+    for (Index node : rest->outerNodes().nodes)
     {
       EXPECT_TRUE(std::binary_search(faces.nodes.begin(), faces.nodes.end(), mesh.nodeId(node)))
         << name;
@@ -142,6 +143,33 @@ TEST(DistributedMesh, HasTheOuterFacesBodiesAndOrientationOfTheWhole)
   }
 }
 
+TEST(DistributedMesh, HasTheOrientationOfTangledCellsOfSeveralShapes)
+{
+  const Ranks ranks = pieces::world();
+  for (unsigned seed = meshes::seed(); seed < meshes::seed() + 10; ++seed)
+  {
+    Mesh whole = meshes::hexesAndWedges(4, 4, 4);
+    for (Index c = 0; c < whole.numberOfCells(); ++c)
+    {
+      Index* node = whole.connectivity.data() + whole.offsets[c];
+      if (whole.types[c] == morph::Wedge)
+      {
+        std::swap_ranges(node, node + 3, node + 3);
+      }
+    }
+    meshes::jitterInterior(whole, 2, seed);
+    const std::vector<std::int8_t> signs =
+      morph::cellSigns(whole, morph::connectedComponents(whole));
+
+    const DistributedMesh mesh = pieces::distribute(ranks, whole, 1, seed);
+
+    for (Index c = 0; c < mesh.mesh().numberOfCells(); ++c)
+    {
+      EXPECT_EQ(int(mesh.orientation()[c]), int(signs[mesh.cellId(c)])) << c;
+    }
+  }
+}
+
 TEST(DistributedMesh, HasTheBoundaryOfOneProcessOnEachRank)
 {
   const Ranks ranks = pieces::world();
@@ -150,7 +178,8 @@ TEST(DistributedMesh, HasTheBoundaryOfOneProcessOnEachRank)
   {
     const DistributedMesh mesh = pieces::distribute(ranks, whole, 1, meshes::seed());
     const morph::distributed::RankCommunicator processes(mesh);
-    const morph::WholeBoundary mine(mesh.mesh(), mesh.outerFaces(), mesh.orientation(), processes);
+    const morph::WholeBoundary mine(
+      mesh.mesh(), pieces::undeformed(mesh)->outerFaces(), mesh.orientation(), processes);
     const morph::WholeBoundary serial(whole, morph::boundaryFaces(whole, monitor),
       morph::cellSigns(whole, morph::connectedComponents(whole)), morph::Communicator::alone());
     EXPECT_EQ(mine.cells(), serial.cells()) << name;

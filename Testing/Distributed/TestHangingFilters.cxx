@@ -212,4 +212,4 @@ TEST_P(RankHangingFilters, MorphMeshMovesSurfacesAsOnOneRank)
   this->ExpectNoGap(together);
 }
 
-INSTANTIATE_TEST_SUITE_P(Orders, RankHangingFilters, testing::Values(1, 2));
+INSTANTIATE_TEST_SUITE_P(Orders, RankHangingFilters, testing::Values(0, 1, 2));

@@ -307,8 +307,9 @@ TEST(RankInversionFree, FoldsOfTheBoundaryAreThoseOfOneProcess)
       morph::boundaryFaces(whole, monitor), morph::Communicator::alone());
   ASSERT_FALSE(serial.empty());
   const auto mesh = pieces::distribute(ranks, whole, 1, meshes::seed());
-  EXPECT_EQ(mesh.gatherCells(check(mesh.mesh(), pieces::localNodes(mesh, outer), mesh.orientation(),
-              mesh.outerFaces(), morph::distributed::RankCommunicator(mesh))),
+  const morph::distributed::RankCommunicator processes(mesh);
+  EXPECT_EQ(processes.gatherCells(check(mesh.mesh(), pieces::localNodes(mesh, outer),
+              mesh.orientation(), pieces::undeformed(mesh)->outerFaces(), processes)),
     serial);
 }
 

@@ -2,6 +2,7 @@
 #include "BoundaryShapes.h"
 #include "Distributed/HypreSolver.h"
 #include "Distributed/RankCommunicator.h"
+#include "LinearMethods.h"
 #include "LinearMethods/FemWarp.h"
 #include "LinearMethods/LogBarrierWarp.h"
 #include "LinearMethods/RadialBasis.h"
@@ -13,6 +14,7 @@
 #include "Morpher/BodyByBody.h"
 #include "Morpher/SiteMethod.h"
 #include "Pieces.h"
+#include "Session/Session.h"
 #include "Support/Error.h"
 
 #include <gtest/gtest.h>
@@ -20,6 +22,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <memory>
+#include <utility>
 
 namespace
 {
@@ -103,6 +107,44 @@ TEST(DistributedMethods, AgreeWithTheSerialOnes)
       EXPECT_LT(difference(ranks, whole, std::move(serial), bend, false), 1e-9)
         << method << ", " << name;
     }
+  }
+}
+
+TEST(DistributedMethods, AnswerToAffineHandlesAsOnOneProcess)
+{
+  const Ranks ranks = pieces::world();
+  Monitor monitor;
+  Mesh whole = meshes::hexesAndPyramids(4, 3, 3);
+  meshes::jitterInterior(whole, 0.1, 7);
+  const std::vector<Index> outer = morph::boundaryFaces(whole, monitor).nodes;
+  for (const auto& method : meshes::linearMethods())
+  {
+    SCOPED_TRACE(method.name);
+    const int layers = morph::onProcesses(method.make())->layers();
+    const DistributedMesh mesh = pieces::distribute(ranks, whole, layers, meshes::seed());
+    const auto moved =
+      [&](std::shared_ptr<const morph::UndeformedMesh> rest, const std::vector<Index>& ids)
+    {
+      const Points at = rest->mesh().points(ids, morph::allColumns);
+      morph::Session::AffineHandle handle;
+      handle.fields.resize(at.rows(), 4);
+      for (Index i = 0; i < at.rows(); ++i)
+      {
+        const double weight = 1 / (1 + at(i, 0) * at(i, 0));
+        handle.fields.row(i) << weight, weight * at.row(i);
+      }
+      handle.motion << 0.2, 0.1, 0, -0.1, -0.1, 0, 0.1, 0.1, 0.1, -0.1, 0, 0.2;
+      morph::Session session;
+      session.setMesh(std::move(rest));
+      morph::Session::Options options;
+      options.createMorpher = method.make;
+      const Points targets = at + handle.fields * handle.motion.transpose();
+      return session.morph({ ids, targets }, options, monitor, &handle)->moved;
+    };
+    const Points serial =
+      moved(std::make_shared<const morph::UndeformedMesh>(whole, nullptr, monitor), outer);
+    const Points own = moved(pieces::undeformed(mesh), pieces::localNodes(mesh, outer));
+    EXPECT_LT(pieces::distance(mesh, own, serial), 1e-9);
   }
 }
 

@@ -201,7 +201,7 @@ TEST(DistributedPolyhedra, AreCutIntoThePiecesOfOneRank)
     EXPECT_EQ(ranks.sum(nodes), expected.mesh().numberOfNodes());
     EXPECT_EQ(found.bodies().count, morph::connectedComponents(whole).count);
     // No face between two ranks is an outer one: they conform.
-    EXPECT_EQ(ranks.sum(static_cast<Index>(found.outerFaces().cells.size())),
+    EXPECT_EQ(ranks.sum(static_cast<Index>(pieces::undeformed(found)->outerFaces().cells.size())),
       static_cast<Index>(morph::boundaryFaces(expected.mesh(), monitor).cells.size()));
   }
 }

@@ -56,10 +56,27 @@ std::vector<Index> edgeOf(const Mesh& mesh, const Zone& part)
     " Set `KeepLayers` to 0, or let whole faces of the wall move.");
 }
 
-/// Where nodes move, in the order of their ids.
 }
 
 InnerPieces::~InnerPieces() = default;
+
+std::vector<Index> InnerPieces::place(const Prescribed& given, Points& places) const
+{
+  std::vector<Index> prescribed = given.points;
+  places = this->mesh().points;
+  places(prescribed, allColumns) = given.pointPlaces;
+  for (std::size_t i = 0; i < given.nodes.size(); ++i)
+  {
+    if (const Index node = this->nodeOf(given.nodes[i]); node >= 0)
+    {
+      prescribed.push_back(node);
+      places.row(node) = given.nodePlaces.row(static_cast<Index>(i));
+    }
+  }
+  this->processes()->spread(prescribed);
+  this->processes()->update(places);
+  return prescribed;
+}
 
 void takeNodes(const Mesh& mesh, std::vector<std::uint8_t> isNode, Zone& zone)
 {
@@ -405,9 +422,9 @@ void InnerNodes::moveRigidly(
       break;
     }
   }
-  const InnerPieces::Moved by = isTold ? InnerPieces::Moved{ model.points()(outer, allColumns),
-    result.moved(outer, allColumns) }
-                                       : this->guess(zone, model, result, monitor);
+  const Moved by = isTold
+                     ? Moved{ model.points()(outer, allColumns), result.moved(outer, allColumns) }
+                     : this->guess(zone, model, result, monitor);
   const RigidMotion motion = fitRigidMotion(by.from, by.to);
   const bool stays = (by.to - by.from).isZero(0);
   for (const Index node : zone.nodes)
@@ -460,35 +477,45 @@ InnerPieces::Prescribed InnerNodes::prescribedOnRanks(const BoundaryModel& model
   return given;
 }
 
-InnerPieces::Moved InnerNodes::guess(const Rigid& zone, const BoundaryModel& model,
+InnerNodes::Moved InnerNodes::guess(const Rigid& zone, const BoundaryModel& model,
   const Surroundings::Result& result, Monitor& monitor)
 {
+  const Mesh& mesh = this->pieces_ ? this->pieces_->mesh() : model.mesh;
+  const std::shared_ptr<const Communicator> others =
+    this->pieces_ ? this->pieces_->processes() : nullptr;
+  const Communicator& processes = others ? *others : Communicator::alone();
+  Points places;
+  std::vector<Index> given, by = zone.edge.empty() ? zone.nodes : zone.edge;
   if (this->pieces_)
   {
-    const bool hasEdge =
-      this->pieces_->anywhere(std::count(zone.isEdge.begin(), zone.isEdge.end(), 1) > 0);
-    return this->pieces_->warp(
-      this->prescribedOnRanks(model, result, {}), hasEdge ? zone.isEdge : zone.isNode, monitor);
+    given = this->pieces_->place(this->prescribedOnRanks(model, result, {}), places);
+    by = flagged(processes.all(flagged(zone.isEdge).empty()) ? zone.isNode : zone.isEdge);
   }
-  const Mesh& mesh = model.mesh;
-  const std::vector<Index> given = prescribed(model, result);
-  if (!this->method_ || this->methodVersion_ != model.inputVersion ||
-      this->method_->partition().prescribed != given)
+  else
+  {
+    given = prescribed(model, result);
+    places = result.moved;
+  }
+  if (!processes.all(this->method_ && this->methodVersion_ == model.inputVersion &&
+                     this->methodProcesses_ == others &&
+                     this->method_->partition().prescribed == given))
   {
     std::unique_ptr<Morpher> method = std::make_unique<FemWarp>();
     this->method_ = nullptr; // in case it throws
-    if (hasPolyhedra(mesh))
+    if (!processes.all(!hasPolyhedra(mesh)))
     {
       method = morpherForPolyhedra(std::move(method));
     }
-    method->prepare(mesh, partitionNodes(mesh, given), monitor);
+    NodePartition partition;
+    processes.together([&] { partition = partitionNodes(mesh, given); });
+    method->prepare(mesh, partition, monitor, others);
     this->method_ = std::move(method);
     this->methodVersion_ = model.inputVersion;
+    this->methodProcesses_ = others;
   }
   Points moved;
-  this->method_->evaluate(result.moved(given, allColumns), moved, monitor);
-  const std::vector<Index>& by = zone.edge.empty() ? zone.nodes : zone.edge;
-  return { model.points()(by, allColumns), moved(by, allColumns) };
+  this->method_->evaluate(places(given, allColumns), moved, monitor);
+  return { processes.gather(mesh.points, by), processes.gather(moved, by) };
 }
 
 std::vector<Index> InnerNodes::placedInside(

@@ -103,9 +103,13 @@ private:
   void extend(const BoundaryModel& model, Surroundings::Result& result) const;
   void moveRigidly(
     const Rigid& zone, const BoundaryModel& model, Surroundings::Result& result, Monitor& monitor);
+  struct Moved
+  {
+    Points from, to;
+  };
   /// Where FEMWARP takes nodes of a zone, with those that are prescribed so far.
-  InnerPieces::Moved guess(const Rigid& zone, const BoundaryModel& model,
-    const Surroundings::Result& result, Monitor& monitor);
+  Moved guess(const Rigid& zone, const BoundaryModel& model, const Surroundings::Result& result,
+    Monitor& monitor);
 
   const InnerPieces* pieces_ = nullptr;
   std::vector<Index> pointOf_;      ///< on ranks: of the piece, of each node behind the model's
@@ -123,5 +127,6 @@ private:
   ///@}
   std::unique_ptr<Morpher> method_; ///< FEMWARP, prepared, or null
   std::int64_t methodVersion_ = -1;
+  std::shared_ptr<const Communicator> methodProcesses_; ///< that it was prepared with
 };
 }

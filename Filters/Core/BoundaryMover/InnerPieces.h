@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "LinearMethods/NodeSliding.h"
 #include "Mesh/Mesh.h"
-#include "Support/Monitor.h"
+#include "Support/Communicator.h"
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -14,24 +14,32 @@ namespace morph
 {
 /// The inner nodes of a mesh whose cells several processes have. Each process has all nodes of the
 /// boundary, which are called nodes here; each inner node is a point of the process that owns it.
-/// All functions but the first and ownInner() are collective.
+/// Functions are collective, but for those that say that they are not.
 class InnerPieces
 {
 public:
   using Flags = std::vector<std::uint8_t>;
   virtual ~InnerPieces();
 
-  virtual const Mesh& piece() const = 0; ///< of this process, with its ghost cells
+  /// Of this process, with its ghost cells. Not collective, as the next three.
+  virtual const Mesh& piece() const = 0;
+  /// The same for methods: its points come first, and then copies of what is around them.
+  virtual const Mesh& mesh() const = 0;
+  /// Those that have the other parts of mesh().
+  virtual const std::shared_ptr<const Communicator>& processes() const = 0;
+  /// The node of mesh() that a node is, or -1.
+  virtual Index nodeOf(Index node) const = 0;
   /// Calls `work`, the same on each process, which must not communicate; throws on all where it
   /// throws on one.
   virtual void together(const std::function<void()>& work) const = 0;
   /// Whether it is so on any process.
-  virtual bool anywhere(bool here) const = 0;
+  bool anywhere(bool here) const { return !this->processes()->all(!here); }
   /// Whether any process flags a node of the boundary. `ofPiece`: #points of the piece, or empty.
   virtual Flags nodeFlags(const Flags& ofPiece) const = 0;
   /// Whether any process flags a point of the piece.
   virtual Flags anyFlags(const Flags& ofPiece) const = 0;
-  /// The flagged points of the piece inside the mesh that this process owns, ascending.
+  /// The flagged points of the piece inside the mesh that this process owns, ascending. Not
+  /// collective.
   virtual std::vector<Index> ownInner(const Flags& ofPiece) const = 0;
 
   struct Columns
@@ -50,18 +58,8 @@ public:
     std::vector<Index> nodes, points;
     Points nodePlaces, pointPlaces;
   };
-  struct Moved
-  {
-    Points from, to;
-  };
-  /// Where FEMWARP takes the flagged points of all pieces, each once, in the order of global ids.
-  /// Cost: that of FEMWARP, and 56 bytes a point on every process.
-  virtual Moved warp(const Prescribed& given, const Flags& ofPiece, Monitor& monitor) const = 0;
-
-  /// SlidingWarp. `sliding`: nodes, ascending; `surfaces`: by their index; `places`: of `sliding`,
-  /// become those after the rounds on all processes.
-  virtual std::vector<NodeSliding::Round> slide(const Prescribed& given,
-    const std::vector<Index>& sliding, const NodeSliding::Surfaces& surfaces,
-    const NodeSliding::Limits& limits, Points& places, Monitor& monitor) const = 0;
+  /// Returns the nodes of mesh() that are prescribed, and their places. `places`: becomes #nodes x
+  /// 3.
+  std::vector<Index> place(const Prescribed& given, Points& places) const;
 };
 }

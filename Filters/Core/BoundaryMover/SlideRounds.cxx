@@ -7,8 +7,10 @@
 #include "Support/ProgressRange.h"
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <sstream>
+#include <utility>
 
 namespace morph
 {
@@ -106,35 +108,26 @@ void requireKnownCells(bool hasPolyhedra)
 }
 }
 
-void SlideRounds::prepare(const BoundaryModel& model, const std::vector<Index>& nodes,
-  const Surroundings::Result& result, Monitor& monitor)
+void SlideRounds::prepare(const Mesh& mesh, const std::shared_ptr<const Communicator>& processes,
+  std::int64_t version, const std::vector<Index>& sliding, std::vector<Index> prescribed,
+  Monitor& monitor)
 {
-  const Mesh& mesh = model.mesh;
-  if (mesh.numberOfCells() == 0)
-  {
-    throw Error("`SlideRounds` needs the mesh's cells, and the input is a surface. Give the "
-                "volume mesh to this filter, or set `SlideRounds` to 0.");
-  }
-  requireKnownCells(hasPolyhedra(mesh));
-  std::vector<Index> prescribed;
-  for (const Index node : InnerNodes::prescribed(model, result))
-  {
-    if (!std::binary_search(nodes.begin(), nodes.end(), node))
-    {
-      prescribed.push_back(node);
-    }
-  }
-  if (!this->method_ || this->methodVersion_ != model.inputVersion || nodes != this->sliding_ ||
-      prescribed != this->prescribed_)
+  const Communicator& all = processes ? *processes : Communicator::alone();
+  requireKnownCells(!all.all(!hasPolyhedra(mesh)));
+  if (!all.all(this->method_ && this->methodVersion_ == version && this->processes_ == processes &&
+               sliding == this->sliding_ && prescribed == this->prescribed_))
   {
     this->method_ = nullptr; // in case it throws
     auto method = std::make_unique<SlidingWarp>();
     QuietRange silent(monitor, 0, 1);
-    method->prepare(mesh, partitionNodes(mesh, prescribed), silent);
+    NodePartition partition;
+    all.together([&] { partition = partitionNodes(mesh, prescribed); });
+    method->prepare(mesh, partition, silent, processes);
     this->method_ = std::move(method);
-    this->methodVersion_ = model.inputVersion;
-    this->sliding_ = nodes;
-    this->prescribed_ = prescribed;
+    this->methodVersion_ = version;
+    this->processes_ = processes;
+    this->sliding_ = sliding;
+    this->prescribed_ = std::move(prescribed);
   }
 }
 
@@ -155,28 +148,49 @@ void SlideRounds::run(const BoundaryModel& model, const std::vector<Index>& held
   {
     nodes.push_back(node);
   }
-  const auto along = [&](const std::vector<Index>& numbered) -> NodeSliding::Surfaces
-  {
-    const auto of = [&](Index i) { return sliding.find(numbered[static_cast<std::size_t>(i)]); };
-    return { [&model, &shapes, of](Index i, const Row& x)
-      { return directionsAt(model, of(i)->second, shapes, x); },
-      [&model, &shapes, of](Index i, const Row& x)
-      { return shapes.slid(model, of(i)->second, of(i)->first, x); } };
-  };
   const Points before = result.moved;
+  const Mesh& mesh = pieces ? pieces->mesh() : model.mesh;
+  if (model.mesh.numberOfCells() == 0)
+  {
+    throw Error("`SlideRounds` needs the mesh's cells, and the input is a surface. Give the "
+                "volume mesh to this filter, or set `SlideRounds` to 0.");
+  }
+  const std::shared_ptr<const Communicator> others = pieces ? pieces->processes() : nullptr;
+  Points places = before;
+  std::vector<Index> prescribed;
   if (pieces)
   {
-    requireKnownCells(pieces->anywhere(hasPolyhedra(pieces->piece())));
-    Points places = before(nodes, allColumns);
-    this->rounds_ = pieces->slide(
-      inner.prescribedOnRanks(model, result, nodes), nodes, along(nodes), limits, places, monitor);
-    result.moved(nodes, allColumns) = places;
+    prescribed = pieces->place(inner.prescribedOnRanks(model, result, nodes), places);
   }
   else
   {
-    this->prepare(model, nodes, result, monitor);
-    this->rounds_ = this->method_->slide(nodes, along(nodes), limits, result.moved, monitor);
+    const std::vector<Index> given = InnerNodes::prescribed(model, result);
+    std::set_difference(
+      given.begin(), given.end(), nodes.begin(), nodes.end(), std::back_inserter(prescribed));
   }
+  std::vector<std::pair<Index, Index>> here; // nodes of the mesh, and of the boundary
+  for (const Index node : nodes)
+  {
+    if (const Index own = pieces ? pieces->nodeOf(node) : node; own >= 0)
+    {
+      here.emplace_back(own, node);
+      places.row(own) = before.row(node);
+    }
+  }
+  std::sort(here.begin(), here.end());
+  std::vector<Index> own;
+  for (const auto& [node, ofBoundary] : here)
+  {
+    own.push_back(node);
+  }
+  const auto of = [&](Index i) { return sliding.find(here[static_cast<std::size_t>(i)].second); };
+  const NodeSliding::Surfaces along = { [&](Index i, const Row& x)
+    { return directionsAt(model, of(i)->second, shapes, x); },
+    [&](Index i, const Row& x) { return shapes.slid(model, of(i)->second, of(i)->first, x); } };
+  this->prepare(mesh, others, model.inputVersion, own, std::move(prescribed), monitor);
+  this->rounds_ = this->method_->slide(own, along, limits, places, monitor);
+  // In the order of the nodes' ids, as `nodes` are.
+  result.moved(nodes, allColumns) = (others ? *others : Communicator::alone()).gather(places, own);
   moveBetween(model, sliding, before, shapes, result.moved);
   for (const Index node : nodes)
   {

@@ -264,28 +264,6 @@ void append(const Cells& cells, Mesh& mesh)
   mesh.connectivity.insert(
     mesh.connectivity.end(), cells.connectivity.begin(), cells.connectivity.end());
 }
-
-/// One process, in whose messages pieces are the cells that they are cut from.
-class PiecesAlone : public Communicator
-{
-public:
-  explicit PiecesAlone(const CellPieces& pieces)
-    : pieces_(pieces)
-  {
-  }
-
-  std::vector<Index> gatherCells(const std::vector<Index>& pieces) const override
-  {
-    std::vector<Index> cells;
-    std::transform(pieces.begin(), pieces.end(), std::back_inserter(cells),
-      [this](Index piece) { return this->pieces_.cellOf(piece); });
-    sortUnique(cells);
-    return cells;
-  }
-
-private:
-  const CellPieces& pieces_;
-};
 }
 
 PolyhedronPieces::PolyhedronPieces(const Mesh& mesh, Monitor& monitor, bool cutsAll)
@@ -366,7 +344,8 @@ CellPieces::~CellPieces() = default;
 
 std::shared_ptr<const Communicator> PolyhedronPieces::processes() const
 {
-  return std::make_shared<PiecesAlone>(*this);
+  return std::make_shared<ProcessesOfPieces<Communicator>>(
+    *this, Communicator::alone(), Communicator::alone());
 }
 
 Index PolyhedronPieces::cellOf(Index piece) const

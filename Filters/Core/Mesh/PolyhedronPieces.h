@@ -5,6 +5,7 @@
 #include "Mesh/Mesh.h"
 #include "Mesh/NodePartition.h"
 #include "Support/Communicator.h"
+#include "Support/Lists.h"
 #include "Support/Monitor.h"
 
 #include <Eigen/SparseCore>
@@ -48,6 +49,39 @@ public:
   virtual std::vector<double> extend(const std::vector<double>& values) const = 0;
 };
 
+/// The processes that have pieces, in whose messages these are the cells that they are cut from.
+/// `Processes`: the class of their communicator.
+template <typename Processes>
+class ProcessesOfPieces : public Processes
+{
+public:
+  /// `ofPieces`: of the pieces, `ofCells`: of the cells. Holds `pieces` by reference.
+  ProcessesOfPieces(const CellPieces& pieces, const Processes& ofPieces, const Processes& ofCells)
+    : Processes(ofPieces)
+    , pieces_(pieces)
+    , ofCells_(ofCells)
+  {
+  }
+
+  std::vector<Index> gatherCells(const std::vector<Index>& pieces) const override
+  {
+    std::vector<Index> cells;
+    for (const Index piece : pieces)
+    {
+      if (!this->isCopy(piece))
+      {
+        cells.push_back(this->pieces_.cellOf(piece));
+      }
+    }
+    sortUnique(cells);
+    return this->ofCells_.gatherCells(cells);
+  }
+
+private:
+  const CellPieces& pieces_;
+  const Processes ofCells_;
+};
+
 /// A mesh whose polyhedra are cut into tetrahedra and pyramids, for methods that know these alone.
 ///
 /// Each polyhedron gets a node at its center, and each face a piece up to there: a tetrahedron on a
@@ -76,11 +110,12 @@ public:
   NodePartition extend(const NodePartition& partition) const override;
   std::vector<double> extend(const std::vector<double>& values) const override;
 
-  /// For the parts of a distributed mesh: the number of centers of faces, which come before those
-  /// of cells, and the weights of the nodes in all centers.
+  /// For parts of a distributed mesh: the number of centers of faces, which come before those of
+  /// cells, and the weights of the nodes in all centers.
   ///@{
+  using Weights = Eigen::SparseMatrix<double, Eigen::RowMajor, int>;
   Index faceCenters() const { return this->faceCenters_; }
-  const Eigen::SparseMatrix<double, Eigen::RowMajor, int>& means() const { return this->means_; }
+  const Weights& means() const { return this->means_; }
   ///@}
 
 private:
@@ -88,7 +123,7 @@ private:
   std::vector<Index> cellOfOther_; ///< the cell of each piece beyond the mesh's cells
   Index nodes_ = 0;                ///< without centers
   Index faceCenters_ = 0;
-  Eigen::SparseMatrix<double, Eigen::RowMajor, int> means_; ///< #centers x #nodes
+  Weights means_; ///< #centers x #nodes
 };
 
 /// Cuts the polyhedra of a mesh, and its cells at divided faces. `hanging`: of the mesh. `layers`:

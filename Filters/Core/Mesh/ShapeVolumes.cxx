@@ -19,8 +19,8 @@ std::size_t slot(const ConnectedComponents& bodies, Index cell, Shape shape)
 
 const int ShapeVolumes::Shapes = static_cast<int>(Shape::Polyhedron) + 1;
 
-ShapeVolumes shapeVolumes(const Mesh& mesh, const ConnectedComponents& bodies,
-  const std::vector<std::uint8_t>& skip, Monitor& monitor)
+ShapeVolumes shapeVolumes(const Mesh& mesh, const ConnectedComponents& bodies, Monitor& monitor,
+  const Communicator& processes)
 {
   std::vector<double> volume(mesh.numberOfCells(), 0.);
   parallel(mesh.numberOfCells(), monitor,
@@ -42,13 +42,15 @@ ShapeVolumes shapeVolumes(const Mesh& mesh, const ConnectedComponents& bodies,
   sums.cells.assign(sums.volume.size(), 0);
   for (Index c = 0; c < mesh.numberOfCells(); ++c)
   {
-    if (const CellShape* shape = skip.empty() || skip[c] == 0 ? volumeShape(mesh, c) : nullptr)
+    if (const CellShape* shape = processes.isCopy(c) ? nullptr : volumeShape(mesh, c))
     {
       const std::size_t at = slot(bodies, c, shape->shape);
       sums.volume[at] += volume[c];
       ++sums.cells[at];
     }
   }
+  processes.sum(sums.volume.data(), static_cast<int>(sums.volume.size()));
+  processes.sum(sums.cells.data(), static_cast<int>(sums.cells.size()));
   return sums;
 }
 

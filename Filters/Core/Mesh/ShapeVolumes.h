@@ -9,19 +9,18 @@
 
 namespace morph
 {
-/// The cells of each shape in each body, from which cellSigns() takes their orientation. Parts of a
-/// mesh add up to the whole.
+/// The cells of each shape in each body, from which cellSigns() takes their orientation.
 struct ShapeVolumes
 {
   static const int Shapes; ///< per body
 
   std::vector<double> volume; ///< #bodies * Shapes, the summed signed volumes
-  std::vector<Index> cells;   ///< #bodies * Shapes, their number
+  std::vector<double> cells;  ///< #bodies * Shapes, their number
 };
 
-/// Sums up the volume cells, but for those with a nonzero entry in `skip` (#cells, or empty).
-ShapeVolumes shapeVolumes(const Mesh& mesh, const ConnectedComponents& bodies,
-  const std::vector<std::uint8_t>& skip, Monitor& monitor);
+/// Sums up the volume cells of all processes. Collective.
+ShapeVolumes shapeVolumes(const Mesh& mesh, const ConnectedComponents& bodies, Monitor& monitor,
+  const Communicator& processes);
 
 /// cellSigns() by volumes that are known.
 std::vector<std::int8_t> cellSigns(

@@ -18,10 +18,9 @@ constexpr int Shapes = static_cast<int>(Shape::Polyhedron) + 1;
 /// The cells of one shape in one body.
 struct Group
 {
-  double volume = 0, absolute = 0;
-  Index cells = 0;
-  std::array<Index, Shapes>
-    votes{};        ///< faces with another shape that wind alike, less those that do not
+  double volume = 0, absolute = 0, cells = 0;
+  /// faces with another shape that wind alike, less those that do not, each counted for both cells
+  std::array<double, Shapes> votes{};
   int relative = 0; ///< to the body's first group; 0: not known
 };
 
@@ -31,6 +30,7 @@ struct Winding
   std::array<Index, 4> nodes; ///< ascending, the first -1 in a triangle
   Index group;
   bool isForward;
+  int weight; ///< 0 of a copy, which another process has
 
   bool operator<(const Winding& other) const { return this->nodes < other.nodes; }
 };
@@ -41,12 +41,13 @@ bool isMeasured(const CellShape& shape)
   return numberOfCorners(shape.shape) > 0;
 }
 
-Winding windingOf(const Mesh& mesh, Index cell, const CellShape& shape, int f, Index group)
+Winding windingOf(
+  const Mesh& mesh, Index cell, const CellShape& shape, int f, Index group, int weight)
 {
   const FaceShape& face = shape.faces[f];
   const auto node = [&](int k)
   { return mesh.cell(cell)[shape.cornerNode[face.corner[(k + face.size) % face.size]]]; };
-  Winding result{ { -1, -1, -1, -1 }, group, false };
+  Winding result{ { -1, -1, -1, -1 }, group, false, weight };
   int lowest = 0;
   for (int k = 0; k < face.size; ++k)
   {
@@ -61,9 +62,10 @@ Winding windingOf(const Mesh& mesh, Index cell, const CellShape& shape, int f, I
 class Alignment
 {
 public:
-  Alignment(const Mesh& mesh, const ConnectedComponents& bodies)
+  Alignment(const Mesh& mesh, const ConnectedComponents& bodies, const Communicator& processes)
     : mesh_(mesh)
     , bodies_(bodies)
+    , processes_(processes)
     , groups_(bodies.count * Shapes)
   {
   }
@@ -71,7 +73,9 @@ public:
   /// Returns whether some body has several shapes.
   bool count()
   {
-    this->forCells([&](Index c, const CellShape& shape) { ++this->group(c, shape).cells; });
+    this->forCells(
+      [&](Index c, const CellShape& shape) { this->group(c, shape).cells += this->weight(c); });
+    this->sum([](Group& group) { return &group.cells; }, 1);
     bool found = false;
     for (Index body = 0; body < this->bodies_.count; ++body)
     {
@@ -92,9 +96,11 @@ public:
         copyCorners(this->mesh_, c, shape, this->mesh_.points, corners[0]);
         const double volume = signedVolume(shape.shape, corners);
         Group& group = this->group(c, shape);
-        group.volume += volume;
-        group.absolute += std::abs(volume);
+        group.volume += this->weight(c) * volume;
+        group.absolute += this->weight(c) * std::abs(volume);
       });
+    this->sum([](Group& group) { return &group.volume; }, 1);
+    this->sum([](Group& group) { return &group.absolute; }, 1);
     this->isInDoubt_.assign(this->bodies_.count, 0);
     for (std::size_t g = 0; g < this->groups_.size(); ++g)
     {
@@ -117,7 +123,8 @@ public:
         {
           for (int f = 0; f < shape.numberOfFaces; ++f)
           {
-            faces.push_back(windingOf(this->mesh_, c, shape, f, this->number(c, shape)));
+            faces.push_back(
+              windingOf(this->mesh_, c, shape, f, this->number(c, shape), this->weight(c)));
           }
         }
       });
@@ -127,11 +134,12 @@ public:
       const Winding &a = faces[i], &b = faces[i + 1];
       if (a.nodes == b.nodes && a.group != b.group)
       {
-        const Index vote = a.isForward != b.isForward ? 1 : -1;
+        const double vote = (a.isForward != b.isForward ? 1 : -1) * (a.weight + b.weight);
         this->groups_[a.group].votes[b.group % Shapes] += vote;
         this->groups_[b.group].votes[a.group % Shapes] += vote;
       }
     }
+    this->sum([](Group& group) { return group.votes.data(); }, Shapes);
   }
 
   void align(std::vector<std::int8_t>& signs)
@@ -164,6 +172,27 @@ private:
       {
         body(c, *shape);
       }
+    }
+  }
+
+  int weight(Index cell) const { return this->processes_.isCopy(cell) ? 0 : 1; }
+
+  /// Sums `count` numbers of each group over the processes.
+  template <typename NumbersOf>
+  void sum(const NumbersOf& numbersOf, int count)
+  {
+    std::vector<double> all;
+    for (Group& group : this->groups_)
+    {
+      const double* numbers = numbersOf(group);
+      all.insert(all.end(), numbers, numbers + count);
+    }
+    this->processes_.sum(all.data(), static_cast<int>(all.size()));
+    const double* next = all.data();
+    for (Group& group : this->groups_)
+    {
+      std::copy_n(next, count, numbersOf(group));
+      next += count;
     }
   }
 
@@ -209,15 +238,16 @@ private:
 
   const Mesh& mesh_;
   const ConnectedComponents& bodies_;
+  const Communicator& processes_;
   std::vector<Group> groups_;   ///< #bodies x Shapes
   std::vector<char> isInDoubt_; ///< #bodies
 };
 }
 
-void alignShapeSigns(
-  const Mesh& mesh, const ConnectedComponents& bodies, std::vector<std::int8_t>& signs)
+void alignShapeSigns(const Mesh& mesh, const ConnectedComponents& bodies,
+  std::vector<std::int8_t>& signs, const Communicator& processes)
 {
-  Alignment alignment(mesh, bodies);
+  Alignment alignment(mesh, bodies, processes);
   if (alignment.count() && alignment.measure())
   {
     alignment.compareFaces();

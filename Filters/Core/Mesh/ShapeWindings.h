@@ -14,7 +14,7 @@ namespace morph
 /// change, then gives the sign of all. It does this only in bodies with a shape whose summed volume
 /// is less than half the sum of absolute volumes. Polyhedra, and shapes with a single cell in a
 /// body, keep their sign. Cost: a pass over the cells of bodies with several shapes; a sort of the
-/// faces in those tangled bodies.
-void alignShapeSigns(
-  const Mesh& mesh, const ConnectedComponents& bodies, std::vector<std::int8_t>& signs);
+/// faces in those tangled bodies. Collective.
+void alignShapeSigns(const Mesh& mesh, const ConnectedComponents& bodies,
+  std::vector<std::int8_t>& signs, const Communicator& processes);
 }

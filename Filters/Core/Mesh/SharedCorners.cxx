@@ -235,16 +235,18 @@ std::vector<Index> touchingNodes(const Mesh& mesh, const BoundaryFaces& faces)
   return { touching.begin(), touching.end() };
 }
 
-Index mirroredBodies(const ConnectedComponents& bodies, const std::vector<std::int8_t>& orientation)
+Index mirroredBodies(const ConnectedComponents& bodies, const std::vector<std::int8_t>& orientation,
+  const Communicator& processes)
 {
-  std::set<Index> mirrored;
+  std::vector<double> isMirrored(static_cast<std::size_t>(bodies.count), 0);
   for (std::size_t c = 0; c < orientation.size(); ++c)
   {
     if (orientation[c] < 0)
     {
-      mirrored.insert(bodies.ofCell[c]);
+      isMirrored[bodies.ofCell[c]] = 1;
     }
   }
-  return static_cast<Index>(mirrored.size());
+  processes.maximum(isMirrored.data(), static_cast<int>(bodies.count));
+  return std::count(isMirrored.begin(), isMirrored.end(), 1);
 }
 }

@@ -26,7 +26,7 @@ std::vector<Index> repeatedCells(const Mesh& mesh, Monitor& monitor);
 std::vector<Index> touchingNodes(const Mesh& mesh, const BoundaryFaces& faces);
 
 /// The number of mirrored bodies: those that have cells of orientation -1. `orientation`: #cells,
-/// see cellSigns().
-Index mirroredBodies(
-  const ConnectedComponents& bodies, const std::vector<std::int8_t>& orientation);
+/// see cellSigns(). Collective.
+Index mirroredBodies(const ConnectedComponents& bodies, const std::vector<std::int8_t>& orientation,
+  const Communicator& processes = Communicator::alone());
 }

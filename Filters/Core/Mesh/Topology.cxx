@@ -467,11 +467,12 @@ ConnectedComponents connectedComponents(
       number[root] = result.count++;
     }
   }
-  parallel(cells, monitor,
-    [&](Index c)
-    { result.ofCell[c] = result.ofCell[c] == None ? None : number[result.ofCell[c]]; });
   result.ofNode.resize(nodes);
   parallel(nodes, monitor, [&](Index i) { result.ofNode[i] = number[bodies.root(i)]; });
+  result.count = processes.join(result.ofNode);
+  parallel(cells, monitor,
+    [&](Index c)
+    { result.ofCell[c] = result.ofCell[c] == None ? None : result.ofNode[result.ofCell[c]]; });
   return result;
 }
 
@@ -489,8 +490,8 @@ std::vector<std::int8_t> cellSigns(const Mesh& mesh, const ConnectedComponents& 
     return *processes.orientation();
   }
   std::vector<std::int8_t> result =
-    cellSigns(mesh, bodies, shapeVolumes(mesh, bodies, {}, monitor));
-  alignShapeSigns(mesh, bodies, result);
+    cellSigns(mesh, bodies, shapeVolumes(mesh, bodies, monitor, processes));
+  alignShapeSigns(mesh, bodies, result, processes);
   return result;
 }
 }

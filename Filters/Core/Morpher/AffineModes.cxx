@@ -12,7 +12,8 @@ void AffineModes::prepare(const LinearMorpher& method, const AffineFields& field
 {
   this->clear();
   // The weight has no unit. In that of p, neither is rounding beside the other.
-  const double place = fields.rows() > 0 ? fields.rightCols<3>().cwiseAbs().maxCoeff() : 0;
+  const double place =
+    method.processes().maximum(fields.rows() > 0 ? fields.rightCols<3>().cwiseAbs().maxCoeff() : 0);
   const double unit = place > 0 && std::isfinite(place) ? std::exp2(std::ilogb(place)) : 1;
   AffineFields scaled = fields;
   scaled.col(0) *= unit;

@@ -26,8 +26,8 @@ class AffineModes
 {
 public:
   /// Solves for the four fields at once. `fields`: #prescribed x 4, finite, in the order of
-  /// NodePartition::prescribed. Cost: LinearMorpher::fields(), and 32 bytes a node. Throws Error as
-  /// that does.
+  /// NodePartition::prescribed. Collective where several processes have the method's mesh. Cost:
+  /// LinearMorpher::fields(), and 32 bytes a node. Throws Error as that does.
   void prepare(const LinearMorpher& method, const AffineFields& fields, Monitor& monitor);
   /// Forgets the fields.
   void clear();

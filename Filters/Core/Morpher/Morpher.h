@@ -95,6 +95,11 @@ public:
 
   const NodePartition& partition() const { return *this->partition_; }
   const Points& restPoints() const { return *this->rest_; }
+  /// Those that have parts of the mesh.
+  const Communicator& processes() const
+  {
+    return this->processes_ ? *this->processes_ : Communicator::alone();
+  }
 
 protected:
   virtual void doPrepare(const Mesh& rest, Monitor& monitor) = 0;
@@ -125,12 +130,6 @@ protected:
     method.prepare(rest, this->partition(), monitor, this->processes_);
   }
   ///@}
-
-  /// Those that have parts of the mesh.
-  const Communicator& processes() const
-  {
-    return this->processes_ ? *this->processes_ : Communicator::alone();
-  }
 
   /// The copies of all nodes, and those that count on another process, ascending.
   ///@{

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <sstream>
 #include <utility>
 
@@ -195,6 +196,39 @@ void holdUnnamed(const BoundaryFaces& outer, const Mesh& rest, double size, cons
     }
   }
 }
+}
+
+void gatherPoints(const Communicator& processes, NamedPoints& named)
+{
+  const Index own = named.positions.rows(), first = processes.sumBefore(own);
+  std::vector<double> pairs;
+  for (const auto& [point, node] : named.pairs)
+  {
+    pairs.insert(pairs.end(), { static_cast<double>(first + point), static_cast<double>(node) });
+  }
+  pairs = processes.gather(pairs);
+  named.pairs.clear();
+  for (std::size_t k = 0; k < pairs.size(); k += 2)
+  {
+    named.pairs.emplace_back(static_cast<Index>(pairs[k]), static_cast<Index>(pairs[k + 1]));
+  }
+  std::vector<double> isFree(named.isFree.begin(), named.isFree.end());
+  isFree.resize(static_cast<std::size_t>(own), 0);
+  isFree = processes.gather(isFree);
+  named.isFree.clear();
+  std::transform(isFree.begin(), isFree.end(), std::back_inserter(named.isFree),
+    [](double value) { return value != 0; });
+  for (Points* rows : { &named.positions, &named.rest, &named.displacements })
+  {
+    std::vector<double> flat(rows->data(), rows->data() + rows->size());
+    flat = processes.gather(flat);
+    *rows = Eigen::Map<const Points>(flat.data(), static_cast<Index>(flat.size() / 3), 3);
+  }
+  if (named.rest.rows() != named.positions.rows())
+  {
+    named.rest.resize(0, 3);
+  }
+  named.valueless = processes.sum(named.valueless);
 }
 
 BoundaryTargets findTargets(NamedPoints named, const Mesh& rest, const BoundaryFaces& outer,

@@ -371,7 +371,7 @@ EvaluateReport Session::evaluate(
     return this->method_->evaluate(targets, moved, monitor);
   }
   // Always, not from the second motion on: a result must not depend on what ran before.
-  if (!this->modes_.isPreparedFor(*linear, handle->fields))
+  if (!this->all().all(this->modes_.isPreparedFor(*linear, handle->fields)))
   {
     this->modes_.prepare(*linear, handle->fields, monitor);
   }

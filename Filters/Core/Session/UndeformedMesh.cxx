@@ -3,6 +3,7 @@
 
 #include "Mesh/CellShape.h"
 #include "Mesh/Extent.h"
+#include "Mesh/FacesOfCells.h"
 #include "Mesh/SharedCorners.h"
 #include "Morpher/BodyByBody.h"
 #include "Morpher/PolyhedralMorpher.h"
@@ -11,6 +12,7 @@
 #include "Support/Error.h"
 
 #include <algorithm>
+#include <numeric>
 #include <string>
 #include <utility>
 
@@ -21,11 +23,7 @@ UndeformedMesh::UndeformedMesh(Mesh given, const UndeformedMesh* sameCells, Moni
 {
   const Mesh& mesh = *this->mesh_;
   requireVolumeCells(mesh);
-  const ConnectedComponents bodies = connectedComponents(mesh, monitor);
-  this->orientation_ = cellSigns(mesh, bodies, monitor);
-  this->mirrored_ = morph::mirroredBodies(bodies, this->orientation_);
-  this->firstMirrored_ = std::find(this->orientation_.begin(), this->orientation_.end(), -1) -
-                         this->orientation_.begin();
+  this->findBodies(monitor);
   // Where nodes hang depends on the points.
   const bool hasOuter = sameCells && sameCells->hanging_.empty();
   this->outer_ = hasOuter ? sameCells->outer_ : boundaryFaces(mesh, this->hanging_, monitor);
@@ -33,45 +31,110 @@ UndeformedMesh::UndeformedMesh(Mesh given, const UndeformedMesh* sameCells, Moni
   if (sameCells)
   {
     this->repeated_ = sameCells->repeated_;
-  }
-  else if (std::find(mesh.types.begin(), mesh.types.end(), PolyVertex) != mesh.types.end())
-  {
-    this->repeated_ = morph::repeatedCells(mesh, monitor);
-  }
-  this->unmapped_ = sameCells ? sameCells->unmapped_ : morph::unmappedCells(mesh);
-  if (sameCells)
-  {
+    this->unmapped_ = sameCells->unmapped_;
     this->touching_ = sameCells->touching_;
-  }
-  else if (this->hanging_.empty())
-  {
-    this->touching_ = morph::touchingNodes(mesh, this->outer_);
   }
   else
   {
-    this->touching_ = morph::touchingNodes(this->hanging_.conforming(mesh), this->outer_);
+    if (std::find(mesh.types.begin(), mesh.types.end(), PolyVertex) != mesh.types.end())
+    {
+      this->repeated_ = morph::repeatedCells(mesh, monitor);
+    }
+    this->unmapped_ = morph::unmappedCells(mesh);
+    this->findTouching(this->outer_);
   }
   this->size_ = meshSize(mesh);
-  if (bodies.count > 1)
+}
+
+UndeformedMesh::UndeformedMesh(Part part, Monitor& monitor)
+  : mesh_(std::move(part.mesh))
+  , processes_(std::move(part.processes))
+  , hanging_(std::move(part.hanging))
+  , size_(part.size)
+  , needsPieces_(part.needsPieces)
+{
+  const Mesh& mesh = *this->mesh_;
+  const Communicator& processes = *this->processes_;
+  this->findBodies(monitor);
+  BoundaryFaces faces;
+  processes.together(
+    [&]
+    {
+      faces = facesOfOneCell(mesh, monitor);
+      if (!this->hanging_.empty())
+      {
+        faces = boundaryFaces(mesh, faces, this->hanging_);
+      }
+      this->repeated_ = morph::repeatedCells(mesh, monitor);
+      this->unmapped_ = morph::unmappedCells(mesh);
+      this->findTouching(faces);
+    });
+  this->repeated_ = processes.gatherCells(this->repeated_);
+  this->unmapped_ = processes.gatherCells(this->unmapped_);
+  this->touching_.erase(std::remove_if(this->touching_.begin(), this->touching_.end(),
+                          [&](Index node) { return !processes.owns(node); }),
+    this->touching_.end());
+  this->touching_ = processes.gatherNodes(this->touching_);
+  std::vector<std::uint8_t> isOwn(mesh.numberOfCells(), 0), isOfOwn(mesh.numberOfNodes(), 0);
+  for (Index c = 0; c < mesh.numberOfCells(); ++c)
+  {
+    isOwn[c] = !processes.isCopy(c);
+    for (Index k = 0; k < mesh.cellSize(c) && isOwn[c] != 0; ++k)
+    {
+      isOfOwn[mesh.cell(c)[k]] = 1;
+    }
+  }
+  this->outer_ = facesOfCells(mesh, faces, isOwn);
+  this->hanging_.divideEdges(this->outer_);
+  // All cells around a node of own cells are here, so that its faces are known.
+  Adjacency& between = this->outerNodes_.between;
+  between.offsets = { 0 };
+  for (std::size_t i = 0; i < faces.nodes.size(); ++i)
+  {
+    const Index k = static_cast<Index>(i);
+    if (isOfOwn[faces.nodes[i]] != 0)
+    {
+      this->outerNodes_.nodes.push_back(faces.nodes[i]);
+      between.add(faces.between.begin(k), faces.between.end(k));
+    }
+  }
+}
+
+void UndeformedMesh::findBodies(Monitor& monitor)
+{
+  const Mesh& mesh = *this->mesh_;
+  const Communicator& processes = this->all();
+  const ConnectedComponents bodies = connectedComponents(mesh, monitor, processes);
+  this->orientation_ = cellSigns(mesh, bodies, monitor, processes);
+  this->mirrored_ = morph::mirroredBodies(bodies, this->orientation_, processes);
+  if (this->mirrored_ > 0)
+  {
+    std::vector<Index> mirrored;
+    for (Index c = 0; c < mesh.numberOfCells(); ++c)
+    {
+      if (this->orientation_[c] < 0 && !processes.isCopy(c))
+      {
+        mirrored.push_back(c);
+      }
+    }
+    mirrored = processes.idsOfCells(mirrored);
+    constexpr double Most = 9e15; // above all ids
+    this->firstMirrored_ =
+      static_cast<Index>(processes.minimum(std::accumulate(mirrored.begin(), mirrored.end(), Most,
+        [](double least, Index id) { return std::min(least, static_cast<double>(id)); })));
+  }
+  if (bodies.count > 1 && !this->processes_)
   {
     this->bodyOfNode_ = bodyOfNodes(mesh, bodies);
   }
 }
 
-UndeformedMesh::UndeformedMesh(Part part)
-  : mesh_(std::move(part.mesh))
-  , processes_(std::move(part.processes))
-  , outer_(std::move(part.outer))
-  , hanging_(std::move(part.hanging))
-  , size_(part.size)
-  , orientation_(*this->processes_->orientation())
-  , mirrored_(part.mirroredBodies)
-  , firstMirrored_(part.firstMirrored)
-  , needsPieces_(part.needsPieces)
-  , repeated_(std::move(part.repeatedCells))
-  , touching_(std::move(part.touchingNodes))
-  , unmapped_(std::move(part.unmappedCells))
+void UndeformedMesh::findTouching(const BoundaryFaces& faces)
 {
+  const Mesh& mesh = *this->mesh_;
+  this->touching_ = this->hanging_.empty()
+                      ? morph::touchingNodes(mesh, faces)
+                      : morph::touchingNodes(this->hanging_.conforming(mesh), faces);
 }
 
 std::vector<Index> UndeformedMesh::prescribedFor(const std::vector<Index>& ids) const

@@ -29,26 +29,29 @@ public:
   /// points. Throws Error as requireVolumeCells(). Cost: the bodies, and the search of the outer
   /// faces unless `sameCells` has them.
   UndeformedMesh(Mesh mesh, const UndeformedMesh* sameCells, Monitor& monitor);
-  /// What processes know of a mesh of which each has a part, with copies of the cells around its
-  /// nodes.
+  /// What a process knows of a mesh of which several have parts, each with copies of the cells
+  /// around its nodes.
   struct Part
   {
     std::shared_ptr<const Mesh> mesh;
-    BoundaryFaces outer;      ///< faces of this process's own cells, outside the whole mesh
     HangingNodes hanging;     ///< of `mesh`
     bool needsPieces = false; ///< see needsPieces(); of the whole mesh
     double size = 0;          ///< of the whole mesh
-    Index mirroredBodies = 0, firstMirrored = 0;
-    std::vector<Index> repeatedCells, touchingNodes, unmappedCells; ///< of the whole mesh, ids
     std::shared_ptr<const Communicator> processes;
   };
-  /// Of several processes. Not collective.
-  explicit UndeformedMesh(Part part);
+  /// Of several processes. Collective. Cost: as above.
+  UndeformedMesh(Part part, Monitor& monitor);
   UndeformedMesh(const UndeformedMesh&) = delete;
 
   const Mesh& mesh() const { return *this->mesh_; }
   /// Of several processes, those of this process's own cells.
   const BoundaryFaces& outerFaces() const { return this->outer_; }
+  /// Their nodes and what is between them. Of several processes all nodes of this process's own
+  /// cells that are outside the whole mesh, and the faces are not those.
+  const BoundaryFaces& outerNodes() const
+  {
+    return this->processes_ ? this->outerNodes_ : this->outer_;
+  }
   const HangingNodes& hanging() const { return this->hanging_; }
   /// See meshSize().
   double size() const { return this->size_; }
@@ -86,9 +89,12 @@ public:
   const WholeBoundary& boundary() const;
 
 private:
+  void findBodies(Monitor& monitor);
+  void findTouching(const BoundaryFaces& faces);
+
   std::shared_ptr<const Mesh> mesh_ = std::make_shared<Mesh>();
   std::shared_ptr<const Communicator> processes_;
-  BoundaryFaces outer_;
+  BoundaryFaces outer_, outerNodes_;
   HangingNodes hanging_;
   std::vector<Index> bodyOfNode_; ///< see bodyOfNodes(); empty for a single body
   double size_ = 0;

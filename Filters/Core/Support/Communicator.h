@@ -67,6 +67,8 @@ public:
   double maximum(double value) const { return -this->minimum(-value); }
   bool all(bool value) const { return this->sum(Index(!value)) == 0; }
   ///@}
+  /// Returns the sum over the processes before this one.
+  virtual Index sumBefore(Index /*value*/) const { return 0; }
 
   /// Adds the nodes of this process of which another process has a copy in its `nodes`. The order
   /// changes where there are some.
@@ -91,6 +93,10 @@ public:
   virtual const std::vector<std::int8_t>* orientation() const { return nullptr; }
   /// Whether a cell is a copy of one that another process has. Not collective.
   virtual bool isCopy(Index /*cell*/) const { return false; }
+  /// Whether a node counts here: of those that have it one process does. Not collective.
+  virtual bool owns(Index /*node*/) const { return true; }
+  /// Gives copies of nodes the row of the process where the node counts. `rows`: #nodes x 3.
+  virtual void update(Points& /*rows*/) const {}
   /// Returns the numbers in the whole mesh of these of all processes, ascending. `nodes`: each is
   /// in the list of one process. Of cells, copies are left out.
   ///@{

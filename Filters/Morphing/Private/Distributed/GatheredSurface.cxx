@@ -39,7 +39,7 @@ constexpr const char* BodyName = "MorphBodyOfCell";
 /// The cells of the piece with an outer face, and its own two-dimensional cells.
 std::vector<Index> cellsOfSurface(const RankMesh& mesh)
 {
-  std::vector<Index> cells = mesh.Whole().outerFaces().cells;
+  std::vector<Index> cells = mesh.Rest()->outerFaces().cells;
   for (Index c = 0; c < mesh.Whole().pieceCells(); ++c)
   {
     if (mesh.Whole().isGhost()[c] == 0 && GridMesh::Dimension(mesh.Grid().types[c]) == 2)

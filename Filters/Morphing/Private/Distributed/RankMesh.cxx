@@ -4,15 +4,13 @@
 #include "Distributed/RankCommunicator.h"
 #include "Mesh/Extent.h"
 #include "Mesh/FacesOfCells.h"
-#include "Mesh/Polyhedra.h"
 #include "Morpher/SiteMethod.h"
 #include "Private/Data/Arrays.h"
 #include "Private/Data/GridMesh.h"
 #include "Private/Data/Surface.h"
 #include "Private/Distributed/OnRanks.h"
-#include "Private/Distributed/RankMatch.h"
 #include "Private/RankBlocks/GlobalRanks.h"
-#include "Quality/Certificate.h"
+#include "Private/RankBlocks/SharedCells.h"
 #include "Support/Error.h"
 
 #include <vtkCellData.h>
@@ -21,11 +19,10 @@
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
-#include <vtkUnsignedCharArray.h>
 #include <vtkUnstructuredGrid.h>
 
 #include <algorithm>
-#include <limits>
+#include <iterator>
 #include <string>
 #include <utility>
 
@@ -45,21 +42,6 @@ std::vector<std::int64_t> globalIds(vtkDataSetAttributes* data)
     }
   }
   return ids;
-}
-
-/// #cells: nonzero for copies of other processes' cells; empty where there are none.
-std::vector<std::uint8_t> ghostCells(vtkUnstructuredGrid* grid)
-{
-  std::vector<std::uint8_t> ghosts;
-  if (vtkUnsignedCharArray* types = grid->GetCellGhostArray())
-  {
-    ghosts.resize(types->GetNumberOfValues());
-    for (std::size_t c = 0; c < ghosts.size(); ++c)
-    {
-      ghosts[c] = types->GetValue(static_cast<vtkIdType>(c)) & vtkDataSetAttributes::DUPLICATECELL;
-    }
-  }
-  return ghosts;
 }
 }
 
@@ -97,7 +79,6 @@ bool RankMesh::Take(vtkUnstructuredGrid* grid, const std::string& method,
   }
   const bool isTaken = this->Take(grid, sample->layers(), GridMesh::UnknownCells::Refuse, monitor);
   this->RequireVolumeCells();
-  this->Rest(); // by all
   return isTaken;
 }
 
@@ -107,7 +88,7 @@ bool RankMesh::Take(
   const morph::distributed::Ranks& ranks = this->Processes;
   std::vector<std::int64_t> nodeIds = globalIds(grid->GetPointData());
   std::vector<std::int64_t> cellIds = globalIds(grid->GetCellData());
-  std::vector<std::uint8_t> ghosts = ghostCells(grid);
+  std::vector<std::uint8_t> ghosts = SharedCells::Ghosts(grid);
   const bool same = this->Distributed && this->Layers >= layers && nodeIds == this->NodeIds &&
                     cellIds == this->CellIds && ghosts == this->Ghosts &&
                     GridMesh::SameCells(grid, this->Copy) && GridMesh::SamePoints(grid, this->Copy);
@@ -115,6 +96,7 @@ bool RankMesh::Take(
   {
     return false;
   }
+  this->Layers = 0; // until all is made
   this->Distributed.reset();
   this->Undeformed.reset();
   ranks.together(
@@ -134,7 +116,7 @@ bool RankMesh::Take(
   morph::distributed::requireNodeIds(ranks, piece);
   morph::distributed::requireCellIds(ranks, piece);
   auto whole =
-    std::make_unique<morph::distributed::DistributedMesh>(ranks, std::move(piece), layers, monitor);
+    std::make_shared<morph::distributed::DistributedMesh>(ranks, std::move(piece), layers, monitor);
   const morph::Index cells = whole->pieceCells();
   this->Skip.assign(whole->isGhost().begin(), whole->isGhost().begin() + cells);
   const auto dimension = [this](morph::Index c)
@@ -145,19 +127,21 @@ bool RankMesh::Take(
     highest = std::max<morph::Index>(highest, dimension(c));
   }
   this->Dimension = static_cast<int>(ranks.maximum(highest));
-  this->Polyhedral = ranks.sum(morph::Index(morph::hasPolyhedra(this->Copy))) > 0;
   for (morph::Index c = 0; c < cells; ++c)
   {
     this->Skip[c] |= dimension(c) < this->Dimension;
   }
-  this->Polygons = {};
-  ranks.together(
-    [&] { this->Polygons.Make(grid, this->Copy, whole->facesOfPiece(), &whole->orientation()); });
   this->NodeIds = std::move(nodeIds);
   this->CellIds = std::move(cellIds);
   this->Ghosts = std::move(ghosts);
-  this->Layers = layers;
+  this->Undeformed = morph::distributed::undeformedMesh(whole, monitor);
   this->Distributed = std::move(whole);
+  this->Polygons = {};
+  ranks.together(
+    [&] {
+      this->Polygons.Make(grid, this->Copy, this->FacesOfPiece(), &this->Undeformed->orientation());
+    });
+  this->Layers = layers;
   return true;
 }
 
@@ -183,35 +167,26 @@ void RankMesh::SetFeatureLines(bool on, morph::Monitor& monitor)
     });
 }
 
-const std::shared_ptr<const morph::UndeformedMesh>& RankMesh::Rest() const
+morph::BoundaryFaces RankMesh::FacesOfPiece() const
 {
-  if (this->Undeformed)
+  const morph::BoundaryFaces& all = this->Undeformed->outerFaces();
+  const morph::Mesh& mesh = this->Whole().mesh();
+  if (this->Whole().hanging().empty())
   {
-    return this->Undeformed;
+    return all;
   }
-  const morph::distributed::DistributedMesh& whole = *this->Distributed;
-  morph::Index first = std::numeric_limits<morph::Index>::max();
-  for (morph::Index c = 0; c < whole.pieceCells(); ++c)
+  morph::BoundaryFaces faces =
+    morph::facesOfCells(mesh, all, std::vector<std::uint8_t>(mesh.types.size(), 1));
+  std::vector<morph::Index> offsets = { 0 }, connectivity;
+  for (std::size_t f = 0; f < all.cells.size(); ++f)
   {
-    if (whole.isGhost()[c] == 0 && whole.orientation()[c] < 0)
-    {
-      first = std::min<morph::Index>(first, whole.cellId(c));
-    }
+    std::copy_if(all.connectivity.begin() + all.offsets[f],
+      all.connectivity.begin() + all.offsets[f + 1], std::back_inserter(connectivity),
+      [this](morph::Index node) { return node < this->Whole().pieceNodes(); });
+    offsets.push_back(static_cast<morph::Index>(connectivity.size()));
   }
-  morph::UndeformedMesh::Part part;
-  part.mesh = std::shared_ptr<const morph::Mesh>(this->Distributed, &whole.mesh());
-  part.outer = whole.outerFaces();
-  part.hanging = whole.hanging();
-  part.needsPieces = this->Polyhedral || whole.hasHanging();
-  part.size = whole.size();
-  part.mirroredBodies = whole.mirroredBodies();
-  part.firstMirrored = this->Processes.minimum(first);
-  part.repeatedCells = whole.gatherCells(whole.repeatedCells());
-  part.touchingNodes = this->Processes.gatherSorted(whole.idsOfNodes(whole.touchingNodes()));
-  part.unmappedCells = whole.gatherCells(morph::unmappedCells(whole.mesh()));
-  part.processes = std::make_shared<morph::distributed::RankCommunicator>(whole);
-  this->Undeformed = std::make_shared<morph::UndeformedMesh>(std::move(part));
-  return this->Undeformed;
+  morph::setCorners(std::move(offsets), std::move(connectivity), faces);
+  return faces;
 }
 
 const morph::Points& RankMesh::OfGrid(const morph::Points& moved, morph::Points& memory) const
@@ -222,18 +197,11 @@ const morph::Points& RankMesh::OfGrid(const morph::Points& moved, morph::Points&
   return memory;
 }
 
-morph::BoundaryTargets RankMesh::Match(vtkPointSet* boundary, const BoundaryMatch::Options& options,
-  std::vector<BoundaryMatch::Follower>* followers) const
+BoundaryMatch::Nodes RankMesh::Nodes() const
 {
-  return RankMatch::Match(boundary, this->Whole(), options, followers);
-}
-
-void RankMesh::SendBack(const morph::BoundaryTargets& match,
-  const std::vector<BoundaryMatch::Follower>& followers, const morph::Points& prescribed,
-  vtkPointSet* boundary, vtkDoubleArray* result) const
-{
-  RankMatch::SendBack(
-    this->Processes, match.ids, prescribed, followers, boundary->GetNumberOfPoints(), result);
+  const morph::distributed::DistributedMesh& whole = this->Whole();
+  return { whole.mesh(), this->Undeformed->outerNodes(), whole.size(), &whole.nodeIds(),
+    [&whole](morph::Index id) { return whole.nodeOf(id); }, whole.pieceNodes() };
 }
 
 void RankMesh::RequireVolumeCells() const

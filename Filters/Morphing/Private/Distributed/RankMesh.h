@@ -37,22 +37,19 @@ public:
 
   const morph::distributed::Ranks& Ranks() const { return this->Processes; }
   const morph::distributed::DistributedMesh& Whole() const { return *this->Distributed; }
-  const std::shared_ptr<const morph::UndeformedMesh>& Rest() const override;
+  const std::shared_ptr<const morph::UndeformedMesh>& Rest() const override
+  {
+    return this->Undeformed;
+  }
+  /// Rest()->outerFaces(), with edges that are divided by nodes of the piece alone. Not collective.
+  morph::BoundaryFaces FacesOfPiece() const;
   const morph::Mesh& Grid() const override { return this->Copy; }
   const std::vector<std::uint8_t>& Unmeasured() const override { return this->Skip; }
   /// Of the whole mesh.
   int HighestDimension() const { return this->Dimension; }
-  bool Owns(morph::Index node) const override { return this->Whole().owns(node); }
   const morph::Points& OfGrid(const morph::Points& moved, morph::Points& memory) const override;
 
-  /// See RankMatch.
-  ///@{
-  morph::BoundaryTargets Match(vtkPointSet* boundary, const BoundaryMatch::Options& options,
-    std::vector<BoundaryMatch::Follower>* followers) const override;
-  void SendBack(const morph::BoundaryTargets& match,
-    const std::vector<BoundaryMatch::Follower>& followers, const morph::Points& prescribed,
-    vtkPointSet* boundary, vtkDoubleArray* result) const override;
-  ///@}
+  BoundaryMatch::Nodes Nodes() const override;
 
   /// Not collective.
   ///@{
@@ -66,10 +63,9 @@ private:
   std::vector<std::int64_t> NodeIds, CellIds; ///< as they came, or empty
   std::vector<std::uint8_t> Ghosts;
   int Layers = 0, Dimension = 0;
-  bool Polyhedral = false;
   std::shared_ptr<morph::distributed::DistributedMesh> Distributed;
   std::vector<std::uint8_t> Skip;
-  mutable std::shared_ptr<const morph::UndeformedMesh> Undeformed; ///< or null
+  std::shared_ptr<const morph::UndeformedMesh> Undeformed; ///< of Distributed
 };
 
 /// Replaces the values of an array of `count` ids, if it is there, but for negative ones.

@@ -16,7 +16,7 @@ void ExtractBoundary(vtkUnstructuredGrid* grid, vtkPolyData* output, morph::Moni
   mesh.Take(grid, 1, GridMesh::UnknownCells::Refuse, monitor);
   mesh.RequireVolumeCells();
   const morph::distributed::Ranks& ranks = mesh.Ranks();
-  const morph::BoundaryFaces faces = mesh.Whole().facesOfPiece();
+  const morph::BoundaryFaces faces = mesh.FacesOfPiece();
   if (ranks.sum(static_cast<morph::Index>(faces.cells.size())) == 0 && ranks.rank() == 0)
   {
     Surface::WarnOfNone(faces, monitor);
@@ -36,6 +36,6 @@ std::pair<Quality::Measured, morph::Index> Measure(vtkUnstructuredGrid* grid, bo
   const Quality::Part part = { mesh.Grid(), whole.mesh(), whole.orientation(), mesh.Unmeasured(),
     mesh.HighestDimension(), processes };
   return { Quality::MeasureAll(part, certified, criteria, grid, output, monitor),
-    whole.mirroredBodies() };
+    mesh.Rest()->mirroredBodies() };
 }
 }

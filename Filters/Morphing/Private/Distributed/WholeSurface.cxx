@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Private/Distributed/WholeSurface.h"
 
+#include "Distributed/RankCommunicator.h"
 #include "Private/Data/Arrays.h"
 #include "Private/Data/GridMesh.h"
 #include "Private/Data/Surface.h"
 #include "Private/Distributed/GatherData.h"
 #include "Private/Distributed/GatheredSurface.h"
-#include "Private/Distributed/RankMatch.h"
 #include "Private/Distributed/RankMesh.h"
 #include "Private/Distributed/WholeVolume.h"
 #include "Private/RankBlocks/GlobalRanks.h"
@@ -143,15 +143,17 @@ std::vector<Index> GatheredBoundary::Places() const
 morph::BoundaryTargets GatheredBoundary::Match(
   vtkPointSet* boundary, const BoundaryMatch::Options& options) const
 {
-  RankMatch::Gathered gathered = RankMatch::Gather(boundary, this->Whole(), options);
+  const morph::distributed::RankCommunicator processes(this->Whole());
+  BoundaryMatch::Gathered gathered =
+    BoundaryMatch::Gather(boundary, this->Own.Nodes(), processes, options);
   morph::BoundaryTargets result;
-  this->Own.Ranks().together(
+  processes.together(
     [&]
     {
       Index rounded = 0;
-      const auto nodeOf = [this](std::int64_t id) { return this->Surface.NodeOf(id); };
-      result = RankMatch::TargetsOf(gathered,
-        { this->Surface.Shell, this->Surface.Faces, this->Size(), this->Surface.NodeIds, nodeOf },
+      const auto nodeOf = [this](Index id) { return this->Surface.NodeOf(id); };
+      result = BoundaryMatch::TargetsOf(gathered,
+        { this->Surface.Shell, this->Surface.Faces, this->Size(), &this->Surface.NodeIds, nodeOf },
         options, rounded);
       BoundaryMatch::Conclude(this->Size(), options, gathered.PointPrecision, rounded, result);
     });

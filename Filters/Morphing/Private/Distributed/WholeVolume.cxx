@@ -2,31 +2,14 @@
 #include "Private/Distributed/WholeVolume.h"
 
 #include "Boundary/WallLayers.h"
-#include "Distributed/RankCommunicator.h"
-#include "LinearMethods/SlidingWarp.h"
-#include "Mesh/NodePartition.h"
-#include "Mesh/Polyhedra.h"
-#include "Morpher/PolyhedralMorpher.h"
 #include "Private/Distributed/RankMesh.h"
 
 #include <algorithm>
-#include <memory>
-#include <utility>
 
 namespace morph::filters
 {
 using morph::Index;
 using morph::distributed::DistributedMesh;
-
-namespace
-{
-morph::NodePartition partitionOf(const DistributedMesh& mesh, const std::vector<Index>& prescribed)
-{
-  morph::NodePartition partition;
-  mesh.ranks().together([&] { partition = morph::partitionNodes(mesh.mesh(), prescribed); });
-  return partition;
-}
-}
 
 WholeVolume::WholeVolume(const WholeSurface& surface)
   : Surface(surface)
@@ -38,25 +21,40 @@ const morph::Mesh& WholeVolume::piece() const
   return this->Surface.Pieces().Grid();
 }
 
+const morph::Mesh& WholeVolume::mesh() const
+{
+  return this->Surface.Pieces().Whole().mesh();
+}
+
+const std::shared_ptr<const morph::Communicator>& WholeVolume::processes() const
+{
+  return this->Surface.Pieces().Rest()->processes();
+}
+
+Index WholeVolume::nodeOf(Index node) const
+{
+  return this->Surface.Pieces().Whole().nodeOf(this->Surface.Boundary().NodeIds[node]);
+}
+
 InnerPieces::Flags WholeVolume::anyFlags(const Flags& ofPiece) const
 {
   const DistributedMesh& mesh = this->Surface.Pieces().Whole();
-  std::vector<std::int64_t> isUnmarked(mesh.mesh().numberOfNodes(), 1);
-  // By ids: ghost cells of the piece may have points of their own.
-  const auto nodeOf = [&](std::size_t point)
-  { return mesh.nodeOf(mesh.nodeId(static_cast<Index>(point))); };
+  std::vector<Index> nodes;
   for (std::size_t n = 0; n < ofPiece.size(); ++n)
   {
-    if (ofPiece[n] != 0)
+    if (ofPiece[n] != 0) // by ids: ghost cells of the piece may have points of their own
     {
-      isUnmarked[nodeOf(n)] = 0;
+      nodes.push_back(mesh.nodeOf(mesh.nodeId(static_cast<Index>(n))));
     }
   }
-  mesh.halo().minimum(mesh.ranks(), isUnmarked);
+  this->Surface.Pieces().All().spread(nodes);
   Flags result(mesh.pieceNodes(), 0);
-  for (std::size_t n = 0; n < result.size(); ++n)
+  for (const Index node : nodes)
   {
-    result[n] = isUnmarked[nodeOf(n)] == 0;
+    if (node < mesh.pieceNodes())
+    {
+      result[node] = 1;
+    }
   }
   return result;
 }
@@ -64,11 +62,6 @@ InnerPieces::Flags WholeVolume::anyFlags(const Flags& ofPiece) const
 void WholeVolume::together(const std::function<void()>& work) const
 {
   this->Surface.Together(work);
-}
-
-bool WholeVolume::anywhere(bool here) const
-{
-  return this->Surface.Pieces().Ranks().sum(Index(here)) > 0;
 }
 
 InnerPieces::Flags WholeVolume::nodeFlags(const Flags& ofPiece) const
@@ -79,7 +72,7 @@ InnerPieces::Flags WholeVolume::nodeFlags(const Flags& ofPiece) const
 std::vector<Index> WholeVolume::ownInner(const Flags& ofPiece) const
 {
   const DistributedMesh& mesh = this->Surface.Pieces().Whole();
-  const std::vector<Index>& outer = mesh.outerNodes().nodes;
+  const std::vector<Index>& outer = this->Surface.Pieces().Rest()->outerNodes().nodes;
   std::vector<Index> points;
   for (Index n = 0; n < static_cast<Index>(ofPiece.size()); ++n)
   {
@@ -109,7 +102,7 @@ InnerPieces::Columns WholeVolume::findLayers(
   };
   Columns columns;
   std::vector<Pair> outer;
-  const std::vector<Index>& nodes = mesh.outerNodes().nodes;
+  const std::vector<Index>& nodes = rest.outerNodes().nodes;
   for (std::size_t i = 0; i < layers.walls.size(); ++i)
   {
     const auto column = static_cast<Index>(i);
@@ -131,86 +124,5 @@ InnerPieces::Columns WholeVolume::findLayers(
       this->Surface.Boundary().NodeOf(pair.node), this->Surface.Boundary().NodeOf(pair.wall));
   }
   return columns;
-}
-
-std::vector<Index> WholeVolume::Place(const Prescribed& given, morph::Points& places) const
-{
-  const DistributedMesh& mesh = this->Surface.Pieces().Whole();
-  std::vector<Index> prescribed = given.points;
-  places = mesh.mesh().points;
-  places(prescribed, morph::allColumns) = given.pointPlaces;
-  for (std::size_t i = 0; i < given.nodes.size(); ++i)
-  {
-    const Index node = mesh.nodeOf(this->Surface.Boundary().NodeIds[given.nodes[i]]);
-    if (node >= 0)
-    {
-      prescribed.push_back(node);
-      places.row(node) = given.nodePlaces.row(static_cast<Index>(i));
-    }
-  }
-  morph::distributed::RankCommunicator(mesh).spread(prescribed);
-  mesh.halo().update(mesh.ranks(), places);
-  return prescribed;
-}
-
-InnerPieces::Moved WholeVolume::warp(
-  const Prescribed& given, const Flags& ofPiece, morph::Monitor& monitor) const
-{
-  const DistributedMesh& mesh = this->Surface.Pieces().Whole();
-  morph::Points places;
-  const std::vector<Index> prescribed = this->Place(given, places);
-  const auto processes = std::make_shared<morph::distributed::RankCommunicator>(mesh);
-  std::unique_ptr<morph::Morpher> method = std::make_unique<morph::FemWarp>();
-  if (this->anywhere(morph::hasPolyhedra(this->piece())))
-  {
-    method = morph::morpherForPolyhedra(std::move(method));
-  }
-  method->prepare(mesh.mesh(), partitionOf(mesh, prescribed), monitor, processes);
-  morph::Points moved;
-  method->evaluate(places(prescribed, morph::allColumns), moved, monitor);
-  std::vector<Index> flagged;
-  for (Index n = 0; n < static_cast<Index>(ofPiece.size()); ++n)
-  {
-    if (ofPiece[n] != 0)
-    {
-      flagged.push_back(n);
-    }
-  }
-  return { processes->gather(mesh.mesh().points, flagged), processes->gather(moved, flagged) };
-}
-
-std::vector<morph::NodeSliding::Round> WholeVolume::slide(const Prescribed& given,
-  const std::vector<Index>& sliding, const morph::NodeSliding::Surfaces& surfaces,
-  const morph::NodeSliding::Limits& limits, morph::Points& places, morph::Monitor& monitor) const
-{
-  const DistributedMesh& mesh = this->Surface.Pieces().Whole();
-  morph::Points moved;
-  const std::vector<Index> prescribed = this->Place(given, moved);
-  std::vector<std::pair<Index, Index>> local; // node of the distributed mesh, index
-  for (std::size_t i = 0; i < sliding.size(); ++i)
-  {
-    const Index node = mesh.nodeOf(this->Surface.Boundary().NodeIds[sliding[i]]);
-    if (node >= 0)
-    {
-      local.emplace_back(node, static_cast<Index>(i));
-      moved.row(node) = places.row(static_cast<Index>(i));
-    }
-  }
-  std::sort(local.begin(), local.end());
-  std::vector<Index> nodes;
-  for (const auto& [node, index] : local)
-  {
-    nodes.push_back(node);
-  }
-  const auto processes = std::make_shared<morph::distributed::RankCommunicator>(mesh);
-  morph::SlidingWarp method;
-  method.prepare(mesh.mesh(), partitionOf(mesh, prescribed), monitor, processes);
-  const morph::NodeSliding::Surfaces ofLocal = { [&](Index i, const morph::NodeSliding::Row& x)
-    { return surfaces.directions(local[i].second, x); },
-    [&](Index i, const morph::NodeSliding::Row& x)
-    { return surfaces.closest(local[i].second, x); } };
-  const auto done = method.slide(nodes, ofLocal, limits, moved, monitor);
-  places = processes->gather(moved, nodes); // in the order of the nodes' ids, as `sliding` is
-  return done;
 }
 }

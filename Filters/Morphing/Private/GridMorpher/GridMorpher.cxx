@@ -110,10 +110,10 @@ std::string GridMorpher::Morph(vtkUnstructuredGrid* grid, vtkDataObject* boundar
       const double fraction = motion.Steps.Any() ? motion.Steps.Fraction(motion.Step) : 1;
       const morph::BoundaryTargets match = this->Match(displaced, fraction, options, morphing);
       std::optional<morph::Session::AffineHandle> handle;
-      if (options.Matching.displacementArray.empty() && !isDistributed)
+      if (options.Matching.displacementArray.empty())
       {
-        handle = BoundaryMatch::FindHandle(displaced, match, kept.Grid(),
-          options.Matching.scaleFactor * fraction, Output::IsFloat(grid, precision));
+        handle = BoundaryMatch::FindHandle(displaced, match, kept.Rest()->mesh(),
+          options.Matching.scaleFactor * fraction, Output::IsFloat(grid, precision), kept.All());
       }
       result = single = this->Session.morph(match, options, morphing, handle ? &*handle : nullptr);
     }
@@ -182,8 +182,7 @@ void GridMorpher::NoteEffort()
 }
 
 morph::BoundaryTargets GridMorpher::Match(vtkPointSet* boundary, double fraction,
-  const MotionOptions& options, morph::Monitor& monitor,
-  std::vector<BoundaryMatch::Follower>* followers) const
+  const MotionOptions& options, morph::Monitor& monitor, BoundaryMatch::Followers* followers) const
 {
   BoundaryMatch::Options matching = options.Matching;
   matching.scaleFactor *= fraction;
@@ -246,7 +245,7 @@ void GridMorpher::Transpose(vtkUnstructuredGrid* rest, vtkDataObject* boundary, 
           kept.Grid().numberOfNodes(), [&](morph::Index node) { return kept.Owns(node); });
       }
     });
-  std::vector<BoundaryMatch::Follower> followers;
+  BoundaryMatch::Followers followers;
   const morph::BoundaryTargets match = this->Match(displaced, 1, options, monitor, &followers);
   morph::requirePlane(match);
   const morph::Points prescribed =
@@ -259,7 +258,7 @@ void GridMorpher::Transpose(vtkUnstructuredGrid* rest, vtkDataObject* boundary, 
       .warn("`PostSmooth` or `Validity` changes the mesh after the method has made it; the "
             "gradient is that of the method alone.");
   }
-  kept.SendBack(
-    match, followers, options.Matching.scaleFactor * prescribed, displaced, boundaryGradient);
+  BoundaryMatch::SendBack(
+    followers, options.Matching.scaleFactor * prescribed, all, displaced, boundaryGradient);
 }
 }

@@ -83,7 +83,7 @@ private:
   void NoteEffort();
   /// Matches the boundary, for that fraction of its motion.
   morph::BoundaryTargets Match(vtkPointSet* boundary, double fraction, const MotionOptions& options,
-    morph::Monitor& monitor, std::vector<BoundaryMatch::Follower>* followers = nullptr) const;
+    morph::Monitor& monitor, BoundaryMatch::Followers* followers = nullptr) const;
   std::shared_ptr<const morph::StepResult> MorphSeries(vtkPointSet* displaced, const Motion& motion,
     const MotionOptions& options, morph::Monitor& monitor);
 };

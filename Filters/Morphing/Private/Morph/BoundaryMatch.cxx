@@ -4,9 +4,11 @@
 #include "Mesh/Extent.h"
 #include "Private/Data/AffineArrays.h"
 #include "Private/Data/DataCheck.h"
+#include "Private/Data/Gradient.h"
 #include "Private/Data/GridMesh.h"
 #include "Private/Data/Surface.h"
 #include "Support/Error.h"
+#include "Support/Lists.h"
 
 #include <vtkAbstractArray.h>
 #include <vtkCellArray.h>
@@ -26,8 +28,10 @@
 #include <cmath>
 #include <cstdint>
 #include <iomanip>
+#include <iterator>
 #include <limits>
 #include <map>
+#include <set>
 #include <sstream>
 #include <tuple>
 #include <utility>
@@ -229,89 +233,16 @@ void findNeighbors(const morph::Mesh& mesh, std::map<Index, double>& nearest)
   }
 }
 
-/// `named`: without its pairs; gets the number of unmatched points.
-Pairs findNodes(vtkPointSet* boundary, const morph::Mesh& rest, const std::vector<Index>& outer,
-  double tolerance, const BoundaryMatch::Options& options, morph::NamedPoints& named,
-  std::vector<std::string>& warnings)
-{
-  const Points& positions = named.positions;
-  const Index nodes = rest.numberOfNodes();
-  const Index own = rest.layer.nodes > 0 ? rest.layer.nodes : nodes; // without images
-  const auto verified = [&](Pairs pairs)
-  {
-    if (!boundary->GetPointData()->HasArray(Surface::RestName)) // which FindTargets() verifies
-    {
-      requireCellsOfMesh(boundary, pairs, rest);
-    }
-    return pairs;
-  };
-  if (vtkDataArray* ids = BoundaryMatch::FindIds(boundary, options))
-  {
-    return verified(BoundaryMatch::FindByIds(ids, nodes));
-  }
-  if (positions.rows() == own)
-  {
-    // A warped copy of the grid: its interior says nothing about the boundary.
-    Pairs pairs;
-    pairs.reserve(outer.size());
-    for (Index node : outer)
-    {
-      if (node < own)
-      {
-        pairs.emplace_back(node, node);
-      }
-    }
-    return verified(std::move(pairs));
-  }
-  if (vtkDataArray* ids = findArray(boundary, "PointIds"))
-  {
-    Pairs pairs = BoundaryMatch::FindByIds(ids, nodes);
-    warnOfInteriorNodes(ids, pairs, outer, warnings);
-    return verified(std::move(pairs));
-  }
-  if (vtkDataArray* ids = findArray(boundary, "vtkOriginalPointIds"))
-  {
-    Pairs pairs = BoundaryMatch::FindByIds(ids, nodes);
-    warnOfInteriorNodes(ids, pairs, outer, warnings);
-    warnings.emplace_back(
-      "The boundary's points are matched by 'vtkOriginalPointIds', which filters pass on even "
-      "where "
-      "it numbers the points of another data set. Extract Morph Boundary writes ids that can be "
-      "checked.");
-    return verified(std::move(pairs));
-  }
-  if (!options.displacementArray.empty())
-  {
-    Pairs pairs = BoundaryMatch::FindByPosition(positions, rest, outer, tolerance, named.unmatched);
-    if (pairs.empty())
-    {
-      throw Error("None of the boundary's " + std::to_string(positions.rows()) +
-                  " points is within `MatchTolerance` (" + text(options.matchTolerance) +
-                  " of the grid's size) of a node of the grid. Where a `DisplacementArray` is set, "
-                  "the points "
-                  "have to be undeformed.");
-    }
-    return pairs;
-  }
-  throw Error("Nothing says which nodes the boundary's " + std::to_string(positions.rows()) +
-              " points are (the grid has " + std::to_string(own) +
-              " points): there is no point array MorphPointId, PointIds or vtkOriginalPointIds; " +
-              pointArrays(boundary) +
-              ". Make the boundary with Extract Morph Boundary, or set `BoundaryIdArray`, or give "
-              "undeformed points with a `DisplacementArray`.");
-}
-}
-
-namespace BoundaryMatch
-{
-vtkDataArray* FindIds(vtkPointSet* boundary, const Options& options)
+/// The boundary's array of node ids that comes first, or null: BoundaryIdArray, MorphPointId.
+vtkDataArray* findIds(vtkPointSet* boundary, const BoundaryMatch::Options& options)
 {
   return options.BoundaryIdArray.empty()
            ? findArray(boundary, Surface::IdName)
            : requireArray(boundary, options.BoundaryIdArray, "BoundaryIdArray", 1);
 }
 
-Pairs FindByIds(vtkDataArray* ids, Index nodes)
+/// Pairs of a point and its id; ids lie between 0 and `nodes` - 1.
+Pairs pairsOf(vtkDataArray* ids, Index nodes)
 {
   const std::string name = quoted(ids->GetName());
   if (ids->GetNumberOfComponents() != 1)
@@ -356,7 +287,8 @@ Pairs FindByIds(vtkDataArray* ids, Index nodes)
   return pairs;
 }
 
-Pairs FindByPosition(const Points& positions, const morph::Mesh& rest,
+/// Pairs of a point and its node, by position; `unmatched` counts the points without one.
+Pairs findByPosition(const Points& positions, const morph::Mesh& rest,
   const std::vector<Index>& outer, double tolerance, Index& unmatched)
 {
   vtkNew<vtkDoubleArray> coordinates;
@@ -439,7 +371,9 @@ Pairs FindByPosition(const Points& positions, const morph::Mesh& rest,
   return pairs;
 }
 
-morph::NamedPoints ReadPoints(vtkPointSet* boundary, const Options& options, Precision& precision)
+/// All of NamedPoints but its pairs. `precision`: gets that of the points if they are the targets.
+morph::NamedPoints readPoints(
+  vtkPointSet* boundary, const BoundaryMatch::Options& options, Precision& precision)
 {
   morph::NamedPoints named;
   named.positions = GridMesh::FromPoints(boundary->GetPoints());
@@ -476,7 +410,9 @@ morph::NamedPoints ReadPoints(vtkPointSet* boundary, const Options& options, Pre
   return named;
 }
 
-Index TakeBackRounding(
+/// Puts coordinates back that differ from those of `rest` by their rounding alone. Returns their
+/// number.
+Index takeBackRounding(
   const Precision& precision, const morph::Mesh& rest, morph::NamedPoints& named)
 {
   Index rounded = 0;
@@ -501,6 +437,380 @@ Index TakeBackRounding(
   return rounded;
 }
 
+/// How many points a copy of the grid, or of this process's piece, has.
+Index pointsOf(const BoundaryMatch::Nodes& nodes)
+{
+  const Index front = nodes.Rest.layer.nodes; // without images
+  return nodes.Ids ? nodes.Points : front > 0 ? front : nodes.Rest.numberOfNodes();
+}
+
+/// Leaves these points, whose pairs have the new numbers.
+void keepPoints(const std::vector<Index>& points, morph::NamedPoints& named)
+{
+  for (Points* rows : { &named.positions, &named.rest, &named.displacements })
+  {
+    if (rows->rows() > 0)
+    {
+      *rows = Points((*rows)(points, morph::allColumns));
+    }
+  }
+  std::vector<std::uint8_t> isFree;
+  for (const Index point : points)
+  {
+    isFree.push_back(named.isFree.empty() ? 0 : named.isFree[point]);
+  }
+  named.isFree.swap(isFree);
+}
+
+/// How points find their nodes. All processes with points agree on it.
+enum class Way
+{
+  None, ///< this process has no points
+  Ids,
+  Copies, ///< point i is node i of the process's piece
+  Positions
+};
+
+constexpr Index MostIds = Index(1) << 52; // of a mesh of which this process has a part
+
+/// How the points of this process find their nodes; adds their pairs to `gathered`, unless by
+/// positions. `areCopies`: each process has as many points as its piece.
+Way findWay(vtkPointSet* boundary, const BoundaryMatch::Nodes& nodes, bool areCopies,
+  const BoundaryMatch::Options& options, BoundaryMatch::Gathered& gathered)
+{
+  const bool isPart = nodes.Ids != nullptr;
+  const Index most = isPart ? MostIds : nodes.Rest.numberOfNodes(), own = pointsOf(nodes);
+  Pairs& pairs = gathered.Points.pairs;
+  const auto verify = [&]
+  {
+    if (!isPart &&
+        !boundary->GetPointData()->HasArray(Surface::RestName)) // else findTargets() does
+    {
+      requireCellsOfMesh(boundary, pairs, nodes.Rest);
+    }
+  };
+  if (vtkDataArray* ids = findIds(boundary, options))
+  {
+    pairs = pairsOf(ids, most);
+    verify();
+    return Way::Ids;
+  }
+  if (areCopies)
+  {
+    // A warped copy of the grid: its interior says nothing about the boundary.
+    pairs.reserve(nodes.Outer.nodes.size());
+    for (const Index node : nodes.Outer.nodes)
+    {
+      if (node < own)
+      {
+        pairs.emplace_back(node, isPart ? (*nodes.Ids)[node] : node);
+      }
+    }
+    verify();
+    return Way::Copies;
+  }
+  for (const std::string name : { "PointIds", "vtkOriginalPointIds" })
+  {
+    vtkDataArray* ids = findArray(boundary, name);
+    if (!ids)
+    {
+      continue;
+    }
+    if (isPart)
+    {
+      throw Error("On several MPI ranks the point array '" + name +
+                  "' may number each rank's points. Name it as `BoundaryIdArray` if its ids are "
+                  "global, or make the boundary with Extract Morph Boundary.");
+    }
+    pairs = pairsOf(ids, most);
+    warnOfInteriorNodes(ids, pairs, nodes.Outer.nodes, gathered.Warnings);
+    if (name != "PointIds")
+    {
+      gathered.Warnings.emplace_back(
+        "The boundary's points are matched by 'vtkOriginalPointIds', which filters pass on even "
+        "where "
+        "it numbers the points of another data set. Extract Morph Boundary writes ids that can be "
+        "checked.");
+    }
+    verify();
+    return Way::Ids;
+  }
+  if (options.displacementArray.empty())
+  {
+    throw Error(
+      "Nothing says which nodes the boundary's " + std::to_string(boundary->GetNumberOfPoints()) +
+      " points are (the grid has " + std::to_string(own) +
+      " points): there is no point array MorphPointId, PointIds or vtkOriginalPointIds; " +
+      pointArrays(boundary) +
+      ". Make the boundary with Extract Morph Boundary, or set `BoundaryIdArray`, or give "
+      "undeformed points with a `DisplacementArray`.");
+  }
+  return Way::Positions;
+}
+
+/// The way that all processes with points take.
+Way agree(Way mine, const morph::Communicator& processes)
+{
+  const auto value = static_cast<double>(mine);
+  const double most = processes.maximum(value),
+               least = processes.minimum(mine == Way::None ? HUGE_VAL : value);
+  if (most == static_cast<double>(Way::None))
+  {
+    throw Error("The boundary has no points, so nothing says where the mesh goes.");
+  }
+  if (most != least)
+  {
+    throw Error("The boundary's points have ids on some MPI ranks and not on others. Make it with "
+                "Extract Morph Boundary on all.");
+  }
+  return static_cast<Way>(static_cast<int>(most));
+}
+
+/// That of all processes' points.
+Precision together(const Precision& mine, const morph::Communicator& processes)
+{
+  Precision all;
+  all.IsFloat = processes.maximum(double(mine.IsFloat)) > 0;
+  all.IsSingle = processes.minimum(double(mine.IsSingle)) > 0;
+  all.Digits = static_cast<int>(processes.maximum(double(mine.Digits)));
+  all.Largest = processes.maximum(mine.Largest);
+  return all;
+}
+
+/// The points that no process finds a node for. `pairs`: of this process.
+std::vector<Index> unknownPoints(
+  Index points, const Pairs& pairs, const morph::Communicator& processes)
+{
+  std::vector<double> known(static_cast<std::size_t>(points), 0);
+  for (const auto& [point, node] : pairs)
+  {
+    known[point] = 1;
+  }
+  processes.sum(known.data(), static_cast<int>(points));
+  std::vector<Index> unknown;
+  for (Index point = 0; point < points; ++point)
+  {
+    if (known[point] == 0)
+    {
+      unknown.push_back(point);
+    }
+  }
+  return unknown;
+}
+
+/// The points that the nodes of this process follow. `isFree`: of the points, or empty.
+BoundaryMatch::Followers followersOf(const BoundaryMatch::Gathered& gathered,
+  const std::vector<std::uint8_t>& isFree, const morph::BoundaryTargets& match,
+  const morph::Communicator& processes)
+{
+  BoundaryMatch::Followers result;
+  result.Points = match.points;
+  result.Own = gathered.Own;
+  result.First = gathered.First;
+  const std::vector<double> starts = processes.gather({ static_cast<double>(gathered.First) });
+  std::set<std::pair<std::ptrdiff_t, Index>> met; // processes and nodes
+  const auto add = [&](Index k, Index point)
+  {
+    const auto after = std::upper_bound(starts.begin(), starts.end(), static_cast<double>(point));
+    if (met.emplace(after - starts.begin(), match.ids[k]).second)
+    {
+      result.Pairs.emplace_back(k, point);
+    }
+  };
+  const auto isFollowed = [&](std::size_t k)
+  { return k < match.ids.size() && match.sources[k] >= 0 && processes.owns(match.ids[k]); };
+  for (std::size_t k = 0; k < match.ids.size(); ++k)
+  {
+    if (isFollowed(k))
+    {
+      add(static_cast<Index>(k), match.sources[k]);
+    }
+  }
+  for (const auto& [point, node] : gathered.Points.pairs) // those of other processes
+  {
+    const Index k = std::lower_bound(match.ids.begin(), match.ids.end(), node) - match.ids.begin();
+    if (isFollowed(k) && match.ids[k] == node && (isFree.empty() || isFree[point] == 0))
+    {
+      add(k, point);
+    }
+  }
+  std::sort(result.Pairs.begin(), result.Pairs.end());
+  return result;
+}
+
+/// What the processes find where nodes count, for all nodes of this one.
+void takeOwners(
+  const morph::Mesh& rest, const morph::Communicator& processes, morph::BoundaryTargets& result)
+{
+  Points targets = rest.points, marks = Points::Zero(rest.numberOfNodes(), 3);
+  targets(result.ids, morph::allColumns) = result.targets;
+  for (std::size_t i = 0; i < result.ids.size(); ++i)
+  {
+    marks.row(result.ids[i]) << 1, static_cast<double>(result.sources[i]), 0;
+  }
+  processes.update(targets);
+  processes.update(marks);
+  result.ids.clear();
+  result.sources.clear();
+  for (Index node = 0; node < marks.rows(); ++node)
+  {
+    if (marks(node, 0) != 0)
+    {
+      result.ids.push_back(node);
+      result.sources.push_back(static_cast<Index>(marks(node, 1)));
+    }
+  }
+  result.targets = targets(result.ids, morph::allColumns);
+}
+}
+
+namespace BoundaryMatch
+{
+Gathered Gather(vtkPointSet* boundary, const Nodes& nodes, const morph::Communicator& processes,
+  const Options& options)
+{
+  Gathered result;
+  morph::NamedPoints& named = result.Points;
+  Precision precision;
+  Way way = Way::None;
+  const bool areCopies = processes.all(boundary->GetNumberOfPoints() == pointsOf(nodes));
+  processes.together(
+    [&]
+    {
+      if (boundary->GetNumberOfPoints() > 0)
+      {
+        named = readPoints(boundary, options, precision);
+        way = findWay(boundary, nodes, areCopies, options, result);
+      }
+    });
+  result.ByPosition = agree(way, processes) == Way::Positions;
+  result.PointPrecision = together(precision, processes);
+  result.Own = morph::consecutive(static_cast<std::size_t>(named.positions.rows()));
+  if (!nodes.Ids)
+  {
+    return result;
+  }
+  if (way == Way::Copies) // the inner points need not travel
+  {
+    result.Own.clear();
+    for (auto& pair : named.pairs)
+    {
+      result.Own.push_back(pair.first);
+      pair.first = static_cast<Index>(result.Own.size()) - 1;
+    }
+    keepPoints(result.Own, named);
+  }
+  result.First = processes.sumBefore(named.positions.rows());
+  morph::gatherPoints(processes, named);
+  Pairs here;
+  std::copy_if(named.pairs.begin(), named.pairs.end(), std::back_inserter(here),
+    [&](const auto& pair) { return nodes.NodeOf(pair.second) >= 0; });
+  const std::vector<Index> unknown = unknownPoints(named.positions.rows(), here, processes);
+  std::vector<Index> ids;
+  for (const auto& [point, id] : named.pairs)
+  {
+    if (std::binary_search(unknown.begin(), unknown.end(), point))
+    {
+      ids.push_back(id);
+    }
+  }
+  if (!ids.empty())
+  {
+    sortUnique(ids);
+    throw Error("The boundary names nodes that the grid does not have: global ids " +
+                morph::listIds(ids) +
+                ". Make the boundary from this grid, with Extract Morph Boundary.");
+  }
+  return result;
+}
+
+morph::BoundaryTargets TargetsOf(
+  Gathered& all, const Nodes& nodes, const Options& options, Index& rounded)
+{
+  morph::NamedPoints& named = all.Points;
+  if (all.ByPosition && nodes.Rest.numberOfNodes() > 0)
+  {
+    named.pairs = findByPosition(named.positions, nodes.Rest, nodes.Outer.nodes,
+      options.matchTolerance * nodes.Size, named.unmatched);
+  }
+  else if (nodes.Ids)
+  {
+    Pairs pairs;
+    for (const auto& [point, id] : named.pairs)
+    {
+      if (const Index node = nodes.NodeOf(id); node >= 0)
+      {
+        pairs.emplace_back(point, node);
+      }
+    }
+    named.pairs.swap(pairs);
+  }
+  rounded = takeBackRounding(all.PointPrecision, nodes.Rest, named);
+  Pairs pairs = named.pairs;
+  morph::BoundaryTargets result =
+    morph::findTargets(std::move(named), nodes.Rest, nodes.Outer, nodes.Size, options, nodes.Ids);
+  named.pairs = std::move(pairs);
+  result.warnings = all.Warnings;
+  return result;
+}
+
+morph::BoundaryTargets Match(vtkPointSet* boundary, const Nodes& nodes, const Options& options,
+  const morph::Communicator& processes, Followers* followers)
+{
+  Gathered gathered = Gather(boundary, nodes, processes, options);
+  const std::vector<std::uint8_t> isFree = gathered.Points.isFree;
+  morph::BoundaryTargets result;
+  Index rounded = 0;
+  processes.together([&] { result = TargetsOf(gathered, nodes, options, rounded); });
+  if (gathered.ByPosition)
+  {
+    const auto unmatched = unknownPoints(result.points, gathered.Points.pairs, processes);
+    result.unmatched = static_cast<Index>(unmatched.size());
+    if (result.unmatched == result.points)
+    {
+      throw Error("None of the boundary's " + std::to_string(result.points) +
+                  " points is within `MatchTolerance` (" + text(options.matchTolerance) +
+                  " of the grid's size) of a node of the grid. Where a `DisplacementArray` is set, "
+                  "the points "
+                  "have to be undeformed.");
+    }
+  }
+  if (nodes.Ids)
+  {
+    takeOwners(nodes.Rest, processes, result);
+  }
+  if (followers)
+  {
+    *followers = followersOf(gathered, isFree, result, processes);
+  }
+  morph::countStaying(
+    nodes.Rest, nodes.Outer, [&](Index node) { return processes.owns(node); }, result);
+  for (Index* count : { &result.freed, &result.following, &result.staying, &result.open, &rounded })
+  {
+    *count = processes.sum(*count);
+  }
+  Conclude(nodes.Size, options, gathered.PointPrecision, rounded, result);
+  return result;
+}
+
+void SendBack(const Followers& followers, const Points& prescribed,
+  const morph::Communicator& processes, vtkPointSet* boundary, vtkDoubleArray* result)
+{
+  Points sums = Points::Zero(followers.Points, 3);
+  for (const auto& [k, point] : followers.Pairs)
+  {
+    sums.row(point) += prescribed.row(k);
+  }
+  processes.sum(sums.data(), static_cast<int>(sums.size()));
+  const auto count = static_cast<Index>(followers.Own.size());
+  processes.together(
+    [&]
+    {
+      Gradient::Gather(sums.middleRows(followers.First, count), followers.Own,
+        boundary->GetNumberOfPoints(), result);
+    });
+}
+
 void Conclude(double size, const Options& options, const Precision& precision, Index rounded,
   morph::BoundaryTargets& result)
 {
@@ -516,64 +826,71 @@ void Conclude(double size, const Options& options, const Precision& precision, I
   }
 }
 
-morph::BoundaryTargets Match(vtkPointSet* boundary, const morph::Mesh& rest,
-  const morph::BoundaryFaces& outer, double size, const Options& options)
-{
-  if (boundary->GetNumberOfPoints() == 0)
-  {
-    throw Error("The boundary has no points, so nothing says where the mesh goes.");
-  }
-  Precision precision;
-  morph::NamedPoints named = ReadPoints(boundary, options, precision);
-  std::vector<std::string> warnings;
-  named.pairs =
-    findNodes(boundary, rest, outer.nodes, options.matchTolerance * size, options, named, warnings);
-  const Index rounded = TakeBackRounding(precision, rest, named);
-  morph::BoundaryTargets found = morph::findTargets(std::move(named), rest, outer, size, options);
-  found.warnings = std::move(warnings);
-  morph::countStaying(
-    rest, outer, [](Index) { return true; }, found);
-  Conclude(size, options, precision, rounded, found);
-  return found;
-}
-
 std::optional<morph::Session::AffineHandle> FindHandle(vtkPointSet* boundary,
-  const morph::BoundaryTargets& match, const morph::Mesh& rest, double scale, bool isFloat)
+  const morph::BoundaryTargets& match, const morph::Mesh& rest, double scale, bool isFloat,
+  const morph::Communicator& processes)
 {
   const auto found = AffineArrays::Read(boundary);
-  if (!found || match.ids.empty())
+  const bool hasPoints = boundary->GetNumberOfPoints() > 0;
+  // Of each point, and the motion that multiplies them, which has to be one.
+  morph::AffineFields own(found ? boundary->GetNumberOfPoints() : 0, 4);
+  if (auto* doubles = found ? vtkDoubleArray::FastDownCast(found->Fields) : nullptr)
+  {
+    own = Eigen::Map<const morph::AffineFields>(doubles->GetPointer(0), own.rows(), 4);
+  }
+  else
+  {
+    for (Index i = 0; i < own.rows(); ++i)
+    {
+      found->Fields->GetTuple(i, own.row(i).data());
+    }
+  }
+  const std::vector<double> fields =
+    processes.gather(std::vector<double>(own.data(), own.data() + own.size()));
+  std::vector<double> motions;
+  if (found && hasPoints)
+  {
+    motions.assign(found->Motion.data(), found->Motion.data() + found->Motion.size());
+  }
+  motions = processes.gather(motions);
+  constexpr std::size_t Size = morph::AffineMotion::SizeAtCompileTime;
+  bool isOne = !motions.empty() && static_cast<Index>(fields.size()) == 4 * match.points;
+  for (std::size_t k = Size; k < motions.size(); ++k)
+  {
+    isOne = isOne && motions[k] == motions[k - Size];
+  }
+  if (!isOne)
   {
     return {};
   }
   morph::Session::AffineHandle handle;
-  handle.motion = scale * found->Motion;
+  handle.motion = scale * Eigen::Map<const morph::AffineMotion>(motions.data());
   handle.fields = morph::AffineFields::Zero(match.targets.rows(), 4);
-  double size = match.targets.cwiseAbs().maxCoeff(), before = 0;
-  for (const morph::Index node : match.ids)
+  double after = 0, before = 0;
+  for (std::size_t i = 0; i < match.ids.size(); ++i)
   {
-    before = std::max(before, rest.points.row(node).cwiseAbs().maxCoeff());
+    const auto row = static_cast<Index>(i);
+    after = std::max(after, match.targets.row(row).cwiseAbs().maxCoeff());
+    before = std::max(before, rest.points.row(match.ids[i]).cwiseAbs().maxCoeff());
   }
-  size += before;
-  const bool isSingle = isFloat && boundary->GetPoints()->GetDataType() == VTK_FLOAT;
-  const double tolerance = AffineArrays::Rounding(size, isSingle);
-  auto* doubles = vtkDoubleArray::FastDownCast(found->Fields);
-  const double* fields = doubles ? doubles->GetPointer(0) : nullptr;
-  for (morph::Index i = 0; i < handle.fields.rows(); ++i)
+  const bool isSingle =
+    !hasPoints || (isFloat && boundary->GetPoints()->GetDataType() == VTK_FLOAT);
+  const double tolerance = AffineArrays::Rounding(
+    processes.maximum(after) + processes.maximum(before), processes.all(isSingle));
+  bool agrees = true;
+  for (Index i = 0; i < handle.fields.rows() && agrees; ++i)
   {
-    if (match.sources[i] >= 0 && fields)
+    if (match.sources[i] >= 0)
     {
-      std::copy_n(fields + 4 * match.sources[i], 4, handle.fields.row(i).data());
-    }
-    else if (match.sources[i] >= 0)
-    {
-      found->Fields->GetTuple(match.sources[i], handle.fields.row(i).data());
+      std::copy_n(fields.data() + 4 * match.sources[i], 4, handle.fields.row(i).data());
     }
     const Eigen::RowVector3d place = rest.points.row(match.ids[i]) +
                                      morph::affineDisplacement(handle.motion, handle.fields.row(i));
-    if (!((place - match.targets.row(i)).cwiseAbs().maxCoeff() <= tolerance)) // NaN, too
-    {
-      return {};
-    }
+    agrees = (place - match.targets.row(i)).cwiseAbs().maxCoeff() <= tolerance; // NaN does not
+  }
+  if (!processes.all(agrees))
+  {
+    return {};
   }
   return handle;
 }

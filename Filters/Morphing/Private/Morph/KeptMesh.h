@@ -13,7 +13,6 @@
 #include <vector>
 
 class vtkDataSet;
-class vtkDoubleArray;
 class vtkPointSet;
 class vtkPolyData;
 class vtkUnstructuredGrid;
@@ -58,19 +57,18 @@ public:
   /// The outer faces of this process's cells as polygons that are made once.
   const MovedSurface& Surface() const { return this->Polygons; }
   /// Whether this process counts a node: one of those that have it does.
-  virtual bool Owns(morph::Index node) const = 0;
+  bool Owns(morph::Index node) const { return this->All().owns(node); }
   /// The places of the nodes of Grid(). `moved`: of those of Rest(). Returns it, or `memory`.
   virtual const morph::Points& OfGrid(const morph::Points& moved, morph::Points& memory) const = 0;
 
-  /// BoundaryMatch::Match(). Of Sources the signs alone are known on several processes.
-  /// `followers`: null, or becomes the points that the nodes of this process follow. Collective.
-  virtual morph::BoundaryTargets Match(vtkPointSet* boundary, const BoundaryMatch::Options& options,
-    std::vector<BoundaryMatch::Follower>* followers = nullptr) const = 0;
-  /// Sums the derivatives of prescribed nodes for each point of `boundary`, as Gradient::Gather()
-  /// does. `match`, `followers`: of Match(); `prescribed`: #match.ids x 3. Collective.
-  virtual void SendBack(const morph::BoundaryTargets& match,
-    const std::vector<BoundaryMatch::Follower>& followers, const morph::Points& prescribed,
-    vtkPointSet* boundary, vtkDoubleArray* result) const = 0;
+  /// The nodes of Rest().
+  virtual BoundaryMatch::Nodes Nodes() const = 0;
+  /// BoundaryMatch::Match(). Collective.
+  morph::BoundaryTargets Match(vtkPointSet* boundary, const BoundaryMatch::Options& options,
+    BoundaryMatch::Followers* followers = nullptr) const
+  {
+    return BoundaryMatch::Match(boundary, this->Nodes(), options, this->All(), followers);
+  }
 
   /// Fills `surface` with the outer faces of `grid`, which may be the kept mesh or another, without
   /// quality. It is empty for a grid that cannot be morphed, and for a piece of another mesh.

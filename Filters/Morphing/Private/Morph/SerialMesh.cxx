@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Private/Morph/SerialMesh.h"
 
-#include "Private/Data/Gradient.h"
 #include "Private/Data/GridMesh.h"
 #include "Support/Error.h"
 #include "Support/Monitor.h"
 
-#include <vtkPointSet.h>
 #include <vtkPolyData.h>
 #include <vtkUnstructuredGrid.h>
 
@@ -49,20 +47,6 @@ bool SerialMesh::Take(
 void SerialMesh::SetFeatureLines(bool on, morph::Monitor&)
 {
   this->Polygons.SetFeatureLines(on, this->Copy->mesh(), this->Copy->outerFaces());
-}
-
-morph::BoundaryTargets SerialMesh::Match(vtkPointSet* boundary,
-  const BoundaryMatch::Options& options, std::vector<BoundaryMatch::Follower>*) const
-{
-  return BoundaryMatch::Match(
-    boundary, this->Copy->mesh(), this->Copy->outerFaces(), this->Copy->size(), options);
-}
-
-void SerialMesh::SendBack(const morph::BoundaryTargets& match,
-  const std::vector<BoundaryMatch::Follower>&, const morph::Points& prescribed,
-  vtkPointSet* boundary, vtkDoubleArray* result) const
-{
-  Gradient::Gather(prescribed, match.sources, boundary->GetNumberOfPoints(), result);
 }
 
 void SerialMesh::WriteUndeformedSurface(vtkUnstructuredGrid* grid, vtkPolyData* surface) const

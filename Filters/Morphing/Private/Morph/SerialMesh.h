@@ -16,16 +16,14 @@ public:
   const std::shared_ptr<const morph::UndeformedMesh>& Rest() const override { return this->Copy; }
   const morph::Mesh& Grid() const override { return this->Copy->mesh(); }
   const std::vector<std::uint8_t>& Unmeasured() const override { return this->None; }
-  bool Owns(morph::Index) const override { return true; }
   const morph::Points& OfGrid(const morph::Points& moved, morph::Points&) const override
   {
     return moved;
   }
-  morph::BoundaryTargets Match(vtkPointSet* boundary, const BoundaryMatch::Options& options,
-    std::vector<BoundaryMatch::Follower>* followers) const override;
-  void SendBack(const morph::BoundaryTargets& match,
-    const std::vector<BoundaryMatch::Follower>& followers, const morph::Points& prescribed,
-    vtkPointSet* boundary, vtkDoubleArray* result) const override;
+  BoundaryMatch::Nodes Nodes() const override
+  {
+    return { this->Copy->mesh(), this->Copy->outerFaces(), this->Copy->size() };
+  }
   void WriteUndeformedSurface(vtkUnstructuredGrid* grid, vtkPolyData* surface) const override;
   void WriteGlobalIds(vtkDataSet*) const override {}
 

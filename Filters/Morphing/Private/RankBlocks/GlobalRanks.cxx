@@ -8,8 +8,6 @@
 #include <vtkMPICommunicator.h>
 #include <vtkMultiProcessController.h>
 
-#include <algorithm>
-
 namespace morph::filters
 {
 morph::distributed::Ranks GlobalRanks()
@@ -28,19 +26,7 @@ morph::distributed::Ranks GlobalRanks()
 std::vector<std::string> GatherTexts(
   const morph::distributed::Ranks& ranks, const std::vector<std::string>& mine)
 {
-  std::vector<char> packed;
-  for (const std::string& text : mine)
-  {
-    packed.insert(packed.end(), text.c_str(), text.c_str() + text.size() + 1);
-  }
-  packed = ranks.gather(packed);
-  std::vector<std::string> all;
-  for (auto first = packed.begin(); first != packed.end();)
-  {
-    const auto last = std::find(first, packed.end(), '\0');
-    all.emplace_back(first, last);
-    first = last + 1;
-  }
+  std::vector<std::string> all = ranks.gather(mine);
   morph::sortUnique(all);
   return all;
 }

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Private/RankBlocks/RankBehind.h"
 
+#include "Private/RankBlocks/SharedCells.h"
+
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
 #include <vtkDataSet.h>
 #include <vtkIdList.h>
 #include <vtkMath.h>
 #include <vtkNew.h>
-#include <vtkUnsignedCharArray.h>
 #include <vtkUnstructuredGrid.h>
 
 #include <algorithm>
@@ -68,14 +69,13 @@ RankBehind::RankBehind(const morph::distributed::Ranks& ranks,
     }
   }
   const std::vector<std::vector<int>> holders = places.directory().holders(first);
-  std::vector<std::vector<std::int64_t>> to(ranks.count());
+  std::vector<std::vector<std::vector<std::int64_t>>> to(ranks.count());
   for (std::size_t k = 0; k < asked.size(); ++k)
   {
     for (const int rank : holders[k])
     {
       this->Questions[rank].push_back(asked[k]);
-      to[rank].push_back(static_cast<std::int64_t>(nodes[k].size()));
-      to[rank].insert(to[rank].end(), nodes[k].begin(), nodes[k].end());
+      to[rank].push_back(nodes[k]);
     }
   }
 
@@ -89,18 +89,17 @@ RankBehind::RankBehind(const morph::distributed::Ranks& ranks,
     }
     merged.Grid->BuildLinks();
   }
-  vtkUnsignedCharArray* ghosts = merged.Grid->GetCellGhostArray();
+  const std::vector<std::uint8_t> isGhost = SharedCells::Ghosts(merged.Grid);
   vtkNew<vtkIdList> corners, cells;
   for (int r = 0; r < ranks.count(); ++r)
   {
-    for (std::size_t at = 0; at < from[r].size();)
+    for (const std::vector<std::int64_t>& ids : from[r])
     {
-      const std::size_t end = at + 1 + static_cast<std::size_t>(from[r][at]);
       corners->Reset();
       bool isHere = true;
-      for (++at; at < end; ++at)
+      for (const std::int64_t id : ids)
       {
-        const auto node = nodeOf.find(from[r][at]);
+        const auto node = nodeOf.find(id);
         isHere = isHere && node != nodeOf.end();
         if (isHere)
         {
@@ -112,8 +111,7 @@ RankBehind::RankBehind(const morph::distributed::Ranks& ranks,
       {
         merged.Grid->GetCellNeighbors(-1, corners, cells);
         std::copy_if(cells->begin(), cells->end(), std::back_inserter(behind),
-          [&](vtkIdType c)
-          { return !ghosts || !(ghosts->GetValue(c) & vtkDataSetAttributes::DUPLICATECELL); });
+          [&](vtkIdType c) { return isGhost[c] == 0; });
       }
     }
   }

@@ -18,7 +18,6 @@
 #include <vtkIdTypeArray.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
-#include <vtkUnsignedCharArray.h>
 #include <vtkUnstructuredGrid.h>
 
 #include <algorithm>
@@ -82,18 +81,14 @@ double sizeOf(const Ranks& ranks, vtkUnstructuredGrid* grid)
 std::vector<std::uint8_t> usedNodes(vtkUnstructuredGrid* grid)
 {
   std::vector<std::uint8_t> isUsed(grid->GetNumberOfPoints(), 0);
-  vtkUnsignedCharArray* ghosts = grid->GetCellGhostArray();
+  const std::vector<std::uint8_t> isGhost = SharedCells::Ghosts(grid);
   vtkNew<vtkIdList> corners;
   for (vtkIdType c = 0; c < grid->GetNumberOfCells(); ++c)
   {
-    if (ghosts && (ghosts->GetValue(c) & vtkDataSetAttributes::DUPLICATECELL))
+    if (isGhost[c] == 0)
     {
-      continue;
-    }
-    grid->GetCellPoints(c, corners);
-    for (const vtkIdType n : *corners)
-    {
-      isUsed[n] = 1;
+      grid->GetCellPoints(c, corners);
+      std::for_each(corners->begin(), corners->end(), [&](vtkIdType n) { isUsed[n] = 1; });
     }
   }
   return isUsed;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Private/RankBlocks/SharedCells.h"
 
+#include "Distributed/Piece.h"
 #include "Private/Blocks/BlockCells.h"
 
 #include <vtkCellData.h>
@@ -11,6 +12,7 @@
 #include <vtkUnstructuredGrid.h>
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <utility>
 
@@ -20,12 +22,6 @@ namespace
 {
 using morph::Index;
 using morph::distributed::Ranks;
-
-bool isGhost(vtkUnstructuredGrid* grid, vtkIdType cell)
-{
-  vtkUnsignedCharArray* ghosts = grid->GetCellGhostArray();
-  return ghosts && (ghosts->GetValue(cell) & vtkDataSetAttributes::DUPLICATECELL);
-}
 
 int rankOf(std::int64_t id, const Ranks& ranks)
 {
@@ -65,60 +61,75 @@ bool areDifferent(const Ranks& ranks, const std::vector<Index>& ids)
 }
 }
 
+std::vector<std::uint8_t> Ghosts(vtkUnstructuredGrid* grid)
+{
+  std::vector<std::uint8_t> isGhost(grid->GetNumberOfCells(), 0);
+  if (vtkUnsignedCharArray* types = grid->GetCellGhostArray())
+  {
+    std::transform(types->Begin(), types->End(), isGhost.begin(),
+      [](unsigned char type) { return type & vtkDataSetAttributes::DUPLICATECELL; });
+  }
+  return isGhost;
+}
+
 void MarkGhosts(const Ranks& ranks, const std::vector<std::int64_t>& ids,
   const std::vector<std::uint8_t>& isShared, vtkUnstructuredGrid* grid)
 {
-  // Its number, type and nodes' ids in ascending order, after their count.
-  std::vector<std::vector<std::int64_t>> to(ranks.count());
+  using Key = std::vector<std::int64_t>; // the nodes' ids in ascending order, and its type
+  const std::vector<std::uint8_t> isGhost = Ghosts(grid);
+  std::vector<Index> cells;
+  std::vector<Key> keys;
   vtkNew<vtkIdList> corners;
   for (vtkIdType c = 0; c < grid->GetNumberOfCells(); ++c)
   {
     grid->GetCellPoints(c, corners);
     const bool mayBeElsewhere =
-      corners->GetNumberOfIds() > 0 && !isGhost(grid, c) &&
+      corners->GetNumberOfIds() > 0 && isGhost[c] == 0 &&
       std::all_of(corners->begin(), corners->end(), [&](vtkIdType n) { return isShared[n] != 0; });
-    if (!mayBeElsewhere)
+    if (mayBeElsewhere)
     {
-      continue;
+      cells.push_back(c);
+      Key& key = keys.emplace_back();
+      std::transform(corners->begin(), corners->end(), std::back_inserter(key),
+        [&](vtkIdType n) { return ids[n]; });
+      std::sort(key.begin(), key.end());
+      key.push_back(grid->GetCellType(c));
     }
-    std::vector<std::int64_t> nodes;
-    for (const vtkIdType n : *corners)
-    {
-      nodes.push_back(ids[n]);
-    }
-    std::sort(nodes.begin(), nodes.end());
-    std::vector<std::int64_t>& stream = to[rankOf(nodes.front(), ranks)];
-    stream.insert(
-      stream.end(), { static_cast<std::int64_t>(nodes.size()), c, grid->GetCellType(c) });
-    stream.insert(stream.end(), nodes.begin(), nodes.end());
   }
-  std::map<std::vector<std::int64_t>, int> keeper;
-  std::vector<std::vector<Index>> back(ranks.count());
-  const auto from = ranks.exchange(to);
-  for (int r = 0; r < ranks.count(); ++r)
-  {
-    for (auto at = from[r].begin(); at != from[r].end();)
+  const std::vector<int> keepers = ranks.ask<int>(
+    keys, [&](const Key& key) { return rankOf(key.front(), ranks); },
+    [](const std::vector<std::vector<Key>>& asked)
     {
-      const std::int64_t count = at[0], cell = at[1];
-      const auto end = at + 3 + count;
-      const int kept = keeper.try_emplace(std::vector<std::int64_t>(at + 2, end), r).first->second;
-      if (kept != r)
+      std::map<Key, int> keeper;
+      std::vector<std::vector<int>> answers(asked.size());
+      for (std::size_t r = 0; r < asked.size(); ++r)
       {
-        back[r].push_back(cell);
+        for (const Key& key : asked[r])
+        {
+          answers[r].push_back(keeper.try_emplace(key, static_cast<int>(r)).first->second);
+        }
       }
-      at = end;
+      return answers;
+    });
+  std::vector<Index> others;
+  for (std::size_t i = 0; i < cells.size(); ++i)
+  {
+    if (keepers[i] != ranks.rank())
+    {
+      others.push_back(cells[i]);
     }
   }
-  makeGhosts(morph::distributed::joined(ranks.exchange(back)), grid);
+  makeGhosts(others, grid);
 }
 
 std::vector<Index> Ids(const Ranks& ranks, vtkUnstructuredGrid* grid)
 {
   const vtkIdType count = grid->GetNumberOfCells();
+  const std::vector<std::uint8_t> isGhost = Ghosts(grid);
   std::vector<Index> ids = BlockCells::GlobalIds(grid->GetCellData(), count), own;
   for (vtkIdType c = 0; c < count; ++c)
   {
-    if (!isGhost(grid, c))
+    if (isGhost[c] == 0)
     {
       own.push_back(ids.empty() ? -1 : ids[c]);
     }
@@ -128,12 +139,6 @@ std::vector<Index> Ids(const Ranks& ranks, vtkUnstructuredGrid* grid)
   {
     return ids;
   }
-  Index next = ranks.sumBefore(static_cast<Index>(own.size()));
-  ids.assign(count, -1);
-  for (vtkIdType c = 0; c < count; ++c)
-  {
-    ids[c] = isGhost(grid, c) ? -1 : next++;
-  }
-  return ids;
+  return morph::distributed::newCellIds(ranks, isGhost);
 }
 }

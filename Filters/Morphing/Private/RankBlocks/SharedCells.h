@@ -9,9 +9,12 @@
 
 class vtkUnstructuredGrid;
 
-/// Cells of pieces on several MPI processes. All functions are collective.
+/// Cells of pieces on several MPI processes. All functions but one are collective.
 namespace morph::filters::SharedCells
 {
+/// #cells: nonzero for copies of other processes' cells. Not collective.
+std::vector<std::uint8_t> Ghosts(vtkUnstructuredGrid* grid);
+
 /// Makes ghosts of cells that another process has, too: of those with the same nodes the lowest
 /// process keeps its one. `ids`, `isShared`: of the grid's nodes; see SharedPlaces.
 void MarkGhosts(const morph::distributed::Ranks& ranks, const std::vector<std::int64_t>& ids,
