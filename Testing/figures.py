@@ -113,6 +113,24 @@ class Figures(unittest.TestCase):
         self.assertIn(f"{len(others)} of another {len(steps) - len(exact)} meshes have inverted "
                       f"cells. In {own} of these some are the method's own", page)
 
+    def test_optimizers(self):
+        data = {(r["mesh"], r["program"]): r
+                for r in rows(ROOT / "Testing/Benchmark/results/optimizers.csv")}
+        found = table("Methods.md", "| mesh | inverted at first")
+        names = ("par_untangle_original_hex_mesh", "mixed-hex-pyr-tet", "tire", "twist", "bore_hex")
+        self.assertEqual(len(found), len(names))
+        for name, (_, before, ours, theirs) in zip(names, found):
+            self.check(before, data[name, "start"]["inverted"])
+            for shown, program in ((ours, "Default"), (theirs, "MFEM")):
+                row = data[name, program]
+                values = ([row["inverted"]] if int(row["inverted"])
+                          else [row["minimum"], row["mean"]])
+                numbers = re.findall(r"[\d.]+", shown)
+                with self.subTest(mesh=name, program=program):
+                    self.assertEqual(len(numbers), len(values))
+                    for number, value in zip(numbers, values):
+                        self.check(number, value)
+
     def test_performance(self):
         text = performance_page.PAGE.read_text(encoding="utf-8")
         self.assertEqual(text[text.index(performance_page.START):],

@@ -113,6 +113,23 @@ Points lattice(bool lower)
 }
 }
 
+TEST(LogBarrierWeights, TakeFewStepsInMeshes)
+{
+  std::mt19937 random(meshes::seed());
+  std::uniform_real_distribution<double> shift(-0.25, 0.25);
+  const Eigen::Matrix3d turn =
+    Eigen::AngleAxisd(.7, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
+  for (int trial = 0; trial < 200; ++trial)
+  {
+    const Eigen::RowVector3d edges(1, trial % 2 ? 1 : .03, trial % 2 ? 1 : 1e-4);
+    const Points shifted = lattice(true).unaryExpr([&](double x) { return x + shift(random); });
+    const Outcome found = weightsOf(shifted * edges.asDiagonal() * turn);
+    ASSERT_EQ(found.place, Place::Inside) << trial;
+    EXPECT_GE(found.iterations, 1) << trial;
+    EXPECT_LE(found.iterations, 12) << trial;
+  }
+}
+
 TEST(LogBarrierWeights, PlaceTheNodeExactly)
 {
   std::mt19937 random(meshes::seed());

@@ -7,15 +7,18 @@
 #include "RankParts.h"
 #include "TestGrids.h"
 
+#include <vtkExtractMorphBoundary.h>
 #include <vtkFEMWarpMorph.h>
 #include <vtkInversionFreeMorph.h>
 #include <vtkMorphMesh.h>
 #include <vtkMorphShapes.h>
 #include <vtkNew.h>
+#include <vtkPolyData.h>
 #include <vtkSmoothingMorph.h>
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 
@@ -94,6 +97,29 @@ protected:
     EXPECT_LT(this->Octree.gap(all), 1e-12 * this->Size);
   }
 };
+}
+
+TEST_P(RankHangingFilters, TheBoundaryOfAPieceHasPointsOfThePieceAlone)
+{
+  const auto extracted = [](vtkUnstructuredGrid* grid)
+  {
+    vtkNew<vtkExtractMorphBoundary> extract;
+    extract->SetInputData(grid);
+    extract->Update();
+    return vtkSmartPointer<vtkPolyData>(extract->GetOutput());
+  };
+  vtkSmartPointer<vtkPolyData> whole;
+  rank_grids::alone([&] { whole = extracted(this->Whole); });
+  std::vector<Index> own = rank_grids::globalIds(this->Part, "GlobalIds");
+  std::sort(own.begin(), own.end());
+
+  const auto boundary = extracted(this->Part);
+
+  EXPECT_EQ(this->Processes.sum(Index(boundary->GetNumberOfCells())), whole->GetNumberOfCells());
+  for (const Index id : rank_grids::globalIds(boundary, "MorphPointId"))
+  {
+    EXPECT_TRUE(std::binary_search(own.begin(), own.end(), id)) << id;
+  }
 }
 
 TEST_P(RankHangingFilters, LinearMethodsMoveThemAsOnOneRank)

@@ -28,3 +28,8 @@ PLUGIN_FILE_DIALOG = "pqFileDialog" if (MAJOR, MINOR) < (5, 12) else "1pqFileDia
 def blocks_for_exodus(blocks):
     """A multi-block as the writer of Exodus files takes it."""
     return simple.ConvertToPartitionedDataSetCollection(Input=blocks) if MAJOR >= 6 else blocks
+
+
+def traced(name, value):
+    """A property's value as a state in Python has it."""
+    return f"    {name}={value}," if MAJOR >= 6 else f".{name} = {value}"

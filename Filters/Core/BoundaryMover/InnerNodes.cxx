@@ -497,7 +497,7 @@ InnerNodes::Moved InnerNodes::guess(const Rigid& zone, const BoundaryModel& mode
     places = result.moved;
   }
   if (!processes.all(this->method_ && this->methodVersion_ == model.inputVersion &&
-                     this->methodProcesses_ == others &&
+                     &this->method_->processes() == &processes &&
                      this->method_->partition().prescribed == given))
   {
     std::unique_ptr<Morpher> method = std::make_unique<FemWarp>();
@@ -511,7 +511,6 @@ InnerNodes::Moved InnerNodes::guess(const Rigid& zone, const BoundaryModel& mode
     method->prepare(mesh, partition, monitor, others);
     this->method_ = std::move(method);
     this->methodVersion_ = model.inputVersion;
-    this->methodProcesses_ = others;
   }
   Points moved;
   this->method_->evaluate(places(given, allColumns), moved, monitor);

@@ -127,6 +127,5 @@ private:
   ///@}
   std::unique_ptr<Morpher> method_; ///< FEMWARP, prepared, or null
   std::int64_t methodVersion_ = -1;
-  std::shared_ptr<const Communicator> methodProcesses_; ///< that it was prepared with
 };
 }

@@ -109,13 +109,14 @@ void requireKnownCells(bool hasPolyhedra)
 }
 
 void SlideRounds::prepare(const Mesh& mesh, const std::shared_ptr<const Communicator>& processes,
-  std::int64_t version, const std::vector<Index>& sliding, std::vector<Index> prescribed,
+  std::int64_t version, const std::vector<Index>& sliding, const std::vector<Index>& prescribed,
   Monitor& monitor)
 {
   const Communicator& all = processes ? *processes : Communicator::alone();
   requireKnownCells(!all.all(!hasPolyhedra(mesh)));
-  if (!all.all(this->method_ && this->methodVersion_ == version && this->processes_ == processes &&
-               sliding == this->sliding_ && prescribed == this->prescribed_))
+  if (!all.all(this->method_ && this->methodVersion_ == version &&
+               &this->method_->processes() == &all && sliding == this->sliding_ &&
+               this->method_->partition().prescribed == prescribed))
   {
     this->method_ = nullptr; // in case it throws
     auto method = std::make_unique<SlidingWarp>();
@@ -125,9 +126,7 @@ void SlideRounds::prepare(const Mesh& mesh, const std::shared_ptr<const Communic
     method->prepare(mesh, partition, silent, processes);
     this->method_ = std::move(method);
     this->methodVersion_ = version;
-    this->processes_ = processes;
     this->sliding_ = sliding;
-    this->prescribed_ = std::move(prescribed);
   }
 }
 
@@ -187,10 +186,10 @@ void SlideRounds::run(const BoundaryModel& model, const std::vector<Index>& held
   const NodeSliding::Surfaces along = { [&](Index i, const Row& x)
     { return directionsAt(model, of(i)->second, shapes, x); },
     [&](Index i, const Row& x) { return shapes.slid(model, of(i)->second, of(i)->first, x); } };
-  this->prepare(mesh, others, model.inputVersion, own, std::move(prescribed), monitor);
+  this->prepare(mesh, others, model.inputVersion, own, prescribed, monitor);
   this->rounds_ = this->method_->slide(own, along, limits, places, monitor);
   // In the order of the nodes' ids, as `nodes` are.
-  result.moved(nodes, allColumns) = (others ? *others : Communicator::alone()).gather(places, own);
+  result.moved(nodes, allColumns) = this->method_->processes().gather(places, own);
   moveBetween(model, sliding, before, shapes, result.moved);
   for (const Index node : nodes)
   {

@@ -36,13 +36,12 @@ public:
 private:
   /// Prepares the method for sliding nodes of the mesh, unless it is. `processes`: null for one.
   void prepare(const Mesh& mesh, const std::shared_ptr<const Communicator>& processes,
-    std::int64_t version, const std::vector<Index>& sliding, std::vector<Index> prescribed,
+    std::int64_t version, const std::vector<Index>& sliding, const std::vector<Index>& prescribed,
     Monitor& monitor);
 
   std::unique_ptr<SlidingWarp> method_; ///< prepared, or null
   std::int64_t methodVersion_ = -1;
-  std::shared_ptr<const Communicator> processes_;
-  std::vector<Index> prescribed_, sliding_; ///< that it was prepared for
+  std::vector<Index> sliding_; ///< that it was prepared for
   std::vector<SlidingWarp::Round> rounds_;
 };
 }

@@ -55,7 +55,7 @@ struct Gathered
 {
   /// Pairs of a point and its node's number in the whole mesh; none where ByPosition.
   morph::NamedPoints Points;
-  Precision PointPrecision; ///< of all processes' points, as ReadPoints() gives it
+  Precision PointPrecision; ///< of all processes' points, as BoundaryPoints::Read() gives it
   bool ByPosition = false;
   std::vector<std::string> Warnings; ///< of the ids
   std::vector<morph::Index> Own;     ///< see Followers
