@@ -1,0 +1,90 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the installation takes on this Debian, without what its smallest system has.
+
+    Testing/Benchmark/install.py --build    # ten minutes: a build in a folder of its own
+    Testing/Benchmark/install.py            # the packages alone
+
+Writes this release's row of results/install.csv. download_MB, disk_MB: packages of
+install-packages.sh --use, as apt's index has them. build_s, build_MB: processor time and folder of
+build.sh without a compiler's cache. Needs apt's index (apt-get update)."""
+
+import argparse
+import csv
+import os
+import re
+import resource
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent.parent
+DATA = ROOT / "Testing/Benchmark/results/install.csv"
+sys.path.insert(0, str(ROOT / "Utilities"))
+from study_pieces import commit  # noqa: E402  (needs the path above)
+
+FIELDS = ("release", "download_MB", "disk_MB", "build_s", "build_MB", "commit")
+
+
+def apt(program, folder, *arguments):
+    """The output of a program of apt that takes no package for installed."""
+    options = ("Dir::State::status=/dev/null", f"Dir::Cache={folder}", "Debug::NoLocking=1")
+    command = [program, *(f"-o{option}" for option in options), *arguments]
+    return subprocess.run(command, capture_output=True, text=True,
+                          env={**os.environ, "LC_ALL": "C"}).stdout
+
+
+def megabytes(folder, packages):
+    """(to download, on the disk) of packages and all that they need."""
+    said = apt("apt-get", folder, "--no-install-recommends", "--assume-no", "install", *packages)
+    found = re.search(r"Need to get ([\d.,]+) MB of archives.*?operation, ([\d.,]+) MB", said,
+                      re.DOTALL)
+    if not found:
+        sys.exit(f"install.py: apt does not say what it needs. Run apt-get update first.\n{said}")
+    return tuple(float(number.replace(",", "")) for number in found.groups())
+
+
+def packages_row():
+    with tempfile.TemporaryDirectory() as folder:
+        (Path(folder) / "archives/partial").mkdir(parents=True)
+        known = apt("apt-cache", folder, "dumpavail").split("\n\n")
+        smallest = ["apt"] + [re.search(r"^Package: (.*)", one, re.M)[1] for one in known
+                              if re.search(r"^Priority: required$", one, re.M)]
+        ours = subprocess.run([ROOT / "Utilities/install-packages.sh", "--use", "--list"],
+                              check=True, capture_output=True, text=True).stdout.split()
+        less, all_ = megabytes(folder, smallest), megabytes(folder, smallest + ours)
+    return {"download_MB": round(all_[0] - less[0]), "disk_MB": round(all_[1] - less[1])}
+
+
+def build_row():
+    with tempfile.TemporaryDirectory() as folder:
+        sources = subprocess.run(["git", "-C", str(ROOT), "archive", "HEAD"], check=True,
+                                 capture_output=True).stdout
+        subprocess.run(["tar", "-x", "-C", folder], input=sources, check=True)
+        subprocess.run([f"{folder}/Utilities/build.sh"], check=True, stdout=sys.stderr,
+                       env={**os.environ, "CCACHE_DISABLE": "1"})
+        used = resource.getrusage(resource.RUSAGE_CHILDREN)
+        size = sum(path.lstat().st_size for path in Path(folder, "build").rglob("*"))
+    return {"build_s": round(used.ru_utime + used.ru_stime), "build_MB": round(size / 1e6)}
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
+    parser.add_argument("--build", action="store_true", help="build, too")
+    options = parser.parse_args()
+    system = dict(re.findall(r'^(\w+)="?(.*?)"?$', Path("/etc/os-release").read_text("utf-8"), re.M))
+    release = system["ID"] + " " + system.get("VERSION_ID", "unstable")
+    row = {"release": release, "commit": commit(), **packages_row()}
+    if options.build:
+        row.update(build_row())
+    with open(DATA, encoding="utf-8") as file:
+        others = [other for other in csv.DictReader(file) if other["release"] != release]
+    with open(DATA, "w", encoding="utf-8", newline="") as file:
+        table = csv.DictWriter(file, FIELDS, lineterminator="\n")
+        table.writeheader()
+        table.writerows(sorted([*others, row], key=lambda one: one["release"]))
+
+
+if __name__ == "__main__":
+    main()
