@@ -11,8 +11,9 @@ import unittest
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
-sys.path.insert(0, str(ROOT / "Testing/Benchmark"))
+sys.path[:0] = [str(ROOT / "Testing/Benchmark"), str(ROOT / "Utilities")]
 import performance_page  # noqa: E402  (needs the path above)
+import study_paper  # noqa: E402
 
 STUDY = ROOT / "Documentation/Study"
 RESULTS = ROOT / "Testing/Benchmark/results"
@@ -56,13 +57,12 @@ GIVEN = {
     "Outputs.md": ["1 %"],
     "Performance.md": ["600 s"],
     "Units.md": ["6 bytes"],  # 10^6
-    "PitchAnAirfoil.md": ["1 %"],  # what its script prints
-    "CalculixAndScipy.md": ["2 times"],
+    "HowTo/PitchAnAirfoil.md": ["1 %"],  # what its script prints
+    "HowTo/CalculixAndScipy.md": ["2 times"],
 }
 #: Those that a test below compares with a data file.
 MEASURED = {
-    "Install.md": [],
-    "README.md": [],
+    "README.md": ["549 MB", "2.8 GB"],
     "Performance.md": ["23 times", "11 s", "1.3 times", "11 times"],
     "Study.md": ["0.23 s", "0.47 s", "216 s", "1 %", "85 times", "16 times"],
     "WhatToExpect.md": ["100 s", "8.1 GB", "73 ms", "62 ms", "72 ms", "67 ms", "171 ms", "131 ms",
@@ -99,6 +99,15 @@ class Figures(unittest.TestCase):
                 if shown or row[column] not in ("", "0.00"):
                     with self.subTest(row=cells[0], column=column):
                         self.check(shown, row[column])
+
+    def test_installation(self):
+        data = rows(RESULTS / "install.csv")
+        found = table("Install.md", "| system")
+        self.assertEqual(len(found), len(data))
+        self.check_table(found, data, lambda cells: (cells[0].lower(),),
+                         [("release",), "download_MB", "disk_MB"])
+        self.assertIn(f"on a bare Debian 12 {data[0]['download_MB']} MB of downloads and "
+                      f"{int(data[0]['disk_MB']) / 1000:.1f} GB of disk", prose("README.md"))
 
     def test_minima_by_method(self):
         data = {(r["model"], r["kind"], r["method"]): r for r in rows(STUDY / "results.csv")
@@ -138,6 +147,9 @@ class Figures(unittest.TestCase):
         ratios = (f"{min(faster):.0f} to {max(faster):.0f} times faster than FEMWARP and LBWARP; "
                   f"preparing takes {min(longer):.1f} to {max(longer):.0f} times as long")
         self.assertIn(ratios, page)
+        self.assertIn(
+            f"The paper has {study_paper.seconds('canister', 'FEMWARP', 'hex', 'absolute'):.0f} s",
+            page)
         canister = data["canister", "hex", "FEMWARP"]
         self.assertIn(f"takes {float(canister['evaluate']):.2f} s for an absolute step after "
                       f"{float(canister['prepare']):.2f} s to prepare", page)
@@ -209,12 +221,13 @@ class Figures(unittest.TestCase):
             r"crushes them at t = ([\d.]+) .*a linear displacement at ([\d.]+)", checks).groups()
         self.assertIn(f"that is t = {float(predicted):.2f} for the small mesh (h = 0.0625)", page)
         self.assertIn(f"lasts until t = {float(linear):.1f}.", page)
-        first = re.search(r"FEMWARP: first at t = ([\d.]+), (\d+) cells, of which (\d+) at the hole",
-                          checks).groups()
-        self.assertEqual(first[1], first[2])
+        first, inverted, inner = re.search(
+            r"FEMWARP: first at t = ([\d.]+), (\d+) cells, of which (\d+) at the hole",
+            checks).groups()
+        self.assertEqual(inverted, inner)
         paper = next(row["t"] for row in self.series()["canister", "hex", "absolute", "FEMWARP"]
                      if int(row["inverted"]))
-        self.assertIn(f"at t = {first[0]} and {paper}, all of them at the hole", page)
+        self.assertIn(f"at t = {first} and {paper}, all of them at the hole", page)
         away, length = map(float, re.search(
             r"FEMWARP: .* the 40 worst cells are up to ([\d.]+) from .* are ([\d.]+) long",
             checks).groups())
@@ -223,8 +236,8 @@ class Figures(unittest.TestCase):
 
     def test_bounds_of_the_study(self):
         text = (STUDY / "checks.txt").read_text(encoding="utf-8")
-        bounds = {(model, kind): float(bound)
-                  for model, *both in re.findall(r"^  (\w+): hex ([\d.]+); tet ([\d.]+)$", text, re.M)
+        lines = re.findall(r"^  (\w+): hex ([\d.]+); tet ([\d.]+)$", text, re.MULTILINE)
+        bounds = {(model, kind): float(bound) for model, *both in lines
                   for kind, bound in zip(("hex", "tet"), both)}
         self.assertIn("bounds the minimum at {:.4f} on the bore's tetrahedra, {:.4f} on the "
                       "canister's, {:.4f} on the courier's, and {:.4f} on the pipe's hexahedra. "
@@ -303,8 +316,9 @@ class Figures(unittest.TestCase):
             if path == performance_page.PAGE:
                 text = text[:text.index(performance_page.START)]
             text = re.sub(r"^```[^`]*^```|^ {4}.*$", "", text, flags=re.M)
-            known = GIVEN.get(path.name, []) + MEASURED.get(path.name, [])
-            with self.subTest(page=path.name):
+            page = str(path.relative_to(ROOT)).removeprefix("Documentation/")
+            with self.subTest(page=page):
+                known = GIVEN.get(page, []) + MEASURED.get(page, [])
                 self.assertEqual(sorted(set(unit.findall(" ".join(text.split())))),
                                  sorted(set(known)))
 

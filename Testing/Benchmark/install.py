@@ -73,7 +73,8 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
     parser.add_argument("--build", action="store_true", help="build, too")
     options = parser.parse_args()
-    system = dict(re.findall(r'^(\w+)="?(.*?)"?$', Path("/etc/os-release").read_text("utf-8"), re.M))
+    text = Path("/etc/os-release").read_text(encoding="utf-8")
+    system = dict(re.findall(r'^(\w+)="?(.*?)"?$', text, re.MULTILINE))
     release = system["ID"] + " " + system.get("VERSION_ID", "unstable")
     row = {"release": release, "commit": commit(), **packages_row()}
     if options.build:
