@@ -173,6 +173,19 @@ class SolverFilesAndCommands(InFolder):
                     self.assertRegex(done.stdout, r"(?m)^inverted cells( +0)+$")
 
 
+    def test_what_a_command_prints(self):
+        shutil.copy(BORE.with_name("canister_hex_small.vtu"), "canister.vtu")
+        page = (ROOT / "Documentation/CommandLine.md").read_text(encoding="utf-8")
+        said = re.search(r"`(--move [^`]*)`\s+prints this, [^:]*:\s*\n((?: {4}.*\n)+)", page)
+        done = subprocess.run(["bash", "-c", f"morph-mesh {said[1]} canister.vtu wider.vtu"],
+                              env={**os.environ, "PATH": howto_pictures.search_path(PLUGIN)},
+                              capture_output=True, text=True, timeout=120, check=False)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertTrue(done.stdout.endswith("wider.vtu: Valid\n"), done.stdout)
+        self.assertTrue(done.stdout.startswith(re.sub(r"^ {4}", "", said[2], flags=re.MULTILINE)),
+                        done.stdout)
+
+
 class HowTos(unittest.TestCase):
     """The pages of HowTo, each run as it stands: it raises if a mesh is not valid."""
 
