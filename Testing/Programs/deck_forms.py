@@ -98,6 +98,14 @@ class DeckForms(solver_files.SolverFiles):
             map(str, range(2, 18))) + "\n18, 19, 20\n" + self.TOP % "Top", {"Top": self.LID})
         self.assertIn("Elements of the type 'C3D15V' are left out", said)
 
+    def test_parameters_of_abaqus_matter_where_nodes_have_them(self):
+        parameters = "*PARAMETER\nthickness = 0.5\nhigh = 1.\n"
+        text = self.CUBE + self.BRICK + self.TOP % "Top"
+        self.check("m.inp", parameters + text, {"Top": self.LID})
+        path = self.folder / "m.inp"
+        path.write_text(parameters + text.replace("1., 1., 1.", "1., 1., <high>"))
+        self.refuse("line 12: '<high>' is no number", "list", path)
+
     def test_byte_order_marks(self):
         mark, node = b"\xef\xbb\xbf", "%8d%16.3f%16.3f%16.3f\n"
         dyna = ("*KEYWORD\n*NODE\n" + "".join(node % (i + 1, i & 1, i >> 1 & 1, i >> 2)

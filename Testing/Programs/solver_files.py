@@ -353,6 +353,21 @@ class SolverFiles(unittest.TestCase):
             path.write_text("BEGIN BULK\n" + text)
             self.refuse(message, "--list-surfaces", path)
 
+    def test_a_system_of_nodes_goes_along_with_them(self):
+        """The upper cube's top is given in the system of three nodes of the lower one."""
+        grids = "".join(f"GRID,{i + 1},,{x}.,{y}.,{z}.\n" for i, (x, y, z) in enumerate(
+            self.CORNERS)) + "".join(f"GRID,{i + 9},4,{i & 1}.,{i >> 1}.,2.\n" for i in range(4))
+        path, out, table = (self.folder / name for name in ("m.bdf", "out.bdf", "line.csv"))
+        path.write_text(f"BEGIN BULK\nCORD1R,4,1,5,2\n{grids}CHEXA,1,7,1,2,4,3,5,6,+\n+,8,7\n"
+                        "CHEXA,2,7,5,6,8,7,9,10,+\n+,12,11\nENDDATA\n")
+        for motion in (("--translate", "0.25,0.5,1"), ("--rotate", "0,0,90")):
+            self.check_by_reading(path, out, "--move", "PID 7", *motion, delta=1e-12)
+            self.assertEqual(out.read_text().splitlines()[10:], path.read_text().splitlines()[10:])
+        self.check_by_reading(path, out, "--move", "Surface 0", "--rotate", "20,0,5", delta=1e-5)
+        table.write_text("id,dx,dy,dz\n1,-1,0,0\n")
+        self.refuse("puts the nodes of the coordinate system 4 on a line", "--displacements", table,
+                    "--validity", "none", path, out)
+
     CORNERS = [(i & 1, i >> 1 & 1, i >> 2) for i in range(8)]
 
     def test_a_deck_of_ls_dyna_in_each_form_of_its_fields(self):

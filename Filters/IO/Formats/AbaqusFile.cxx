@@ -122,7 +122,7 @@ private:
 void refuseKeyword(const AbaqusKeyword& keyword, std::string& reason)
 {
   static const std::set<std::string> generated = { "NGEN", "NFILL", "NCOPY", "NMAP", "ELGEN",
-    "ELCOPY", "ELMOVE", "PARAMETER", "SUBMODEL", "IMPORT" };
+    "ELCOPY", "ELMOVE", "SUBMODEL", "IMPORT" };
   if (generated.count(keyword.name) > 0)
   {
     reason = "it has *" + keyword.name +
