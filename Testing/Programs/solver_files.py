@@ -720,6 +720,7 @@ class SolverFiles(unittest.TestCase):
             ("m.k", dyna.replace("4,4,4,4", ""), "line 8: element 1 has 3 nodes"),
             ("m.k", dyna + "1,8,1,2,3,4,4,4,4,4\n", "more than one element of one kind .* 1"),
             ("m.k", "*PARAMETER\nR X, 1.\n" + dyna, "line 1: it has .PARAMETER"),
+            ("m.k", "*PART_MOVE\n7,1.,0.,0.\n" + dyna, "line 1: it has .PART_MOVE: parts that are"),
             ("m.k", "*INCLUDE_TRANSFORM\na.k\n" + dyna, "line 1: it has .INCLUDE_TRANSFORM"),
             ("m.k", "*INCLUDE\nm.k\n", "20 levels deep"), ("m.k", "*KEYWORD\n", "no .NODE"),
             ("m.su2", su2.replace("3\nNPOIN", "4\nNPOIN", 1), "line 1: .*two or three dimens"),
