@@ -18,7 +18,6 @@ morph::Mesh cube()
   {
     mesh.points.row(n) << 0.5 * (n % 3), 0.5 * (n / 3 % 3), 0.5 * (n / 9);
   }
-  mesh.offsets.push_back(0);
   for (int first : { 0, 1, 3, 4, 9, 10, 12, 13 })
   {
     for (int corner : { 0, 1, 4, 3, 9, 10, 13, 12 })

@@ -349,9 +349,12 @@ def make_cxx(folder):
         structs.append(struct(kept[1], own))
         print_one = "  Property::Print(os, indent, {0}, this->{1}->{2});\n"
         printed = "".join(print_one.format(f'"{row.name}"', kept[2], row.name) for row in own)
+        # A class that declares PrintOptions() prints more than its options.
+        function = ("PrintOptions(ostream& os, vtkIndent indent) const" if "PrintOptions(" in text
+                    else "PrintSelf(ostream& os, vtkIndent indent)")
+        begin = "" if "PrintOptions(" in text else "  this->Superclass::PrintSelf(os, indent);\n"
         sources.append("".join(definitions(cls, kept[2], row) for row in own) +
-                       f"void {cls}::PrintOptions(ostream& os, vtkIndent indent) const\n{{\n"
-                       f"{printed}}}\n")
+                       f"void {cls}::{function}\n{{\n{begin}{printed}}}\n")
     made = "// Made by cmake/properties.py from Properties.ini.\n"
     write(folder / "Private" / "Options.h",
           made + "#pragma once\n\n#include <array>\n#include <set>\n#include <string>\n\n"

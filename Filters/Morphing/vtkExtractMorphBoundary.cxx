@@ -86,9 +86,3 @@ void vtkExtractMorphBoundary::Extract(
   filters::Surface::WarnOfNone(faces, monitor);
   filters::Surface::Write(grid, mesh, faces, output);
 }
-
-void vtkExtractMorphBoundary::PrintSelf(ostream& os, vtkIndent indent)
-{
-  this->Superclass::PrintSelf(os, indent);
-  this->PrintOptions(os, indent);
-}

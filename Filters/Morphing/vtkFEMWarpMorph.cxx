@@ -30,9 +30,3 @@ std::unique_ptr<morph::Morpher> vtkFEMWarpMorph::CreateMorpher()
   morpher->setTolerance(this->Options->Tolerance);
   return morpher;
 }
-
-void vtkFEMWarpMorph::PrintSelf(ostream& os, vtkIndent indent)
-{
-  this->Superclass::PrintSelf(os, indent);
-  this->PrintOptions(os, indent);
-}

@@ -25,9 +25,3 @@ std::unique_ptr<morph::Morpher> vtkInversionFreeMorph::CreateMorpher()
   morpher->setSteps(steps[this->Options->Effort]);
   return morpher;
 }
-
-void vtkInversionFreeMorph::PrintSelf(ostream& os, vtkIndent indent)
-{
-  this->Superclass::PrintSelf(os, indent);
-  this->PrintOptions(os, indent);
-}

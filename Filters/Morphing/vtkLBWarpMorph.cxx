@@ -24,9 +24,3 @@ std::unique_ptr<morph::Morpher> vtkLBWarpMorph::CreateMorpher()
   morpher->setTolerance(this->Options->Tolerance);
   return morpher;
 }
-
-void vtkLBWarpMorph::PrintSelf(ostream& os, vtkIndent indent)
-{
-  this->Superclass::PrintSelf(os, indent);
-  this->PrintOptions(os, indent);
-}

@@ -31,9 +31,3 @@ std::unique_ptr<morph::Morpher> vtkRadialBasisMorph::CreateMorpher()
       : 0);
   return morpher;
 }
-
-void vtkRadialBasisMorph::PrintSelf(ostream& os, vtkIndent indent)
-{
-  this->Superclass::PrintSelf(os, indent);
-  this->PrintOptions(os, indent);
-}

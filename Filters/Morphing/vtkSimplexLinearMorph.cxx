@@ -14,8 +14,3 @@ std::unique_ptr<morph::Morpher> vtkSimplexLinearMorph::CreateMorpher()
 {
   return std::make_unique<morph::SimplexLinear>();
 }
-
-void vtkSimplexLinearMorph::PrintSelf(ostream& os, vtkIndent indent)
-{
-  this->Superclass::PrintSelf(os, indent);
-}

@@ -38,7 +38,6 @@ class VTKMESHMORPHINGFILTERSMORPHING_EXPORT vtkSimplexLinearMorph : public vtkMo
 public:
   static vtkSimplexLinearMorph* New();
   vtkTypeMacro(vtkSimplexLinearMorph, vtkMorphAlgorithm);
-  void PrintSelf(ostream& os, vtkIndent indent) override;
 
   ///@{
   /**

@@ -21,9 +21,3 @@ std::unique_ptr<morph::Morpher> vtkSimplexNaturalNeighborMorph::CreateMorpher()
   morpher->setMemoryLimit(static_cast<std::size_t>(1e6 * this->Options->MemoryLimit));
   return morpher;
 }
-
-void vtkSimplexNaturalNeighborMorph::PrintSelf(ostream& os, vtkIndent indent)
-{
-  this->Superclass::PrintSelf(os, indent);
-  this->PrintOptions(os, indent);
-}

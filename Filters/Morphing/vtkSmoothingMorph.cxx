@@ -28,9 +28,3 @@ std::unique_ptr<morph::Morpher> vtkSmoothingMorph::CreateMorpher()
   morpher->setOptions(options);
   return morpher;
 }
-
-void vtkSmoothingMorph::PrintSelf(ostream& os, vtkIndent indent)
-{
-  this->Superclass::PrintSelf(os, indent);
-  this->PrintOptions(os, indent);
-}

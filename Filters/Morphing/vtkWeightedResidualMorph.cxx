@@ -21,9 +21,3 @@ std::unique_ptr<morph::Morpher> vtkWeightedResidualMorph::CreateMorpher()
   morpher->setNumberOfNeighbors(this->Options->NumberOfNeighbors);
   return morpher;
 }
-
-void vtkWeightedResidualMorph::PrintSelf(ostream& os, vtkIndent indent)
-{
-  this->Superclass::PrintSelf(os, indent);
-  this->PrintOptions(os, indent);
-}

@@ -9,7 +9,6 @@ Mesh cut(const Mesh& mesh, const std::function<bool(const Row&)>& keep)
 {
   Mesh result;
   result.points = mesh.points;
-  result.offsets = { 0 };
   for (Index c = 0; c < mesh.numberOfCells(); ++c)
   {
     const std::vector<Index> nodes(mesh.cell(c), mesh.cell(c) + mesh.cellSize(c));
@@ -83,7 +82,6 @@ Mesh hollowBall(int n)
 Mesh boxWithHole(int around, int through, int layers)
 {
   Mesh mesh;
-  mesh.offsets = { 0 };
   mesh.points.resize(static_cast<Index>(around) * (through + 1) * (layers + 1), 3);
   const auto id = [&](int a, int r, int z)
   { return a % around + static_cast<Index>(around) * (r + static_cast<Index>(through + 1) * z); };

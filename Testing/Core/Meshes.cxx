@@ -27,7 +27,6 @@ Mesh boxes(int nx, int ny, int nz, const Visit& visit)
 {
   Mesh mesh;
   mesh.points.resize(static_cast<Index>(nx + 1) * (ny + 1) * (nz + 1), 3);
-  mesh.offsets.push_back(0);
   for (int k = 0; k <= nz; ++k)
   {
     for (int j = 0; j <= ny; ++j)
@@ -60,7 +59,6 @@ void addExtraNodes(Mesh& mesh, std::uint8_t type)
 {
   const CellShape& shape = *cellShape(type);
   Mesh result;
-  result.offsets.push_back(0);
   std::vector<Eigen::RowVector3d> extra;
   std::map<std::vector<Index>, Index> known;
   for (Index c = 0; c < mesh.numberOfCells(); ++c)
@@ -103,9 +101,7 @@ void addExtraNodes(Mesh& mesh, std::uint8_t type)
 
 void add(Mesh& mesh, std::uint8_t type, const std::vector<Index>& nodes)
 {
-  mesh.types.push_back(type);
-  mesh.connectivity.insert(mesh.connectivity.end(), nodes.begin(), nodes.end());
-  mesh.offsets.push_back(static_cast<Index>(mesh.connectivity.size()));
+  mesh.add(type, nodes.begin(), nodes.end());
 }
 
 Mesh hexes(int nx, int ny, int nz)
@@ -218,7 +214,6 @@ Mesh quadraticTets(int nx, int ny, int nz)
 Mesh withNodesBetween(const Mesh& linear, const std::map<std::uint8_t, CellKind>& kinds)
 {
   Mesh mesh;
-  mesh.offsets = { 0 };
   mesh.points = linear.points;
   std::map<std::vector<std::pair<Index, long>>, Index> known; // by shares of corners
   for (Index c = 0; c < linear.numberOfCells(); ++c)
@@ -298,7 +293,6 @@ Mesh closedAlongY(const Mesh& open, int around,
   const std::function<Eigen::RowVector3d(const Eigen::RowVector3d&)>& place)
 {
   Mesh mesh;
-  mesh.offsets.push_back(0);
   std::map<std::array<Index, 3>, Index> known;
   std::vector<Index> nodeOf(open.points.rows());
   std::vector<Eigen::RowVector3d> points;

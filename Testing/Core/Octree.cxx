@@ -50,7 +50,6 @@ Octree::Octree(unsigned seed, int order, const Place& cubes)
   : cubes_(cubes)
 {
   std::mt19937 random(seed);
-  this->mesh.offsets = { 0 };
   this->mesh.points.resize(0, 3);
   std::vector<std::pair<Place, int>> boxes, open; // corners and sizes
   const auto [nx, ny, nz] = cubes;

@@ -86,7 +86,6 @@ Mesh asPolyhedra(const Mesh& mesh, const std::function<bool(Index cell)>& isChos
 {
   Mesh result;
   result.points = mesh.points;
-  result.offsets = { 0 };
   for (Index c = 0; c < mesh.numberOfCells(); ++c)
   {
     if (isChosen && !isChosen(c))
@@ -114,7 +113,6 @@ Mesh honeycomb(int n)
 {
   const double height = std::sqrt(3.);
   Mesh mesh;
-  mesh.offsets = { 0 };
   Nodes nodes;
   for (int k = 0; k < n; ++k)
   {
@@ -147,7 +145,6 @@ Mesh honeycomb(int n)
 Mesh refinedLayer(int n)
 {
   Mesh mesh;
-  mesh.offsets = { 0 };
   Nodes nodes;
   const auto at = [&](int x, int y, int z) { return nodes.at(x, y, z); };
   for (int j = 0; j < 2 * n; j += 2)
@@ -200,7 +197,6 @@ Mesh voronoi(int n)
     sites.push_back(Vector(i % n, i / n % n, i / (n * n)) + shift);
   }
   Mesh mesh;
-  mesh.offsets = { 0 };
   Nodes points;
   const Mesh box = hexes(1, 1, 1);
   const CellShape& cube = *cellShape(Hexahedron);

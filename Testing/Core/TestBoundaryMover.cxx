@@ -163,7 +163,6 @@ TEST(BoundaryMover, NodesBetweenCornersStayOnEdgesOfLinearCells)
   morph::Mesh mesh;
   const morph::Mesh all = meshes::quadraticHexes(4, 2, 2, false);
   mesh.points = all.points;
-  mesh.offsets = { 0 };
   for (Index c = 0; c < all.numberOfCells(); ++c)
   {
     const bool isLinear = all.points(all.cell(c)[1], 0) <= 2;

@@ -27,7 +27,6 @@ Mesh cellsOfAllKinds(Index count)
   std::uniform_int_distribution<int> exponent(-170, 120), kind(0, 19), group(0, 6);
   const Mesh hex = meshes::hexes(1, 1, 1);
   Mesh mesh;
-  mesh.offsets = { 0 };
   std::vector<Eigen::RowVector3d> points;
   std::uint8_t type = Hexahedron;
   for (Index c = 0; c < count; ++c)

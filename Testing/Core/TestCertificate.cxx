@@ -42,7 +42,6 @@ const Volume Volumes[] = { { Tetra, &RightTet }, { Hexahedron, &Cube }, { Wedge,
 Certificate certified(std::uint8_t type, const Cell& cell)
 {
   Mesh mesh;
-  mesh.offsets = { 0 };
   mesh.points = Eigen::Map<const Points>(cell[0].data(), static_cast<Index>(cell.size()), 3);
   meshes::add(mesh, type, consecutive(cellShape(type)->numberOfNodes));
   Monitor monitor;
@@ -131,7 +130,6 @@ double sampledMinimum(std::uint8_t type, const Cell& cell, int lattice, bool sea
 Mesh meshOf(const std::vector<std::pair<std::uint8_t, Cell>>& cells)
 {
   Mesh mesh;
-  mesh.offsets = { 0 };
   std::vector<Vector> points;
   for (const auto& [type, cell] : cells)
   {

@@ -455,14 +455,10 @@ TEST(Classification, OpenSurface)
     const Row center = meshes::rows(mesh.points, nodes).colwise().mean();
     if (center[2] == 1 && center != Row(1.5, 1.5, 1))
     {
-      open.connectivity.insert(open.connectivity.end(), nodes.begin(), nodes.end());
-      open.offsets.push_back(static_cast<Index>(open.connectivity.size()));
+      open.add(nodes.begin(), nodes.end());
     }
   }
-  open.nodes = open.connectivity;
-  std::sort(open.nodes.begin(), open.nodes.end());
-  open.nodes.erase(std::unique(open.nodes.begin(), open.nodes.end()), open.nodes.end());
-  open.between.offsets.assign(open.nodes.size() + 1, 0);
+  open.takeNodes();
   const Classification g = classify(mesh.points, open, {}, monitor);
   EXPECT_EQ(counts(g), (Counts{ 8, 8, 1 }));
   EXPECT_EQ(g.dimension[0], -1); // on no face
@@ -519,7 +515,6 @@ TEST(Classification, CancelsAndTakesAnEmptyMesh)
 {
   Mesh none;
   none.points.resize(0, 3);
-  none.offsets = { 0 };
   EXPECT_EQ(counts(find(none).geometry), (Counts{ 0, 0, 0 }));
 
   const Mesh mesh = meshes::hexes(2, 2, 2);

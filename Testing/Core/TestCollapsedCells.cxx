@@ -21,7 +21,6 @@ using namespace morph;
 Mesh cellOf(std::uint8_t type, const std::vector<Index>& nodes)
 {
   Mesh mesh;
-  mesh.offsets = { 0 };
   mesh.points.resize(9, 3);
   mesh.points << 0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0, 0, 1, 1, 0, 1, 1, 1, 1, 0, 1, 1, .5, .5, 1;
   meshes::add(mesh, type, nodes);

@@ -143,19 +143,13 @@ TEST(FemWarp, ANodeOfManyCellsAgreesWithADenseSolve)
   mesh.points.resize(Round + 2, 3);
   mesh.points.row(0) << 0, 0, -1;
   mesh.points.row(Round + 1) << 0, 0, 1;
-  mesh.offsets.push_back(0);
   NodePartition partition;
   partition.prescribed.push_back(0);
   for (Index i = 1; i <= Round; ++i)
   {
     const double angle = 2 * std::acos(-1.) * static_cast<double>(i) / Round;
     mesh.points.row(i) << std::cos(angle), std::sin(angle), .1 * std::sin(5 * angle);
-    mesh.types.push_back(Tetra);
-    for (const Index node : { Index(0), Index(Round + 1), i, i % Round + 1 })
-    {
-      mesh.connectivity.push_back(node);
-    }
-    mesh.offsets.push_back(static_cast<Index>(mesh.connectivity.size()));
+    meshes::add(mesh, Tetra, { 0, Round + 1, i, i % Round + 1 });
     (i % 2 == 0 ? partition.free : partition.prescribed).push_back(i);
   }
   partition.free.push_back(Round + 1);

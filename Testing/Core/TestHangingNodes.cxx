@@ -135,7 +135,6 @@ TEST(HangingNodes, OfTrianglesAndOfFacesThatAreCut)
   Mesh tets;
   tets.points.resize(8, 3);
   tets.points << 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, .5, 0, 0, .5, .5, 0, 0, .5, 0, 0, 0, -1;
-  tets.offsets = { 0 };
   meshes::add(tets, morph::Tetra, { 0, 1, 2, 3 });
   for (const auto& base :
     { std::array<Index, 3>{ 0, 4, 6 }, { 4, 1, 5 }, { 6, 5, 2 }, { 4, 5, 6 } })
@@ -280,7 +279,6 @@ TEST(HangingNodes, OnAnEdgeOfTheBoundaryAreItsNodes)
     Octree octree(meshes::seed(), order);
     Mesh part; // some cells at random, so that faces of all kinds are outer ones
     part.points = octree.mesh.points;
-    part.offsets = { 0 };
     std::mt19937 random(meshes::seed());
     for (Index c = 0; c < octree.mesh.numberOfCells(); ++c)
     {

@@ -67,7 +67,6 @@ Mesh polar(bool asWedges)
 {
   constexpr int Around = 8, Rings = 4, Layers = 4;
   Mesh mesh;
-  mesh.offsets.push_back(0);
   const auto axis = [](int k) -> Index { return k; };
   const auto at = [](int i, int j, int k) -> Index
   { return (Layers + 1) + (i % Around) + Around * ((j - 1) + Rings * k); };
@@ -138,7 +137,6 @@ TEST(HardMeshes, OneWedgeWrittenAsAHexahedronAmongWedges)
 {
   Mesh mesh = meshes::wedges(4, 4, 4), changed;
   changed.points = mesh.points;
-  changed.offsets.push_back(0);
   for (Index c = 0; c < mesh.numberOfCells(); ++c)
   {
     const Index* n = mesh.cell(c);
@@ -219,7 +217,6 @@ TEST(HardMeshes, ManyCellsRoundOneNode)
   // A wheel of thin wedges round an axis.
   constexpr int Around = 20000;
   Mesh mesh;
-  mesh.offsets.push_back(0);
   mesh.points.resize(2 * Around + 2, 3);
   for (int k = 0; k < 2; ++k)
   {

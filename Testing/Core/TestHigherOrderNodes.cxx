@@ -20,7 +20,6 @@ using Corners = Eigen::Matrix<double, 5, 3>;
 Mesh pyramid(const Corners& corners, double part)
 {
   Mesh mesh;
-  mesh.offsets.push_back(0);
   mesh.points.resize(13, 3);
   mesh.points.topRows(5) = corners;
   const int edges[8][2] = { { 0, 1 }, { 1, 2 }, { 2, 3 }, { 3, 0 }, { 0, 4 }, { 1, 4 }, { 2, 4 },

@@ -31,8 +31,8 @@ struct Strip
       if (i < n)
       {
         const Index a = 2 * i;
-        this->faces.connectivity.insert(this->faces.connectivity.end(), { a, a + 2, a + 3, a + 1 });
-        this->faces.offsets.push_back(static_cast<Index>(this->faces.connectivity.size()));
+        const Index corners[] = { a, a + 2, a + 3, a + 1 };
+        this->faces.add(corners, corners + 4);
       }
     }
   }

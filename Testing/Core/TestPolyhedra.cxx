@@ -57,7 +57,6 @@ Mesh withFaces(const std::vector<std::vector<Index>>& faces)
   const Mesh hexahedra = meshes::hexes(2, 1, 1);
   Mesh mesh;
   mesh.points = hexahedra.points;
-  mesh.offsets = { 0 };
   add(mesh, Hexahedron, { hexahedra.cell(0), hexahedra.cell(0) + 8 });
   addPolyhedron(mesh, faces);
   return mesh;

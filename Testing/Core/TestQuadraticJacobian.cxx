@@ -33,7 +33,6 @@ JacobianProof proof(std::uint8_t type, const Cell& cell)
 Mesh meshOf(std::uint8_t type, const std::vector<Cell>& cells)
 {
   Mesh mesh;
-  mesh.offsets = { 0 };
   std::vector<Vector> points;
   for (const Cell& cell : cells)
   {

@@ -86,7 +86,6 @@ Corners jittered(Corners corners, double size, std::mt19937& random)
 Mesh separateCells(const std::vector<std::pair<std::uint8_t, Corners>>& cells)
 {
   Mesh mesh;
-  mesh.offsets = { 0 };
   std::size_t nodes = 0;
   for (const auto& cell : cells)
   {

@@ -49,7 +49,6 @@ Row turnedBack(const Row& x)
 Mesh square(const std::string& cells)
 {
   Mesh mesh;
-  mesh.offsets = { 0 };
   mesh.points.resize((Boxes + 1) * (Boxes + 1), 3);
   std::mt19937 random(meshes::seed());
   std::uniform_real_distribution<double> jitter(-0.2, 0.2);
@@ -338,7 +337,6 @@ Mesh sphere(const std::string& cells)
   morph::Monitor monitor;
   const morph::BoundaryFaces faces = morph::boundaryFaces(box, monitor);
   Mesh mesh;
-  mesh.offsets = { 0 };
   mesh.points = box.points(faces.nodes, morph::allColumns) / 2;
   mesh.points.rowwise() -= Row(1, 1, 1);
   mesh.points.rowwise().normalize();
@@ -365,7 +363,6 @@ Mesh sphere(const std::string& cells)
 Mesh quadratic(const Mesh& linear, const motions::Map& map)
 {
   Mesh mesh;
-  mesh.offsets = { 0 };
   std::map<std::pair<Index, Index>, Index> middles;
   std::vector<Row> points;
   for (const auto& row : linear.points.rowwise())
@@ -436,7 +433,6 @@ Shell closedShell(const std::string& cells)
 Shell strip(int along, int across, double length, double width)
 {
   Mesh mesh;
-  mesh.offsets = { 0 };
   mesh.points.resize((along + 1) * (across + 1), 3);
   for (int i = 0; i <= along; ++i)
   {
@@ -732,7 +728,6 @@ TEST(CurvedShell, ShellsWithOneSideOrNoNormalAreRefused)
   }
   motions::expectError([&] { morph::thicken(moebius); }, "one side alone");
   Mesh hairpin;
-  hairpin.offsets = { 0 };
   hairpin.points = (Points(5, 3) << 0, 0, 0, 0, 1, 0, 1, 0, 0, 1, 1e-9, 0, 0, 0, 1).finished();
   meshes::add(hairpin, morph::Triangle, { 0, 1, 2 });
   meshes::add(hairpin, morph::Triangle, { 1, 0, 3 });

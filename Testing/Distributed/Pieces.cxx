@@ -35,7 +35,6 @@ std::vector<int> randomOwners(const morph::Mesh& mesh, int ranks, unsigned seed)
 morph::distributed::Piece pieceOf(const morph::Mesh& mesh, const std::vector<int>& owners, int rank)
 {
   morph::distributed::Piece piece;
-  piece.mesh.offsets = { 0 };
   std::vector<morph::Index> local(mesh.numberOfNodes(), -1);
   for (morph::Index c = 0; c < mesh.numberOfCells(); ++c)
   {

@@ -50,7 +50,6 @@ morph::Mesh fork()
   const morph::Mesh block = meshes::hexes(12, 2, 8);
   morph::Mesh whole;
   whole.points = block.points;
-  whole.offsets = { 0 };
   for (Index c = 0; c < block.numberOfCells(); ++c)
   {
     const grids::Row low = block.points.row(block.cell(c)[0]);

@@ -111,7 +111,6 @@ TEST(DistributedFilters, APlaneMeshOnSeveralRanksIsOneError)
 {
   const Ranks ranks = pieces::world();
   morph::Mesh square;
-  square.offsets = { 0 };
   square.points.resize(4, 3);
   square.points << 0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0;
   square.points.col(0).array() += ranks.rank();

@@ -83,6 +83,15 @@ std::string surfaceName(
   return "no surface";
 }
 
+vtkSmartPointer<vtkBoundaryDisplacement> moving(
+  vtkDataObject* input, const std::function<bool(const grids::Row&)>& is)
+{
+  auto filter = make(input);
+  filter->SetMovingToSurfaces();
+  filter->AddSurface(surfaceName(filter, is).c_str());
+  return filter;
+}
+
 vtkSmartPointer<vtkSelection> indices(int fieldType, const std::vector<morph::Index>& ids)
 {
   vtkNew<vtkIdTypeArray> list;

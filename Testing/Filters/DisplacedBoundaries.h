@@ -30,6 +30,10 @@ std::vector<morph::Index> nodesWhere(
 std::string surfaceName(
   vtkBoundaryDisplacement* filter, const std::function<bool(const grids::Row&)>& is);
 
+/// A filter that moves the surface of which that tells.
+vtkSmartPointer<vtkBoundaryDisplacement> moving(
+  vtkDataObject* input, const std::function<bool(const grids::Row&)>& is);
+
 /// A selection of points or cells (vtkSelectionNode::POINT, CELL) by their numbers.
 vtkSmartPointer<vtkSelection> indices(int fieldType, const std::vector<morph::Index>& ids);
 /// Of those in a box.

@@ -298,12 +298,7 @@ TEST(AffineHandleOf, CurvedWallsIsUsedForMotionsThatTheyFollowLinearly)
   // The end of a ring moves along its axis, which its walls follow along themselves; and turns
   // about it, which the walls follow along circles.
   auto grid = grids::make(meshes::ring(24, 3, 0.2));
-  auto filter = displaced::make(grid);
-  filter->SetMovingToSurfaces();
-  filter->AddSurface(displaced::surfaceName(filter,
-    [](const Row& x) {
-      return std::abs(x[2] - 0.8) < 1e-9;
-    }).c_str());
+  auto filter = displaced::moving(grid, [](const Row& x) { return std::abs(x[2] - 0.8) < 1e-9; });
   const auto described = [&]
   {
     filter->Update();

@@ -70,7 +70,6 @@ morph::Mesh ofOrder(const morph::Mesh& linear, Index order, std::uint8_t first)
   const std::map<std::uint8_t, int> kinds = { { morph::Tetra, 0 }, { morph::Hexahedron, 1 },
     { morph::Wedge, 2 } };
   morph::Mesh mesh;
-  mesh.offsets = { 0 };
   std::vector<Row> points;
   std::map<std::array<long, 3>, Index> numbers;
   for (Index c = 0; c < linear.numberOfCells(); ++c)
@@ -234,7 +233,6 @@ TEST(AnyOrder, NodesBetweenCornersFollowThem)
 TEST(AnyOrder, NodesOfACollapsedFaceAreOnTheEdgeThatItIs)
 {
   morph::Mesh linear;
-  linear.offsets = { 0 };
   linear.points.resize(6, 3);
   linear.points << 0, 0, 0, 0, 1, 0, 1, 0, 0, 0, 0, 1, 0, 1, 1, 1, 0, 1;
   meshes::add(linear, morph::Wedge, { 0, 1, 2, 3, 4, 5 });

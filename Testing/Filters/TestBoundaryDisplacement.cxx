@@ -245,9 +245,7 @@ TEST(BoundaryDisplacement, AlongNormals)
   // One layer: the sides' faces have all of their nodes on what moves, but are not of the patches
   // that do.
   auto flat = grids::make(meshes::hexes(3, 3, 1));
-  auto filter = displaced::make(flat);
-  filter->SetMovingToSurfaces();
-  filter->AddSurface(surfaceName(filter, [](const Row& x) { return x[2] == 0; }).c_str());
+  auto filter = displaced::moving(flat, [](const Row& x) { return x[2] == 0; });
   filter->AddSurface(surfaceName(filter, [](const Row& x) { return x[2] == 1; }).c_str());
   filter->SetDisplacementToAlongNormals();
   filter->SetDistance(0.25);

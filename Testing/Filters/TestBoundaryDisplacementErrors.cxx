@@ -213,9 +213,8 @@ TEST(BoundaryDisplacementErrors, TheInput)
 
 TEST(BoundaryDisplacementErrors, ACollapseIsAllowedAndNamed)
 {
-  auto filter = displaced::make(grids::make(meshes::hexes(2, 2, 2)));
-  filter->SetMovingToSurfaces();
-  filter->AddSurface(surfaceName(filter, [](const Row& x) { return x[2] == 2; }).c_str());
+  auto filter =
+    displaced::moving(grids::make(meshes::hexes(2, 2, 2)), [](const Row& x) { return x[2] == 2; });
   vtkNew<vtkTransform> transform;
   transform->Scale(0, 1, 1);
   filter->SetTransform(transform);

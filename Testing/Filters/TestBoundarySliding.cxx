@@ -141,9 +141,7 @@ TEST(BoundarySliding, TheOuterWallStaysWhereAHoleGrows)
 {
   // Two halves of a pipe, whose ends meet: no vertex, and closed curves.
   auto grid = sector(180, 8);
-  auto filter = displaced::make(grid);
-  filter->SetMovingToSurfaces();
-  filter->AddSurface(surface(grid, onHole).c_str());
+  auto filter = displaced::moving(grid, onHole);
   filter->SetDisplacementToTransform();
   vtkNew<vtkTransform> grow;
   grow->Scale(1.2, 1.2, 1);
@@ -171,9 +169,7 @@ TEST(BoundarySliding, TheOuterWallStaysWhereAHoleGrows)
 TEST(BoundarySliding, ACylinderStaysACylinderWhereItsEndMoves)
 {
   auto grid = sector(90, 5);
-  auto filter = displaced::make(grid);
-  filter->SetMovingToSurfaces();
-  filter->AddSurface(surface(grid, [](const Row& x) { return isAt(x[2], 1); }).c_str());
+  auto filter = displaced::moving(grid, [](const Row& x) { return isAt(x[2], 1); });
   vtkNew<vtkTransform> turn;
   turn->Translate(0, 0, 0.5);
   turn->RotateZ(10);
@@ -215,9 +211,7 @@ TEST(BoundarySliding, NodesOfABumpySurfaceStayWhereNothingMoves)
         return Row(x + Row(0, 0, up));
       });
     auto grid = grids::make(mesh);
-    auto filter = displaced::make(grid);
-    filter->SetMovingToSurfaces();
-    filter->AddSurface(surface(grid, [](const Row& x) { return x[0] == 6; }).c_str());
+    auto filter = displaced::moving(grid, [](const Row& x) { return x[0] == 6; });
     filter->AddSlidingSurface(surface(grid, [](const Row& x) { return x[2] > 3.5; }).c_str());
     grids::moveBy(filter, 0, 1e-9, 0);
     filter->Update();
@@ -235,9 +229,7 @@ TEST(BoundarySliding, NodesOfABumpySurfaceStayWhereNothingMoves)
 TEST(BoundarySliding, SaysHowFarASurfaceLeavesItsShape)
 {
   auto grid = grids::make(meshes::hexes(4, 4, 4));
-  auto filter = displaced::make(grid);
-  filter->SetMovingToSurfaces();
-  filter->AddSurface(surface(grid, [](const Row& x) { return x[2] == 4; }).c_str());
+  auto filter = displaced::moving(grid, [](const Row& x) { return x[2] == 4; });
   grids::moveBy(filter, 0.3, 0, 0.4);
   const grids::Run listener(filter);
   // Two sides keep their planes, and two are pulled 0.3 out of theirs by 0.5.
@@ -254,9 +246,7 @@ TEST(BoundarySliding, SaysHowFarASurfaceLeavesItsShape)
 TEST(BoundarySliding, AVertexIsNoTouchUnlessItMovesAlone)
 {
   auto grid = grids::make(meshes::hexes(4, 4, 4));
-  auto filter = displaced::make(grid);
-  filter->SetMovingToSurfaces();
-  filter->AddSurface(surface(grid, [](const Row& x) { return x[2] == 4; }).c_str());
+  auto filter = displaced::moving(grid, [](const Row& x) { return x[2] == 4; });
   grids::moveBy(filter, 0, 0, 0.4);
   filter->Update();
   const auto followers = [&](const std::function<bool(const Row&)>& is)
@@ -335,9 +325,7 @@ TEST(BoundarySliding, TheRadiusOfASphereIsOneNumber)
 TEST(BoundarySliding, ScalesAndTurnsAboutTheCenterOfWhatMoves)
 {
   auto grid = grids::make(meshes::hexes(4, 4, 4));
-  auto filter = displaced::make(grid);
-  filter->SetMovingToSurfaces();
-  filter->AddSurface(surface(grid, [](const Row& x) { return x[2] == 4; }).c_str());
+  auto filter = displaced::moving(grid, [](const Row& x) { return x[2] == 4; });
   filter->SetSurroundingsToStay();
   filter->SetDisplacementToTranslateRotateScale();
   filter->SetRotation(0, 0, 90);
@@ -456,9 +444,7 @@ TEST(BoundarySliding, NodesOfFreeSurfacesAreSolvedWithTheInterior)
   EXPECT_LT(otherwise, 0.1);
 
   // The same answer by the two filters, whose boundary tells which points are free.
-  auto displace = displaced::make(grid);
-  displace->SetMovingToSurfaces();
-  displace->AddSurface(surface(grid, onHole).c_str());
+  auto displace = displaced::moving(grid, onHole);
   grids::moveBy(displace, 0, 0, 0.1);
   displace->AddFreeSurface(surface(grid, [](const Row& at) { return isAt(at[2], 1); }).c_str());
   displace->Update();
@@ -506,9 +492,7 @@ TEST(BoundarySliding, NamesWhatDoesNotExist)
 TEST(BoundarySliding, SurfacesThatFoldAsTheyFollowSlideUntilTheyDoNot)
 {
   auto grid = grids::make(shapes::boxWithHole(24, 5, 2));
-  auto filter = displaced::make(grid);
-  filter->SetMovingToSurfaces();
-  filter->AddSurface(displaced::surfaceName(filter, onHole).c_str());
+  auto filter = displaced::moving(grid, onHole);
   grids::moveBy(filter, 0.85, 0, 0);
   const grids::Run listener(filter);
 

@@ -146,7 +146,6 @@ TEST(ExtractMorphBoundary, QuadraticWedgesCloseUp)
                           : shape.shape == morph::Shape::Pyramid ? pyramid
                                                                  : hexahedron;
     morph::Mesh mesh;
-    mesh.offsets.push_back(0);
     mesh.points.resize(shape.numberOfNodes, 3);
     std::vector<morph::Index> nodes;
     for (int k = 0; k < shape.numberOfNodes; ++k)
@@ -183,7 +182,6 @@ TEST(ExtractMorphBoundary, CollapsedHexahedraCloseUp)
 {
   // A hexahedron whose nodes make a wedge: two quads are triangles, one is an edge.
   morph::Mesh mesh;
-  mesh.offsets = { 0 };
   mesh.points.resize(6, 3);
   mesh.points << 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 0, 1, 0, 1, 1;
   meshes::add(mesh, VTK_HEXAHEDRON, { 0, 1, 2, 2, 3, 4, 5, 5 });
@@ -238,7 +236,6 @@ TEST(ExtractMorphBoundary, OneErrorAndNoOutput)
   morph::Mesh line;
   line.points.resize(3, 3);
   line.points << 0, 0, 0, 1, 0, 0, 0, 1, 0;
-  line.offsets = { 0 };
   meshes::add(line, VTK_LINE, { 0, 1 });
   vtkNew<vtkMultiBlockDataSet> blocks;
   const std::vector<std::pair<vtkSmartPointer<vtkDataObject>, std::string>> cases = {

@@ -61,11 +61,6 @@ vtkSmartPointer<vtkPolyData> rounded(
   return boundary;
 }
 
-Row same(const Row& x)
-{
-  return x;
-}
-
 class GivenBoundaries : public testing::Test
 {
 protected:
@@ -92,12 +87,12 @@ TEST_F(GivenBoundaries, RoundingAloneIsNoMotion)
 {
   auto grid = farGrid();
   const morph::Points rest = grids::points(grid);
-  EXPECT_EQ(this->Run(grid, rounded(grid, asSingle, VTK_FLOAT, same)), rest);
+  EXPECT_EQ(this->Run(grid, rounded(grid, asSingle, VTK_FLOAT, grids::same)), rest);
   EXPECT_TRUE(
     names(this->Warnings, "single precision: its coordinates are rounded to steps of 0.5"));
-  EXPECT_EQ(this->Run(grid, rounded(grid, asSingle, VTK_DOUBLE, same)), rest);
+  EXPECT_EQ(this->Run(grid, rounded(grid, asSingle, VTK_DOUBLE, grids::same)), rest);
   EXPECT_TRUE(names(this->Warnings, "single precision"));
-  EXPECT_EQ(this->Run(grid, rounded(grid, withSevenDigits, VTK_DOUBLE, same)), rest);
+  EXPECT_EQ(this->Run(grid, rounded(grid, withSevenDigits, VTK_DOUBLE, grids::same)), rest);
   EXPECT_TRUE(names(this->Warnings, "6 digits: its coordinates are rounded to steps of 10"));
 }
 
@@ -121,7 +116,7 @@ TEST_F(GivenBoundaries, WhatMovesByMoreIsMoved)
 TEST_F(GivenBoundaries, RoundingThatDoesNotShowIsNotToldOf)
 {
   auto grid = grids::hexes(4);
-  EXPECT_EQ(this->Run(grid, rounded(grid, asSingle, VTK_FLOAT, same)), grids::points(grid));
+  EXPECT_EQ(this->Run(grid, rounded(grid, asSingle, VTK_FLOAT, grids::same)), grids::points(grid));
   EXPECT_TRUE(this->Warnings.empty());
   // Few digits that are exact.
   const auto shift = [](const Row& x) { return Row(x + Row(0.25, 0, 0)); };
@@ -132,7 +127,7 @@ TEST_F(GivenBoundaries, RoundingThatDoesNotShowIsNotToldOf)
 TEST_F(GivenBoundaries, PointsWithoutAValueAreFree)
 {
   auto grid = grids::hexes(4);
-  auto boundary = grids::boundary(grid, same);
+  auto boundary = grids::boundary(grid, grids::same);
   const vtkIdType count = boundary->GetNumberOfPoints();
   morph::Points by = morph::Points::Constant(count, 3, 0.125);
   vtkNew<vtkCharArray> mask;
@@ -200,7 +195,7 @@ TEST_F(GivenBoundaries, NodesInAnotherOrderAreAnError)
   this->Run(grid, grids::make(meshes::renumbered(mesh, order)));
   EXPECT_TRUE(names(this->Errors, "Its nodes come in another order"));
   // The boundary alone, with the ids of the one and the faces of the other.
-  auto boundary = grids::boundary(grids::make(meshes::renumbered(mesh, order)), same);
+  auto boundary = grids::boundary(grids::make(meshes::renumbered(mesh, order)), grids::same);
   boundary->GetPointData()->RemoveArray("RestPosition");
   this->Run(grid, boundary);
   EXPECT_TRUE(names(this->Errors, "Its nodes come in another order"));

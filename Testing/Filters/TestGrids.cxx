@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "TestGrids.h"
 
+#include "../Core/Motions.h"
 #include "Mesh/Polyhedra.h"
 #include "vtkDisplacementAlgorithm.h"
 #include "vtkExtractMorphBoundary.h"
@@ -246,12 +247,14 @@ Points points(vtkPointSet* data)
 
 Points mapped(const Points& points, const Map& map)
 {
-  Points result(points.rows(), 3);
-  for (Index n = 0; n < points.rows(); ++n)
-  {
-    result.row(n) = map(points.row(n));
-  }
-  return result;
+  return motions::mapped(points, map);
+}
+
+double field(vtkDataObject* data, const char* name)
+{
+  vtkDataArray* array = data->GetFieldData()->GetArray(name);
+  EXPECT_TRUE(array && array->GetNumberOfTuples() == 1) << name;
+  return array ? array->GetComponent(0, 0) : -1;
 }
 
 Row affine(const Row& x)

@@ -61,6 +61,12 @@ morph::Points mapped(const morph::Points& points, const Map& map);
 Row affine(const Row& x);
 /// A twist about the z axis and a bulge: not affine.
 Row twist(const Row& x);
+inline Row same(const Row& x)
+{
+  return x;
+}
+/// The first number of an array of the field data. Fails the test where there is none.
+double field(vtkDataObject* data, const char* name);
 
 /// Updates the filter. Expects no error; neither error nor warning; one error, or one warning and
 /// no error, with this part.

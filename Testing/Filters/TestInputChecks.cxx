@@ -444,7 +444,6 @@ TEST(EmptyBoundary, IsSaid)
 {
   // A closed shell: the sides of a tetrahedron.
   morph::Mesh mesh;
-  mesh.offsets = { 0 };
   mesh.points.resize(4, 3);
   mesh.points << 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1;
   meshes::add(mesh, morph::Triangle, { 0, 2, 1 });

@@ -18,13 +18,6 @@ vtkSmartPointer<vtkUnstructuredGrid> withNodeOutside()
   mesh.points.row(171) += Eigen::RowVector3d(1.3, .1, .2);
   return grids::make(mesh);
 }
-
-vtkIdType field(vtkLBWarpMorph* filter, const char* name)
-{
-  vtkDataArray* array = filter->GetOutput()->GetFieldData()->GetArray(name);
-  EXPECT_NE(array, nullptr) << name;
-  return array ? static_cast<vtkIdType>(array->GetComponent(0, 0)) : -1;
-}
 }
 
 TEST(LBWarpMorph, FreeNodesStayInTheBoundarysHull)
@@ -59,7 +52,7 @@ TEST(LBWarpMorph, OutsideHullIsAnErrorOrRelaxed)
   EXPECT_EQ(filter->GetTwoRingNodes(), 1);
   EXPECT_EQ(filter->GetAffineNodes(), 0);
   EXPECT_EQ(filter->GetStiffnessNodes(), 0);
-  EXPECT_EQ(field(filter, "TwoRingNodes"), 1);
+  EXPECT_EQ(grids::field(filter->GetOutput(), "TwoRingNodes"), 1);
   EXPECT_LT((grids::points(filter->GetOutput()) - grids::mapped(grids::points(grid), grids::affine))
               .cwiseAbs()
               .maxCoeff(),

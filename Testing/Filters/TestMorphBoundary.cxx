@@ -50,11 +50,6 @@ double worst(vtkPolyData* output, const grids::Map& map)
   return largest;
 }
 
-Row same(const Row& x)
-{
-  return x;
-}
-
 /// A closed surface of revolution about z from z = 0 to 2, with flat ends.
 vtkSmartPointer<vtkPolyData> lathe(
   const std::function<double(double)>& radius, int around, int along, bool inwards)
@@ -103,12 +98,12 @@ TEST(MorphBoundary, NoMotionIsTheIdentityBitForBit)
     {
       for (int dimension = 0; dimension <= 2; ++dimension)
       {
-        auto filter = morpher(grid, grids::boundary(grid, same));
+        auto filter = morpher(grid, grids::boundary(grid, grids::same));
         filter->SetSurfaceMethod(method);
         filter->SetPrescribedDimension(dimension);
         filter->Update();
         EXPECT_EQ(filter->GetOutput()->GetPoints()->GetDataType(), type);
-        EXPECT_EQ(worst(filter->GetOutput(), same), 0);
+        EXPECT_EQ(worst(filter->GetOutput(), grids::same), 0);
         EXPECT_EQ(filter->GetFoldedFaces(), 0);
       }
     }
@@ -291,7 +286,7 @@ TEST(MorphBoundary, ProjectsOntoATarget)
   const auto radius = [](double z) { return 1 + 0.15 * std::sin(std::acos(-1.) * z / 2); };
   for (const bool inwards : { false, true })
   {
-    auto filter = morpher(grid, grids::boundary(grid, same));
+    auto filter = morpher(grid, grids::boundary(grid, grids::same));
     filter->SetTargetData(lathe(radius, 64, 32, inwards));
     grids::updateQuietly(filter);
     EXPECT_EQ(filter->GetUnprojectedPoints(), 0);
@@ -315,7 +310,7 @@ TEST(MorphBoundary, CurveNodesGoToTheTargetsFeatures)
 {
   // Nothing but the plate's vertices is given; the cylinder's rims are found on the target.
   auto grid = grids::make(shapes::cylinder(8, 4));
-  auto all = grids::boundary(grid, same);
+  auto all = grids::boundary(grid, grids::same);
   auto filter = morpher(grid, all);
   filter->SetTargetData(lathe([](double) { return 1.05; }, 128, 8, false));
   // One node of each surface keeps them in place; rims have no vertex, so nothing else is given.
@@ -363,7 +358,7 @@ TEST(MorphBoundary, AThinWallKeepsItsSides)
   vtkNew<vtkPolyData> target;
   target->SetPoints(points);
   target->SetPolys(polygons);
-  auto filter = morpher(grid, grids::boundary(grid, same));
+  auto filter = morpher(grid, grids::boundary(grid, grids::same));
   filter->SetTargetData(target);
   filter->Update();
   int tops = 0;
@@ -402,8 +397,8 @@ TEST(MorphBoundary, WallsOfATubeStayApart)
   classify->Update();
   ASSERT_EQ(classify->GetNumberOfSurfaces(), 4);
   auto* grid = classify->GetOutput();
-  auto filter = morpher(grid, grids::boundary(grid, same));
-  filter->SetTargetData(grids::boundary(grids::make(tube(64, 64, 1.2)), same));
+  auto filter = morpher(grid, grids::boundary(grid, grids::same));
+  filter->SetTargetData(grids::boundary(grids::make(tube(64, 64, 1.2)), grids::same));
   filter->SetTargetReach(0.5);
   filter->Update();
   EXPECT_EQ(filter->GetUnprojectedPoints(), 0);
@@ -422,7 +417,7 @@ TEST(MorphBoundary, WallsOfATubeStayApart)
 TEST(MorphBoundary, WhatATargetLacksIsNamed)
 {
   auto grid = grids::hexes(4);
-  auto filter = morpher(grid, grids::boundary(grid, same));
+  auto filter = morpher(grid, grids::boundary(grid, grids::same));
   filter->SetPrescribedDimension(0);
   vtkNew<vtkSphereSource> sphere;
   sphere->SetCenter(2, 2, 2);
@@ -481,7 +476,7 @@ TEST(MorphBoundary, AnOpenTargetIsProjectedOntoWhereItIs)
   const vtkIdType ids[] = { 0, 1, 2, 3 };
   polygons->InsertNextCell(4, ids);
   target->SetPolys(polygons);
-  auto filter = morpher(grid, grids::boundary(grid, same));
+  auto filter = morpher(grid, grids::boundary(grid, grids::same));
   filter->SetTargetData(target);
   filter->SetTargetReach(0.15 / std::sqrt(76.));
   grids::expectWarning(filter, "no place within `TargetReach`");
@@ -579,7 +574,7 @@ TEST(MorphBoundary, OneErrorAndNoOutput)
   const std::vector<Case> cases = { { grid, nullptr, nullptr, "Boundary: nothing is connected" },
     { grid, empty.Get(), nullptr, "no points" }, { grid, moved, empty.Get(), "no polygons" },
     { grid, moved, wrongTarget, "not finite" }, { grid, moved, grid, "polygonal data" },
-    { ball, grids::boundary(ball, same), nullptr, "Raise `PrescribedDimension`" },
+    { ball, grids::boundary(ball, grids::same), nullptr, "Raise `PrescribedDimension`" },
     { grid, inside, nullptr, "vertex or curve" } };
   for (const Case& c : cases)
   {

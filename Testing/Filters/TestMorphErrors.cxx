@@ -33,10 +33,6 @@ namespace
 {
 const double NaN = std::numeric_limits<double>::quiet_NaN();
 
-grids::Row same(const grids::Row& x)
-{
-  return x;
-}
 }
 
 class MorphErrors : public testing::Test
@@ -133,7 +129,6 @@ TEST_F(MorphErrors, LinesOnly)
   morph::Mesh mesh;
   mesh.points.resize(4, 3);
   mesh.points << 0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0;
-  mesh.offsets = { 0 };
   meshes::add(mesh, VTK_LINE, { 0, 1 });
   this->ExpectGridError(grids::make(mesh), { "1 cells", "volume cell", "line" });
 }
@@ -286,7 +281,7 @@ TEST_F(MorphErrors, StaleIds)
   // Made from a mesh with other nodes in the same place.
   morph::Mesh other = meshes::hexes(3, 3, 3);
   other.points *= 1.01;
-  this->ExpectBoundaryError(grids::boundary(grids::make(other), same),
+  this->ExpectBoundaryError(grids::boundary(grids::make(other), grids::same),
     { "stale", "RestPosition", "Extract Morph Boundary" });
 }
 
@@ -299,7 +294,7 @@ TEST_F(MorphErrors, UnusedPointsDoNotLoosenTheTolerance)
   other.points *= 1.01;
   this->Filter->Update();
   this->Filter->SetInputData(grids::make(mesh));
-  this->Filter->SetBoundaryData(grids::boundary(grids::make(other), same));
+  this->Filter->SetBoundaryData(grids::boundary(grids::make(other), grids::same));
   this->ExpectError({ "stale" });
 }
 

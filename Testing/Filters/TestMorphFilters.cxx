@@ -30,10 +30,6 @@ protected:
   }
 };
 
-grids::Row same(const grids::Row& x)
-{
-  return x;
-}
 }
 
 TEST_P(MorphFilters, AffineMotionIsExact)
@@ -64,7 +60,7 @@ TEST_P(MorphFilters, NoMotionIsBitIdentical)
       SCOPED_TRACE(name);
       meshes::jitterInterior(mesh, 0.1, meshes::seed());
       auto grid = grids::make(mesh, type);
-      auto filter = Make(grid, grids::boundary(grid, same));
+      auto filter = Make(grid, grids::boundary(grid, grids::same));
       filter->Update();
       EXPECT_TRUE(grids::points(filter->GetOutput()) == grids::points(grid));
       double range[2];
@@ -258,7 +254,7 @@ TEST_P(MorphFilters, MirroredGridCountsAsValid)
   morph::Mesh mesh = meshes::hexes(3, 3, 3);
   meshes::transform(mesh, [](const grids::Row& x) { return grids::Row(x[0], x[1], -x[2]); });
   auto grid = grids::make(mesh);
-  auto filter = Make(grid, grids::boundary(grid, same));
+  auto filter = Make(grid, grids::boundary(grid, grids::same));
   filter->Update();
   EXPECT_EQ(filter->GetInvertedCells(), 0);
   EXPECT_NEAR(filter->GetMinScaledJacobian(), 1, 1e-14);
@@ -336,7 +332,6 @@ TEST_P(MorphFilters, CollapsedCellsAreMeasuredAsTheCellsThatTheyAre)
 {
   // A wedge, a pyramid and two tetrahedra as hexahedra, a wedge that is a pyramid, and a quad.
   morph::Mesh mesh;
-  mesh.offsets = { 0 };
   mesh.points.resize(8, 3);
   mesh.points << 0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0, 0, 1, 1, 0, 1, 1, 1, 1, 0, 1, 1;
   meshes::add(mesh, VTK_HEXAHEDRON, { 0, 1, 2, 2, 4, 5, 6, 6 });

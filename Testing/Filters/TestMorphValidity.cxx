@@ -460,7 +460,6 @@ vtkSmartPointer<vtkUnstructuredGrid> twoProngs()
   const morph::Mesh block = meshes::hexes(12, 2, 8);
   morph::Mesh u;
   u.points = block.points;
-  u.offsets = { 0 };
   for (morph::Index c = 0; c < block.numberOfCells(); ++c)
   {
     const grids::Row low = block.points.row(block.cell(c)[0]);

@@ -50,7 +50,6 @@ Row turnedBy(const Row& x, double angle)
 vtkSmartPointer<vtkUnstructuredGrid> plate(bool quadratic = false)
 {
   morph::Mesh mesh;
-  mesh.offsets = { 0 };
   const int steps = quadratic ? 2 : 1; // half a cell
   const auto node = [&](int round, int k)
   { return round * steps * Around + (k + steps * Around) % (steps * Around); };

@@ -44,11 +44,6 @@ using grids::Row;
 
 namespace
 {
-Row same(const Row& x)
-{
-  return x;
-}
-
 Row bent(const Row& x)
 {
   const double angle = 0.25 * x[2];
@@ -136,7 +131,7 @@ TEST_P(Polyhedra, AffineMotionsAreExactAndStandingStillChangesNothing)
     EXPECT_EQ(quality->GetMeasuredCells(), mesh.numberOfCells());
     EXPECT_NEAR(quality->GetMinScaledJacobian(), filter->GetMinScaledJacobian(), 1e-14);
 
-    filter->SetBoundaryData(grids::boundary(grid, same));
+    filter->SetBoundaryData(grids::boundary(grid, grids::same));
     expectQuiet(filter);
     EXPECT_TRUE(grids::points(filter->GetOutput()) == mesh.points);
   }
@@ -314,7 +309,6 @@ TEST(PolyhedraInFilters, BlocksGiveTheMeshThatTheyMakeTogether)
   {
     morph::Mesh part;
     part.points = mesh.points;
-    part.offsets = { 0 };
     for (morph::Index c = 0; c < mesh.numberOfCells(); ++c)
     {
       if ((mesh.points(mesh.cell(c)[0], 2) > 1.5) == upper)
@@ -374,7 +368,7 @@ TEST(PolyhedraInFilters, FacesThatTheGridDoesNotHoldAreAnError)
     for (const grids::AnyFilter& any : grids::allFilters())
     {
       SCOPED_TRACE(any.name);
-      auto filter = any.connected(grid, grids::boundary(grids::hexes(2), same));
+      auto filter = any.connected(grid, grids::boundary(grids::hexes(2), grids::same));
       grids::expectError(filter, words);
     }
   };

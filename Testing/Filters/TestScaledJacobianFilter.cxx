@@ -74,14 +74,6 @@ Corners jittered(Corners corners, double size, std::mt19937& random)
   return corners;
 }
 
-double field(vtkDataObject* output, const char* name)
-{
-  vtkDataArray* array = output->GetFieldData()->GetArray(name);
-  EXPECT_NE(array, nullptr) << name;
-  EXPECT_EQ(array->GetNumberOfTuples(), 1) << name;
-  return array->GetTuple1(0);
-}
-
 void markGhosts(vtkUnstructuredGrid* grid, const std::vector<int>& flags)
 {
   vtkNew<vtkUnsignedCharArray> ghosts;
@@ -314,12 +306,12 @@ TEST(ScaledJacobianFilter, NumbersInArrayFieldDataAndGetters)
   EXPECT_EQ(filter->GetWorstCellId(), 2);
   EXPECT_EQ(filter->GetUnmeasuredCells(), 0);
   EXPECT_EQ(filter->GetMirroredBodies(), 0);
-  EXPECT_EQ(field(output, "MinScaledJacobian"), filter->GetMinScaledJacobian());
-  EXPECT_EQ(field(output, "MeanScaledJacobian"), filter->GetMeanScaledJacobian());
-  EXPECT_EQ(field(output, "InvertedCells"), 1);
-  EXPECT_EQ(field(output, "DegenerateCells"), 1);
-  EXPECT_EQ(field(output, "WorstCellId"), 2);
-  EXPECT_EQ(field(output, "MirroredBodies"), 0);
+  EXPECT_EQ(grids::field(output, "MinScaledJacobian"), filter->GetMinScaledJacobian());
+  EXPECT_EQ(grids::field(output, "MeanScaledJacobian"), filter->GetMeanScaledJacobian());
+  EXPECT_EQ(grids::field(output, "InvertedCells"), 1);
+  EXPECT_EQ(grids::field(output, "DegenerateCells"), 1);
+  EXPECT_EQ(grids::field(output, "WorstCellId"), 2);
+  EXPECT_EQ(grids::field(output, "MirroredBodies"), 0);
 
   std::ostringstream printed;
   filter->Print(printed);
@@ -474,7 +466,7 @@ TEST(ScaledJacobianFilter, MirroredBodiesAreValidAndReported)
   auto filter = measured(grid);
   EXPECT_NEAR(filter->GetMinScaledJacobian(), 1, 1e-14);
   EXPECT_EQ(filter->GetMirroredBodies(), 1);
-  EXPECT_EQ(field(filter->GetOutput(), "MirroredBodies"), 1);
+  EXPECT_EQ(grids::field(filter->GetOutput(), "MirroredBodies"), 1);
 }
 
 TEST(ScaledJacobianFilter, FloatPointsAreMeasuredAsTheyAre)
@@ -619,9 +611,9 @@ TEST(ScaledJacobianFilter, CertifiesOnRequest)
   EXPECT_EQ(filter->GetCertifiedCells(), 1);
   EXPECT_EQ(filter->GetUncertifiedCells(), 2);
   EXPECT_EQ(filter->GetUndecidedCells(), 0);
-  EXPECT_EQ(field(filter->GetOutput(), "CertifiedCells"), 1);
-  EXPECT_EQ(field(filter->GetOutput(), "UncertifiedCells"), 2);
-  EXPECT_EQ(field(filter->GetOutput(), "UndecidedCells"), 0);
+  EXPECT_EQ(grids::field(filter->GetOutput(), "CertifiedCells"), 1);
+  EXPECT_EQ(grids::field(filter->GetOutput(), "UncertifiedCells"), 2);
+  EXPECT_EQ(grids::field(filter->GetOutput(), "UndecidedCells"), 0);
 
   // Once more without: the arrays that came with the input are not this mesh's.
   auto second = measured(filter->GetOutput());

@@ -37,7 +37,6 @@ vtkSmartPointer<vtkUnstructuredGrid> sheet(int n, const grids::Map& map, bool qu
   const int steps = quadratic ? 2 : 1; // half a cell
   const Index row = steps * n + 1;
   morph::Mesh mesh;
-  mesh.offsets = { 0 };
   mesh.points.resize(row * row, 3);
   for (Index i = 0; i < mesh.points.rows(); ++i)
   {

@@ -213,9 +213,7 @@ TEST(SlideRounds, MidSideNodesStayInThePlaneWithTheirCorners)
 TEST(SlideRounds, WithoutMotionKeepsTheBitsAndSaysSo)
 {
   auto grid = grids::make(meshes::hexes(3, 3, 3));
-  auto filter = displaced::make(grid);
-  filter->SetMovingToSurfaces();
-  filter->AddSurface(surface(grid, [](const Row& x) { return isAt(x[2], 0); }).c_str());
+  auto filter = displaced::moving(grid, [](const Row& x) { return isAt(x[2], 0); });
   filter->AddSlidingSurface(surface(grid, onPlane).c_str());
   filter->SetSlideRounds(3);
   filter->Update();

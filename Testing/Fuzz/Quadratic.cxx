@@ -61,7 +61,6 @@ const morph::CellShape* anyOrder(std::uint8_t& type, Random& random)
 Mesh quadratic(const Mesh& mesh, int order, double part, Random random)
 {
   Mesh result;
-  result.offsets.push_back(0);
   std::vector<Eigen::RowVector3d> places;
   std::map<std::vector<std::pair<Index, long>>, Index> known; // by shares of corners
   const std::uint64_t sameForm = random.bits();

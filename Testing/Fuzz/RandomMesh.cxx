@@ -39,7 +39,6 @@ Mesh voxels(int nx, int ny, int nz)
   const Mesh hexes = meshes::hexes(nx, ny, nz);
   Mesh mesh;
   mesh.points = hexes.points;
-  mesh.offsets.push_back(0);
   for (Index c = 0; c < hexes.numberOfCells(); ++c)
   {
     std::vector<Index> nodes(hexes.cell(c), hexes.cell(c) + 8);
@@ -55,7 +54,6 @@ Mesh pyramids(int nx, int ny, int nz)
 {
   const Mesh hexes = meshes::hexes(nx, ny, nz);
   Mesh mesh;
-  mesh.offsets.push_back(0);
   mesh.points.resize(hexes.numberOfNodes() + hexes.numberOfCells(), 3);
   mesh.points.topRows(hexes.numberOfNodes()) = hexes.points;
   for (Index c = 0; c < hexes.numberOfCells(); ++c)
@@ -107,7 +105,6 @@ Mesh finned(int nx, int ny, int nz)
 Mesh soup(Random random)
 {
   Mesh mesh;
-  mesh.offsets.push_back(0);
   mesh.points.resize(30 + random.below(40), 3);
   for (double& x : mesh.points.reshaped())
   {
@@ -223,7 +220,6 @@ Mesh faces(Choices& choices, Known& known)
   Random random = choices.stream("mesh.faces");
   const double bend = known.faces == Known::Curved ? random.between(0.05, 0.3) : 0;
   Mesh mesh;
-  mesh.offsets.push_back(0);
   mesh.points.resize((steps * nx + 1) * row, 3);
   for (int i = 0; i <= steps * nx; ++i)
   {
@@ -327,7 +323,6 @@ Mesh withCells(const Mesh& mesh, const std::vector<Index>& cells)
 {
   Mesh result;
   result.points = mesh.points;
-  result.offsets.push_back(0);
   for (const Index c : cells)
   {
     meshes::add(

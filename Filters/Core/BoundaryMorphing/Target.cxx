@@ -72,12 +72,9 @@ BoundaryFaces facesOf(const std::vector<TargetTriangle>& triangles)
   BoundaryFaces faces;
   for (const TargetTriangle& triangle : triangles)
   {
-    faces.connectivity.insert(faces.connectivity.end(), triangle.begin(), triangle.end());
-    faces.offsets.push_back(static_cast<Index>(faces.connectivity.size()));
+    faces.add(triangle.begin(), triangle.end());
   }
-  faces.nodes = faces.connectivity;
-  sortUnique(faces.nodes);
-  faces.between.offsets.assign(faces.nodes.size() + 1, 0);
+  faces.takeNodes();
   return faces;
 }
 

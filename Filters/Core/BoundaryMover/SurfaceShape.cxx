@@ -36,10 +36,8 @@ Points areasOf(const Points& points, const BoundaryFaces& faces, const std::vect
   BoundaryFaces taken;
   for (const Index face : some)
   {
-    taken.connectivity.insert(taken.connectivity.end(),
-      faces.connectivity.begin() + faces.offsets[face],
+    taken.add(faces.connectivity.begin() + faces.offsets[face],
       faces.connectivity.begin() + faces.offsets[face + 1]);
-    taken.offsets.push_back(static_cast<Index>(taken.connectivity.size()));
   }
   return faceAreas(points, taken);
 }

@@ -495,7 +495,6 @@ Mesh HangingNodes::conforming(const Mesh& mesh) const
   Mesh result;
   result.points = mesh.points;
   result.types = mesh.types;
-  result.offsets = { 0 };
   result.faceOffsets = { 0 };
   for (Index c = 0; c < mesh.numberOfCells(); ++c)
   {

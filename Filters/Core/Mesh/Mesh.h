@@ -4,6 +4,7 @@
 #include "Support/Types.h"
 
 #include <cstdint>
+#include <initializer_list>
 #include <string>
 #include <vector>
 
@@ -31,10 +32,10 @@ struct ShellLayer
 /// A mesh in VTK's numbering of cell types and of the nodes in a cell.
 struct Mesh
 {
-  Points points;                   ///< #nodes x 3
-  std::vector<std::uint8_t> types; ///< #cells, VTK cell types (see CellShape.h)
-  std::vector<Index> offsets;      ///< #cells + 1, start of each cell in `connectivity`
-  std::vector<Index> connectivity; ///< node ids of all cells, one cell after another
+  Points points;                      ///< #nodes x 3
+  std::vector<std::uint8_t> types;    ///< #cells, VTK cell types (see CellShape.h)
+  std::vector<Index> offsets = { 0 }; ///< #cells + 1, start of each cell in `connectivity`
+  std::vector<Index> connectivity;    ///< node ids of all cells, one cell after another
   /// #cells + 1, start of each polyhedron's faces in `faces`; empty in a mesh without polyhedra
   std::vector<Index> faceOffsets;
   /// each face of a polyhedron: its number of nodes, then their ids, outward (see Polyhedra.h)
@@ -45,6 +46,18 @@ struct Mesh
   Index numberOfCells() const { return static_cast<Index>(this->types.size()); }
   const Index* cell(Index id) const { return this->connectivity.data() + this->offsets[id]; }
   Index cellSize(Index id) const { return this->offsets[id + 1] - this->offsets[id]; }
+  /// Appends a cell; a polyhedron's faces are not added.
+  template <typename Iterator>
+  void add(std::uint8_t type, Iterator first, Iterator last)
+  {
+    this->types.push_back(type);
+    this->connectivity.insert(this->connectivity.end(), first, last);
+    this->offsets.push_back(static_cast<Index>(this->connectivity.size()));
+  }
+  void add(std::uint8_t type, std::initializer_list<Index> nodes)
+  {
+    this->add(type, nodes.begin(), nodes.end());
+  }
 };
 
 /// Throws Error unless the mesh is consistent: array lengths, node ids, finite coordinates of the

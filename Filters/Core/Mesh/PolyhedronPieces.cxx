@@ -229,41 +229,6 @@ std::vector<Index> standardNodes(
                           isClearlyValid(mesh, shape.shape, nodes);
   return isStandard ? nodes : std::vector<Index>();
 }
-
-/// Collects cells one after the other.
-struct Cells
-{
-  std::vector<std::uint8_t> types;
-  std::vector<Index> sizes, connectivity;
-
-  void reserve(Index count)
-  {
-    this->types.reserve(count);
-    this->sizes.reserve(count);
-    this->connectivity.reserve(5 * count);
-  }
-  void add(std::uint8_t type, const Index* begin, const Index* end)
-  {
-    this->types.push_back(type);
-    this->sizes.push_back(end - begin);
-    this->connectivity.insert(this->connectivity.end(), begin, end);
-  }
-  void add(std::uint8_t type, std::initializer_list<Index> nodes)
-  {
-    this->add(type, nodes.begin(), nodes.end());
-  }
-};
-
-void append(const Cells& cells, Mesh& mesh)
-{
-  mesh.types.insert(mesh.types.end(), cells.types.begin(), cells.types.end());
-  for (const Index size : cells.sizes)
-  {
-    mesh.offsets.push_back(mesh.offsets.back() + size);
-  }
-  mesh.connectivity.insert(
-    mesh.connectivity.end(), cells.connectivity.begin(), cells.connectivity.end());
-}
 }
 
 PolyhedronPieces::PolyhedronPieces(const Mesh& mesh, Monitor& monitor, bool cutsAll)
@@ -286,28 +251,26 @@ PolyhedronPieces::PolyhedronPieces(const Mesh& mesh, Monitor& monitor, bool cuts
     }
     means.close();
   }
-  Cells first, others;
-  first.reserve(mesh.numberOfCells());
-  others.reserve(static_cast<Index>(table.corners.values.size()) / 2);
+  Mesh others; // the cells after the first of each polyhedron
   std::vector<double> areas;
   Index row = this->faceCenters_;
   for (Index c = 0; c < mesh.numberOfCells(); ++c)
   {
     if (!isPolyhedron(mesh, c))
     {
-      first.add(mesh.types[c], mesh.cell(c), mesh.cell(c) + mesh.cellSize(c));
+      this->pieces_.add(mesh.types[c], mesh.cell(c), mesh.cell(c) + mesh.cellSize(c));
       continue;
     }
     if (const std::vector<Index> nodes = standardNodes(mesh, table, centers, c);
         !nodes.empty() && !cutsAll)
     {
-      first.add(nodes.size() == 4 ? Tetra : Hexahedron, nodes.data(), nodes.data() + nodes.size());
+      this->pieces_.add(nodes.size() == 4 ? Tetra : Hexahedron, nodes.begin(), nodes.end());
       continue;
     }
     const Index apex = this->nodes_ + row;
     ++row;
     addCellCenter(mesh, table, c, areas, means);
-    Cells* to = &first;
+    Mesh* to = &this->pieces_;
     for (Index f = table.start[c]; f < table.start[c + 1]; ++f)
     {
       // From inside, as VTK's order has the faces at the apex of a valid cell.
@@ -331,12 +294,10 @@ PolyhedronPieces::PolyhedronPieces(const Mesh& mesh, Monitor& monitor, bool cuts
     this->cellOfOther_.resize(others.types.size(), c);
   }
   this->means_ = means.matrix(this->nodes_);
-  this->pieces_.offsets = { 0 };
-  this->pieces_.types.reserve(first.types.size() + others.types.size());
-  this->pieces_.offsets.reserve(first.types.size() + others.types.size() + 1);
-  this->pieces_.connectivity.reserve(first.connectivity.size() + others.connectivity.size());
-  append(first, this->pieces_);
-  append(others, this->pieces_);
+  for (Index c = 0; c < others.numberOfCells(); ++c)
+  {
+    this->pieces_.add(others.types[c], others.cell(c), others.cell(c) + others.cellSize(c));
+  }
   this->pieces_.points = this->extend(ConstPoints(mesh.points));
 }
 

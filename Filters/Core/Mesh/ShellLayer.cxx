@@ -310,10 +310,10 @@ public:
       case QuadraticQuad:
         return this->prism(QuadraticHexahedron, { nodes, nodes + 4 }, { nodes + 4, nodes + 8 });
       case Line:
-        return this->append(
+        return this->mesh_.add(
           Quad, { nodes[0], nodes[1], nodes[1] + this->count_, nodes[0] + this->count_ });
       case QuadraticEdge:
-        return this->append(QuadraticQuad,
+        return this->mesh_.add(QuadraticQuad,
           { nodes[0], nodes[1], nodes[1] + this->count_, nodes[0] + this->count_, nodes[2],
             this->middleOf(nodes[1]), nodes[2] + this->count_, this->middleOf(nodes[0]) });
       case Polygon:
@@ -333,7 +333,7 @@ public:
                   ". Triangles and quadrilaterals, linear or with nodes in the middle of their "
                   "edges, are morphed. Divide the others.");
     }
-    this->append(type, { nodes, nodes + this->plane_.cellSize(cell) });
+    this->mesh_.add(type, nodes, nodes + this->plane_.cellSize(cell));
   }
 
 private:
@@ -351,13 +351,6 @@ private:
       this->middles_.push_back(node);
     }
     return this->middle_[node];
-  }
-
-  void append(std::uint8_t type, const std::vector<Index>& nodes)
-  {
-    this->mesh_.types.push_back(type);
-    this->mesh_.connectivity.insert(this->mesh_.connectivity.end(), nodes.begin(), nodes.end());
-    this->mesh_.offsets.push_back(static_cast<Index>(this->mesh_.connectivity.size()));
   }
 
   /// Of a quadrilateral, which names a corner twice if it is used as a triangle.
@@ -391,7 +384,7 @@ private:
       std::transform(corners.begin(), corners.end(), std::back_inserter(nodes),
         [this](Index node) { return this->middleOf(node); });
     }
-    this->append(type, nodes);
+    this->mesh_.add(type, nodes.begin(), nodes.end());
   }
 };
 }
@@ -400,7 +393,6 @@ Mesh thicken(const Mesh& shell)
 {
   validate(shell); // as cells are read by their types
   Mesh mesh;
-  mesh.offsets = { 0 };
   Layer layer(shell, mesh);
   for (Index c = 0; c < shell.numberOfCells(); ++c)
   {

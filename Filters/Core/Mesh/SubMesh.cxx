@@ -10,7 +10,6 @@ SubMesh::SubMesh(const Mesh& whole, const std::vector<Index>& cells)
   : cells(cells)
 {
   std::vector<Index> number(whole.numberOfNodes(), -1);
-  this->mesh.offsets.assign(1, 0);
   for (const Index c : cells)
   {
     std::for_each(

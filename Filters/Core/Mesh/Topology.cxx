@@ -9,6 +9,7 @@
 #include "Mesh/ShapeVolumes.h"
 #include "Mesh/ShapeWindings.h"
 #include "Support/Buckets.h"
+#include "Support/Lists.h"
 #include "Support/Parallel.h"
 #include "Support/UnionFind.h"
 
@@ -379,6 +380,13 @@ void setCorners(std::vector<Index> offsets, std::vector<Index> connectivity, Bou
   }
   faces.offsets = std::move(offsets);
   faces.connectivity = std::move(connectivity);
+}
+
+void BoundaryFaces::takeNodes()
+{
+  this->nodes = this->connectivity;
+  sortUnique(this->nodes);
+  this->between.offsets.assign(this->nodes.size() + 1, 0);
 }
 
 BoundaryFaces facesBetween(const Mesh& mesh, const BoundaryFaces& faces, Index first, Index last)

@@ -22,6 +22,16 @@ struct BoundaryFaces
   std::vector<Index> nodes; ///< sorted: all nodes of these faces, including mid-side and face nodes
   /// #nodes: corners of the edge or face whose middle the node is; empty for a corner
   Adjacency between;
+
+  /// Appends a face's corners.
+  template <typename Iterator>
+  void add(Iterator first, Iterator last)
+  {
+    this->connectivity.insert(this->connectivity.end(), first, last);
+    this->offsets.push_back(static_cast<Index>(this->connectivity.size()));
+  }
+  /// Takes the nodes from `connectivity`: all are corners.
+  void takeNodes();
 };
 
 /// Returns for each node the volume cells with this corner, ascending and unique. Cost: two passes

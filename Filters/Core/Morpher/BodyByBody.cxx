@@ -64,7 +64,6 @@ void BodyByBody::doPrepare(const Mesh& rest, Monitor& monitor)
   // The points alone, so that ids in messages are those of the mesh.
   const auto points = std::make_shared<Mesh>();
   points->points = rest.points;
-  points->offsets = { 0 };
   this->bodies_.clear();
   const auto count = static_cast<double>(bodies.size());
   for (auto& [number, body] : bodies)

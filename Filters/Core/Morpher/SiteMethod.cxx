@@ -45,7 +45,6 @@ void SiteMethod::doPrepare(const Mesh& rest, Monitor& monitor)
 
   // The sites, and then this process's free nodes.
   Mesh points;
-  points.offsets = { 0 };
   const auto own = static_cast<Index>(free.size());
   points.points.resize(sites.rows() + own, 3);
   points.points << sites, rest.points(free, allColumns);

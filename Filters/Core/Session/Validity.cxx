@@ -32,14 +32,11 @@ Mesh withoutCells(const Mesh& mesh, const InvertedBefore& left)
   Mesh rest;
   rest.points = mesh.points;
   rest.layer = mesh.layer;
-  rest.offsets = { 0 };
   for (Index c = 0; c < mesh.numberOfCells(); ++c)
   {
     const bool isLeft = left.positivePlaces(c) != nullptr;
-    rest.types.push_back(isLeft ? std::uint8_t(Vertex) : mesh.types[c]);
-    rest.connectivity.insert(
-      rest.connectivity.end(), mesh.cell(c), mesh.cell(c) + (isLeft ? 1 : mesh.cellSize(c)));
-    rest.offsets.push_back(static_cast<Index>(rest.connectivity.size()));
+    rest.add(isLeft ? std::uint8_t(Vertex) : mesh.types[c], mesh.cell(c),
+      mesh.cell(c) + (isLeft ? 1 : mesh.cellSize(c)));
   }
   return rest;
 }

@@ -36,8 +36,7 @@ std::vector<Index> crossingCells(const WholeBoundary& boundary,
     if (std::all_of(first, last, [&](Index node) { return isPrescribed[node] != 0; }))
     {
       given.cells.push_back(f);
-      given.connectivity.insert(given.connectivity.end(), first, last);
-      given.offsets.push_back(static_cast<Index>(given.connectivity.size()));
+      given.add(first, last);
     }
   }
   std::vector<Index> cells;

@@ -25,18 +25,16 @@ morph::Mesh readAny(vtkDataSet* block)
 {
   morph::Mesh mesh;
   mesh.points = ReadPoints(block);
-  mesh.offsets = { 0 };
   vtkNew<vtkIdList> nodes;
   for (vtkIdType c = 0; c < block->GetNumberOfCells(); ++c)
   {
-    mesh.types.push_back(static_cast<std::uint8_t>(block->GetCellType(c)));
-    if (mesh.types.back() != morph::EmptyCell) // as a structured grid has for its hidden cells
+    const auto type = static_cast<std::uint8_t>(block->GetCellType(c));
+    nodes->Reset();
+    if (type != morph::EmptyCell) // as a structured grid has for its hidden cells
     {
       block->GetCellPoints(c, nodes);
-      mesh.connectivity.insert(mesh.connectivity.end(), nodes->GetPointer(0),
-        nodes->GetPointer(0) + nodes->GetNumberOfIds());
     }
-    mesh.offsets.push_back(static_cast<morph::Index>(mesh.connectivity.size()));
+    mesh.add(type, nodes->begin(), nodes->end());
   }
   morph::validate(mesh);
   return mesh;

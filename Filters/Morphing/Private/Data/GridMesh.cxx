@@ -98,7 +98,6 @@ void copyIntegers(
 /// Copies cells without the faces of polyhedra.
 void readCells(vtkUnstructuredGrid* grid, morph::Mesh& mesh, morph::Monitor& monitor)
 {
-  mesh.offsets = { 0 };
   if (grid->GetNumberOfCells() > 0)
   {
     mesh.types = typesOf(grid);

@@ -80,8 +80,7 @@ morph::BoundaryFaces polygons(vtkPolyData* surface)
   {
     cells->GetCellAtId(c, corners);
     const vtkIdType* begin = corners->GetPointer(0);
-    faces.connectivity.insert(faces.connectivity.end(), begin, begin + corners->GetNumberOfIds());
-    faces.offsets.push_back(static_cast<Index>(faces.connectivity.size()));
+    faces.add(begin, begin + corners->GetNumberOfIds());
     if (corners->GetNumberOfIds() < 3)
     {
       wrong.push_back(surface->GetNumberOfVerts() + surface->GetNumberOfLines() + c);
@@ -98,9 +97,7 @@ morph::BoundaryFaces polygons(vtkPolyData* surface)
     throw Error("The input has polygons with fewer than three points: its cells " +
                 morph::listIds(wrong) + ". Remove them.");
   }
-  faces.nodes = faces.connectivity;
-  sortUnique(faces.nodes);
-  faces.between.offsets.assign(faces.nodes.size() + 1, 0);
+  faces.takeNodes();
   return faces;
 }
 
