@@ -209,8 +209,12 @@ class SolverFiles(unittest.TestCase):
                 for name, faces in zip(names, (model.wall, model.inlet, model.outlet)):
                     self.assertEqual(int(rows[name]), len(faces), name)
                 out = self.folder / ("out" + extension)
+                folded = self.folder / ("folded" + extension)
                 self.morph(path, out, "--move", names[1], "--translate", "0,0,-0.1", "--fix",
                            names[2])
+                self.morph(path, folded, "--move", names[1].upper(), "--translate", "0,0,-0.1",
+                           "--fix", names[2].upper())
+                self.assertEqual(folded.read_bytes(), out.read_bytes())
                 self.refuse(f"Nothing'.*{names[1]}", "--move", "Nothing", "--translate", "1,0,0",
                             path, out)
 
