@@ -82,6 +82,10 @@ class Version(unittest.TestCase):
 
 
 class Figures(unittest.TestCase):
+    def assertIn(self, sentence, page):
+        """The message does not hold the whole page."""
+        self.assertTrue(sentence in page, f"the page does not say: {sentence}")
+
     def check(self, shown, value):
         """What a page shows, such as 0.30 s or 1,320, is this value."""
         number = re.search(r"-?[\d,]+(?:\.(\d+))?", shown)
