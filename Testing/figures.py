@@ -267,6 +267,12 @@ class Figures(unittest.TestCase):
         nodes = [int(row["nodes"]) for row in data.values()]
         self.assertIn(f"{round(min(nodes), -3):,} to {round(max(nodes), -3):,} nodes",
                       prose("WhichMethod.md"))
+        size = lambda model, kind: f"{int(of(model, kind)['nodes']):,} nodes"
+        expect = prose("WhatToExpect.md")
+        self.assertIn(f"bore hex, {size('bore', 'hex')}", expect)
+        self.assertIn(f"The canister is hexahedra with {size('canister', 'hex')}, the courier "
+                      f"tetrahedra with {size('courier', 'tet')}", expect)
+        self.assertIn(f"On the canister's {size('canister', 'hex')} FEMWARP", prose("Study.md"))
         folded = lambda model, kind: of(model, kind)["folded"]
         self.assertIn(", ".join(f"{folded(model, 'hex')} and {folded(model, 'tet')} of the {model}"
                                 for model in MODELS[1:]), prose("Models.md"))
