@@ -1,19 +1,15 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the installation takes on this Debian, without what its smallest system has.
+"""What the packages of install-packages.sh --use take on this Debian, without those that its
+smallest system has, as the index of apt has them.
 
-    Testing/Benchmark/install.py --build    # ten minutes: a build in a folder of its own
-    Testing/Benchmark/install.py            # the packages alone
+    Testing/Benchmark/install.py    # after apt-get update
 
-Writes this release's row of results/install.csv. download_MB, disk_MB: packages of
-install-packages.sh --use, as apt's index has them. build_s, build_MB: processor time and folder of
-build.sh without a compiler's cache. Needs apt's index (apt-get update)."""
+Writes this release's row of results/install.csv: megabytes to download, and on the disk."""
 
-import argparse
 import csv
 import os
 import re
-import resource
 import subprocess
 import sys
 import tempfile
@@ -24,7 +20,7 @@ DATA = ROOT / "Testing/Benchmark/results/install.csv"
 sys.path.insert(0, str(ROOT / "Utilities"))
 from study_pieces import commit  # noqa: E402  (needs the path above)
 
-FIELDS = ("release", "download_MB", "disk_MB", "build_s", "build_MB", "commit")
+FIELDS = ("release", "download_MB", "disk_MB", "commit")
 
 
 def apt(program, folder, *arguments):
@@ -57,28 +53,11 @@ def packages_row():
     return {"download_MB": round(all_[0] - less[0]), "disk_MB": round(all_[1] - less[1])}
 
 
-def build_row():
-    with tempfile.TemporaryDirectory() as folder:
-        sources = subprocess.run(["git", "-C", str(ROOT), "archive", "HEAD"], check=True,
-                                 capture_output=True).stdout
-        subprocess.run(["tar", "-x", "-C", folder], input=sources, check=True)
-        subprocess.run([f"{folder}/Utilities/build.sh"], check=True, stdout=sys.stderr,
-                       env={**os.environ, "CCACHE_DISABLE": "1"})
-        used = resource.getrusage(resource.RUSAGE_CHILDREN)
-        size = sum(path.lstat().st_size for path in Path(folder, "build").rglob("*"))
-    return {"build_s": round(used.ru_utime + used.ru_stime), "build_MB": round(size / 1e6)}
-
-
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
-    parser.add_argument("--build", action="store_true", help="build, too")
-    options = parser.parse_args()
     text = Path("/etc/os-release").read_text(encoding="utf-8")
     system = dict(re.findall(r'^(\w+)="?(.*?)"?$', text, re.MULTILINE))
     release = system["ID"] + " " + system.get("VERSION_ID", "unstable")
     row = {"release": release, "commit": commit(), **packages_row()}
-    if options.build:
-        row.update(build_row())
     with open(DATA, encoding="utf-8") as file:
         others = [other for other in csv.DictReader(file) if other["release"] != release]
     with open(DATA, "w", encoding="utf-8", newline="") as file:
