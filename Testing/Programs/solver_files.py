@@ -291,6 +291,17 @@ class SolverFiles(unittest.TestCase):
         self.assertEqual(re.sub(r"\b(\d)\.0?(?=,)", r"\1.0", new[2]),
                          re.sub(r"\b(\d)\.0?(?=,)", r"\1.0", old[2]))
 
+    def test_lines_of_an_instance_end_in_commas(self):
+        """Or have nothing else: what is left out is 0."""
+        path, out = self.assembly(), self.folder / "out.inp"
+        text = path.read_text()
+        rows = run("list", path).stdout
+        path.write_text(text.replace("5., 0., 1.\n", "5., , 1.,\n").replace(" 90.\n", " 90.,\n"))
+        self.assertEqual(run("list", path).stdout, rows)
+        path.write_text(text.replace("5., 0., 1.\n", ",\n"))
+        self.assertRegex(run("list", path).stdout, r"(?m)^Lid +1 +1 +5\.5, -3\.5, 1$")
+        self.check_by_reading(path, out, "--move", "Wall", "--translate", "0.25,0,0.5")
+
     def test_instances_of_one_part_share_its_nodes(self):
         path, out = self.assembly("Block"), self.folder / "out.inp"
         one, both = (("--move", name, "--translate", "0,0,0.5") for name in ("Lid", "Lids"))
@@ -711,6 +722,8 @@ class SolverFiles(unittest.TestCase):
             ("m.inp", "*INCLUDE, INPUT=none.inp\n", "none.inp: there is no such file"),
             ("m.inp", "*INCLUDE, INPUT=m.inp\n", "20 levels deep"),
             ("m.inp", "*STEP\n", "has no .NODE"),
+            ("m.inp", "*PART, NAME=P\n" + nodes + "*END PART\n*INSTANCE, NAME=I, PART=P\n\n"
+             "0., 0., 0., 0., 0., 1., 90.\n", "line 14: .INSTANCE has up to 3 numbers on its"),
             ("m.bdf", grids.replace("GRID,2,,", "GRID,2,5,") + tetra, "coordinate system 5, which"),
             ("m.bdf", "BEGIN BULK\nGRDSET,,9\n" + grids + tetra, "coordinate system 9, which"),
             ("m.bdf", grids.replace("1.,0.,0.", "1.,x,0.") + tetra, "line 3: 'x' is no number"),
