@@ -123,6 +123,16 @@ TEST(BoundaryDisplacementErrors, WhatIsChosen)
   }
 }
 
+TEST(BoundaryDisplacementErrors, AContradictionLeavesTheListOfSurfaces)
+{
+  auto filter = displaced::make(grids::hexes(2));
+  filter->SetMovingToSurfaces();
+  filter->AddSurface("Surface 0");
+  filter->AddFixedSurface("Surface 0");
+  expectError(filter, "contradict each other");
+  EXPECT_STREQ(filter->GetSurfaceList()->GetArrayName(0), "Surface 0");
+}
+
 TEST(BoundaryDisplacementErrors, TheMotion)
 {
   const std::vector<std::pair<std::string, Change>> cases = {

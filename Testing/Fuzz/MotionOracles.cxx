@@ -364,6 +364,8 @@ Finding checkFrame(Case& made, vtkAlgorithm* filter, const Run& first)
       !isOfType(output, VTK_DOUBLE) || !isOfType(input, VTK_DOUBLE) ||
       made.choices.value("boundary.float") != 0 || isUndecided(made, filter) ||
       (kind == Origin && isOnHull(made, filter)) || // digits are lost far away
+      // Of nodes that are equally far the first by place is a center.
+      (kind > Origin && made.choices.value("property.NumberOfCenters") != 0) ||
       // The images across a shell are on the side from which its cells are wound clockwise.
       (kind == Reflection && (made.grid.isShell() || isInvertedByMirror(made.grid.mesh))))
   {

@@ -93,6 +93,8 @@ void addTo(vtkDataSetAttributes* attributes, vtkIdType count, Random random, boo
     fill(array, random,
       std::max<vtkIdType>(1, random.happens(0.8) ? std::min<vtkIdType>(count, 100) : 3));
     hasOddArrays = hasOddArrays || hostile;
+    // In place of an active array one of another size would be active, of which VTK itself warns.
+    attributes->RemoveArray(name);
     attributes->AddArray(array);
     if (hostile && random.happens(0.1))
     {

@@ -360,7 +360,6 @@ bool vtkDisplacementAlgorithm::vtkInternals::FindMoving(const Options& options, 
 {
   try
   {
-    requireOneRole(options);
     morph::ProgressRange classifying(monitor, 0, 0.5);
     this->Classify(options, input, classifying);
   }
@@ -369,6 +368,7 @@ bool vtkDisplacementAlgorithm::vtkInternals::FindMoving(const Options& options, 
     this->ClearList();
     throw;
   }
+  requireOneRole(options);
   for (const std::string& warning : std::exchange(this->Warnings, {}))
   {
     monitor.warn(warning);
