@@ -470,7 +470,14 @@ Points Session::transpose(
     gradient.bottomRows(gradient.rows() - front).setZero(); // a plane mesh is the front
   }
   Points own, all = Points::Zero(gradient.rows(), 3); // what hangs moves by its ties
+  const Points given = gradient;
   this->attached_.applyTranspose(gradient);
+  if (!this->all().all(gradient == given))
+  {
+    monitor.warn(
+      "Nodes of shells, beams or links turn with the volume on which they hang, which is "
+      "not linear. Their part of the derivatives is that about the undeformed mesh.");
+  }
   this->copies_->collect(gradient);
   linear->applyTranspose(gradient, own, applying);
   all(this->partition_->prescribed, allColumns) = own;
