@@ -185,8 +185,7 @@ void BoundaryModel::findFaces(const std::vector<std::uint8_t>& isNamed, Monitor&
 {
   const ConnectedComponents bodies = connectedComponents(this->mesh);
   this->bodyOfNode = bodyOfNodes(this->mesh, bodies);
-  HangingNodes hanging;
-  this->faces = boundaryFaces(this->mesh, hanging, monitor);
+  this->faces = boundaryFaces(this->mesh, this->hanging, monitor);
   this->inner = innerFaces(this->mesh, this->faces, isNamed, monitor);
   InnerFaces::Places& sheets = this->inner.sheets;
   for (const InnerSurface& surface : this->innerSurfaces)
@@ -214,7 +213,7 @@ void BoundaryModel::findFaces(const std::vector<std::uint8_t>& isNamed, Monitor&
       places.insert(places.end(), some->begin(), some->end());
     }
     this->faces = facesAt(this->mesh, places);
-    hanging.divideEdges(this->faces);
+    this->hanging.divideEdges(this->faces);
   }
   this->onLinearEdges = nodesOnLinearEdges(this->mesh, this->faces);
   const std::vector<std::int8_t> ofCell = cellSigns(this->mesh, bodies);

@@ -263,7 +263,7 @@ const SurfaceShape& Surroundings::shapeOf(const BoundaryModel& model, Index surf
 }
 
 Eigen::RowVector3d Surroundings::slid(const BoundaryModel& model,
-  const std::vector<Index>& surfaces, Index node, const Eigen::RowVector3d& to)
+  const std::vector<Index>& surfaces, const Eigen::RowVector3d& from, const Eigen::RowVector3d& to)
 {
   std::vector<const SurfaceShape*> shapes;
   bool isCurve = false;
@@ -282,7 +282,7 @@ Eigen::RowVector3d Surroundings::slid(const BoundaryModel& model,
     const Eigen::RowVector3d before = x;
     for (const SurfaceShape* shape : shapes)
     {
-      x = shape->slid(model.points().row(node), x);
+      x = shape->slid(from, x);
     }
     if (x == before)
     {
@@ -308,7 +308,8 @@ std::vector<Index> Surroundings::ableToSlide(const BoundaryModel& model,
       if (result.roles[node] == Moves || result.roles[node] == Follows)
       {
         const Eigen::RowVector3d to = result.moved.row(node);
-        const double distance = (this->slid(model, { s }, node, to) - to).norm();
+        const double distance =
+          (this->slid(model, { s }, model.points().row(node), to) - to).norm();
         all = std::max(all, distance);
         given = std::max(given, result.roles[node] == Moves ? distance : 0);
         follows |= result.roles[node] == Follows;
@@ -351,7 +352,8 @@ void Surroundings::slide(const BoundaryModel& model, const std::vector<Index>& s
   }
   for (const auto& [node, on] : surfacesOf)
   {
-    result.moved.row(node) = this->slid(model, on, node, result.moved.row(node));
+    result.moved.row(node) =
+      this->slid(model, on, model.points().row(node), result.moved.row(node));
   }
 }
 
