@@ -3,6 +3,7 @@
 #include "Differences.h"
 #include "Meshes.h"
 #include "Motions.h"
+#include "RandomMeshes.h"
 
 #include "Energies/MeshEnergy.h"
 #include "Energies/SmoothingTargets.h"
@@ -293,6 +294,28 @@ TEST(SmoothMesh, NeverWorseGoesBack)
   options.neverWorse = false;
   EXPECT_FALSE(smooth(mesh, points, options).wasKept);
   EXPECT_GT(difference(points, mesh.points), 1e-3);
+}
+
+TEST(SmoothMesh, WhatStaysTangledIsNoWorseThanItsStart)
+{
+  // Nodes of the boundary are thrown about, so that no mesh inside can be valid.
+  const Mesh mesh = hexes(3, 3, 3);
+  const NodePartition partition = outerPartition(mesh);
+  std::mt19937 random(seed());
+  int kept = 0;
+  for (int i = 0; i < 100; ++i)
+  {
+    Points start = mesh.points + meshes::noise(mesh.points.rows(), .8, random);
+    start(partition.free, allColumns) = mesh.points(partition.free, allColumns);
+    Points points = start;
+    const SmoothingReport report = smooth(mesh, points);
+    const Quality before = qualityOf(mesh, start), after = qualityOf(mesh, points);
+    EXPECT_LE(after.inverted, before.inverted);
+    EXPECT_TRUE(after.inverted < before.inverted || after.minimum >= before.minimum);
+    kept += report.wasKept;
+  }
+  EXPECT_GT(kept, 0);
+  EXPECT_LT(kept, 100);
 }
 
 TEST(SmoothMesh, OptionsEndItEarly)

@@ -331,6 +331,42 @@ TEST(CompositeBlocks, SetsMoveWithTheirNodes)
   EXPECT_TRUE(listener.Warnings.empty()) << listener.Warnings[0];
 }
 
+TEST(CompositeBlocks, AShellAndABeamOfOtherBlocksComeAlong)
+{
+  // The shell stands on two nodes of the solid, the beam on the shell. All of the solid moves.
+  auto data = touching();
+  for (std::size_t solid : { 0, 1 })
+  {
+    grids::mark(blocks::grid(data, solid), "Left", [](const Row&) { return true; });
+  }
+  vtkNew<vtkPolyData> shell;
+  auto corners =
+    grids::cloud((morph::Points(4, 3) << 0, 0, 2, 0, 1, 2, 0, 1, 3, 0, 0, 3).finished());
+  vtkNew<vtkCellArray> quads;
+  const vtkIdType ids[] = { 0, 1, 2, 3 };
+  quads->InsertNextCell(4, ids);
+  shell->SetPoints(corners->GetPoints());
+  shell->SetPolys(quads);
+  vtkNew<vtkPolyData> beam;
+  auto ends = grids::cloud((morph::Points(2, 3) << 0, 1, 3, 0, 1, 5).finished());
+  vtkNew<vtkCellArray> lines;
+  lines->InsertNextCell(2, ids);
+  beam->SetPoints(ends->GetPoints());
+  beam->SetLines(lines);
+  data->SetBlock(1, beam);
+  data->SetBlock(2, shell);
+
+  auto filter = lifting(data);
+  grids::Run listener(filter);
+  vtkDataObject* output = filter->GetOutputDataObject(0);
+  const auto lifted = [](vtkPointSet* set)
+  { return (grids::points(set).rowwise() + Row(0, 0, 0.3)).eval(); };
+  EXPECT_LT((pointsOf(output, 2) - lifted(beam)).cwiseAbs().maxCoeff(), 1e-12);
+  EXPECT_LT((pointsOf(output, 3) - lifted(shell)).cwiseAbs().maxCoeff(), 1e-12);
+  EXPECT_EQ(filter->GetAttachedPoints(), 3);
+  EXPECT_TRUE(listener.Warnings.empty()) << listener.Warnings[0];
+}
+
 TEST(CompositeBlocks, SetsAreNamesOfSurfaces)
 {
   auto data = marked(touching());

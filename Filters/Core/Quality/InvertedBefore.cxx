@@ -52,7 +52,7 @@ std::vector<bool> InvertedBefore::placesOf(
     std::transform(nodes, nodes + this->mesh_->cellSize(cell), std::back_inserter(x),
       [&](Index node) { return points.row(node).transpose(); });
     PolyhedronPlaces places;
-    places.take(*this->mesh_, cell, points, sign);
+    places.take(*this->mesh_, cell, x);
     places.forEach(x.data(), add);
     return positive;
   }

@@ -24,7 +24,7 @@ double lengthOf(const Vector& v)
 }
 }
 
-bool PolyhedronPlaces::take(const Mesh& mesh, Index cell, const ConstPoints& points, double sign)
+bool PolyhedronPlaces::take(const Mesh& mesh, Index cell, const std::vector<Vector>& x)
 {
   const Index* nodes = mesh.cell(cell);
   const Index size = mesh.cellSize(cell);
@@ -37,14 +37,6 @@ bool PolyhedronPlaces::take(const Mesh& mesh, Index cell, const ConstPoints& poi
   {
     this->sorted_.push_back(nodes[place]);
   }
-  // Relative to a node: far from the origin, rounding would exceed the cell's size.
-  this->x_.clear();
-  for (Index k = 0; k < size; ++k)
-  {
-    this->x_.push_back((points.row(nodes[k]) - points.row(nodes[0])).transpose());
-    this->x_.back().z() *= sign;
-  }
-
   this->nodes_.clear();
   this->weights_.clear();
   this->shares_.clear();
@@ -62,18 +54,18 @@ bool PolyhedronPlaces::take(const Mesh& mesh, Index cell, const ConstPoints& poi
       {
         const auto at = std::lower_bound(this->sorted_.begin(), this->sorted_.end(), face[k]);
         this->nodes_.push_back(this->place_[at - this->sorted_.begin()]);
-        mean += share * this->x_[this->nodes_.back()];
+        mean += share * x[this->nodes_.back()];
       }
-      const auto x = [&](Index k) -> const Vector&
-      { return this->x_[this->nodes_[first + k % count]]; };
+      const auto corner = [&](Index k) -> const Vector&
+      { return x[this->nodes_[first + k % count]]; };
       Vector sum = Vector::Zero();
       triangles.clear();
       for (Index k = 0; k < count; ++k)
       {
-        const Vector area = (x(k + 1) - x(k)).cross(mean - x(k));
+        const Vector area = (corner(k + 1) - corner(k)).cross(mean - corner(k));
         sum += area;
         triangles.push_back(lengthOf(area));
-        hasLengths = hasLengths && x(k + 1) != x(k);
+        hasLengths = hasLengths && corner(k + 1) != corner(k);
       }
       const double all = std::accumulate(triangles.begin(), triangles.end(), 0.);
       Vector center = Vector::Zero();
@@ -82,7 +74,7 @@ bool PolyhedronPlaces::take(const Mesh& mesh, Index cell, const ConstPoints& poi
         // Each triangle has two of the nodes, and a third of it is the mean of all.
         const double own = triangles[k] + triangles[(k + count - 1) % count];
         this->weights_.push_back(count > 3 && all > 0 ? own / (3 * all) + share / 3 : share);
-        center += this->weights_.back() * x(k);
+        center += this->weights_.back() * corner(k);
       }
       areas.push_back(sum / 2);
       centers.push_back(center);
@@ -109,16 +101,20 @@ template <typename Act>
 bool PolyhedronPlaces::forEachValue(
   const Mesh& mesh, Index cell, const ConstPoints& points, double sign, const Act& act)
 {
+  // Relative to a node: far from the origin, rounding would exceed the cell's size.
+  const Index* nodes = mesh.cell(cell);
+  this->x_.clear();
   for (Index k = 0; k < mesh.cellSize(cell); ++k)
   {
-    if (!points.row(mesh.cell(cell)[k]).allFinite())
+    this->x_.push_back((points.row(nodes[k]) - points.row(nodes[0])).transpose());
+    if (!points.row(nodes[k]).allFinite())
     {
       return false;
     }
   }
-  this->take(mesh, cell, points, sign);
-  this->forEach(this->x_.data(), [&act](const Vector& a, const Vector& b, const Vector& c)
-    { act((a / lengthOf(a)).dot((b / lengthOf(b)).cross(c / lengthOf(c)))); });
+  this->take(mesh, cell, this->x_);
+  this->forEach(this->x_.data(), [&](const Vector& a, const Vector& b, const Vector& c)
+    { act(sign * (a / lengthOf(a)).dot((b / lengthOf(b)).cross(c / lengthOf(c)))); });
   return !this->shares_.empty();
 }
 

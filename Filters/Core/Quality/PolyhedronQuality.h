@@ -28,10 +28,10 @@ namespace morph
 class PolyhedronPlaces
 {
 public:
-  /// Takes a cell; `points`: #nodes x 3, where the weights are found; `sign`: of the z coordinates,
-  /// -1 for the mirror image. Returns whether it has faces, and all of their edges a length. Cost:
-  /// some passes over the faces, about 3 microseconds for six.
-  bool take(const Mesh& mesh, Index cell, const ConstPoints& points, double sign);
+  /// Takes a cell. `x`: positions of its nodes, in their order, at which the weights are found.
+  /// Returns whether it has faces, and all of their edges a length. Cost: some passes over the
+  /// faces, about 3 microseconds for six.
+  bool take(const Mesh& mesh, Index cell, const std::vector<Eigen::Vector3d>& x);
 
   /// Calls act(a, b, c) for each tetrahedron with the edge, the line from its middle to the face's
   /// center, and the line from the cell's center to the face's. `x`: of the cell's nodes, in their
@@ -63,8 +63,9 @@ public:
   }
 
   /// The scaled Jacobian of a polyhedron: the minimum determinant of the three lines of forEach(),
-  /// scaled to length 1. It is 1 for a box. Takes the cell. NaN where a coordinate is not finite,
-  /// or without faces. Sets `isCollapsed` where a line has no length; the value is then 0.
+  /// scaled to length 1, times `sign`, the cell's orientation. It is 1 for a box. Takes the cell at
+  /// `points`, #nodes x 3. NaN where a coordinate is not finite, or without faces. Sets
+  /// `isCollapsed` where a line has no length; the value is then 0.
   double scaledJacobian(
     const Mesh& mesh, Index cell, const ConstPoints& points, double sign, bool& isCollapsed);
 
@@ -73,8 +74,9 @@ public:
   Certificate certify(const Mesh& mesh, Index cell, const ConstPoints& points, double sign);
 
 private:
-  /// Takes the cell, and calls act() with the determinants of the lines, scaled to length 1; NaN
-  /// where one has no length. Returns false if a coordinate is not finite, or without faces.
+  /// Takes the cell, and calls act() with `sign` times the determinants of the lines, scaled to
+  /// length 1; NaN where one has no length. Returns false if a coordinate is not finite, or without
+  /// faces.
   template <typename Act>
   bool forEachValue(
     const Mesh& mesh, Index cell, const ConstPoints& points, double sign, const Act& act);

@@ -185,22 +185,22 @@ public:
     const bool isQuadratic = isQuadraticVolume(*this->shape_) && !this->positive_;
     this->map_ = isQuadratic ? CellMap::find(this->mesh_.types[cell]) : nullptr;
     this->sign_ = sign;
-    if (this->shape_->shape == Shape::Polyhedron &&
-        !this->polyhedron_.take(this->mesh_, cell, *this->motion_.base, sign))
-    {
-      return false;
-    }
     this->gather(this->fields_[0], cell, this->motion_.base, this->motion_.straight, this->unit_);
     for (std::size_t t = 0; t < this->motion_.turns.size(); ++t)
     {
       const NodeMotion::Turn& turn = this->motion_.turns[t];
       this->gather(this->fields_[1 + t], cell, turn.first, turn.second, 1);
     }
+    this->cell_ = cell;
     this->observer_.setZero();
+    this->place(0);
+    if (this->isPolyhedron() && !this->findWeights())
+    {
+      return false;
+    }
     if (!this->motion_.turns.empty())
     {
       // A determinant is the same for an observer who turns with the cell, and sees it bend less.
-      this->place(0);
       const Vector turn = this->meanTurn();
       const std::vector<Lengths> seen = this->bends(turn), still = this->bends(Vector::Zero());
       const bool isLess = sum(seen) < sum(still);
@@ -210,12 +210,21 @@ public:
     return true;
   }
 
+  bool isPolyhedron() const { return this->shape_->shape == Shape::Polyhedron; }
+
   /// Calls act(determinant, lengths, isPlace) for each that is followed, from `factor` on. Not a
-  /// place is a coefficient of a quadratic cell.
+  /// place is a coefficient of a quadratic cell. A polyhedron has the centers that are found at
+  /// `factor`.
   template <typename Act>
   void forEachBound(double factor, const Act& act)
   {
     this->place(factor);
+    if (factor != 0 && this->isPolyhedron())
+    {
+      this->findWeights();
+      this->bends_ =
+        this->motion_.turns.empty() ? std::vector<Lengths>() : this->bends(this->observer_);
+    }
     std::size_t place = 0;
     this->forEachPlace(this->now_,
       [&](const Pair& a, const Pair& b, const Pair& c)
@@ -233,8 +242,33 @@ public:
     }
   }
 
+  /// The factor in which the placed cell moves by its size, as its observer sees it; 1 if it does
+  /// not move.
+  double unitHere() const
+  {
+    double size = 0, speed = 0;
+    for (const Pair& x : this->now_)
+    {
+      size = std::max(size, (x.col(0) - this->now_[0].col(0)).norm());
+      speed = std::max(speed, (x.col(1) - this->now_[0].col(1)).norm());
+    }
+    return speed > 1e-90 * size ? size / speed : 1;
+  }
+
 private:
   using Field = std::vector<Pair>; ///< of the cell's nodes
+
+  /// Finds the centers of the placed polyhedron. Returns whether it has faces, and all edges a
+  /// length.
+  bool findWeights()
+  {
+    std::vector<Vector> x;
+    for (const Pair& node : this->now_)
+    {
+      x.push_back(node.col(0) - this->now_[0].col(0));
+    }
+    return this->polyhedron_.take(this->mesh_, this->cell_, x);
+  }
 
   void gather(
     Field& field, Index cell, const Points* first, const Points* second, double factor) const
@@ -281,7 +315,7 @@ private:
         act(a, b, c);
       }
     };
-    if (this->shape_->shape == Shape::Polyhedron)
+    if (this->isPolyhedron())
     {
       this->polyhedron_.forEach(x.data(), add);
       return;
@@ -404,13 +438,7 @@ private:
   {
     // In units of the factor in which the cell moves by its size: a slow motion changes the values
     // by no more than rounding.
-    double size = 0, speed = 0;
-    for (const Pair& x : this->now_)
-    {
-      size = std::max(size, (x.col(0) - this->now_[0].col(0)).norm());
-      speed = std::max(speed, (x.col(1) - this->now_[0].col(1)).norm());
-    }
-    const double unit = speed > 1e-90 * size ? size / speed : 1;
+    const double unit = this->unitHere();
     constexpr double At[4] = { 0, -1, 1, 2 };
     BernsteinHalving::Coefficients values[4];
     for (int k = 0; k < 4; ++k)
@@ -443,6 +471,7 @@ private:
   Field now_;                  ///< positions and derivatives
   std::vector<Lengths> bends_; ///< with turns: of each place
   Vector observer_;            ///< his angular velocity
+  Index cell_ = -1;
   PolyhedronPlaces polyhedron_;
   const CellShape* shape_ = nullptr;
   const CellMap* map_ = nullptr; ///< of a quadratic cell
@@ -485,6 +514,38 @@ double follow(MovingCell& cell, Step& step)
     length = step.take();
   }
   return length;
+}
+
+/// As follow(), for a polyhedron, whose centers change their weights on the way: a step is most of
+/// that which the weights at its beginning allow, and is halved where the determinants with those
+/// at its end are not positive. The first is at most `first`, later ones twice the last. Nothing
+/// ends far beyond the first: there the cell has the shape of its motion.
+double followPolyhedron(MovingCell& cell, Step& step, double first)
+{
+  constexpr double Most = 0.875, Far = 1e6;
+  const double last = std::min(step.most, Far * first);
+  step.most = Infinity;
+  double factor = 0, allowed = step.take(), length = first;
+  for (int steps = 1; steps < MostSteps && factor < last; ++steps)
+  {
+    length = std::min(length, Most * allowed);
+    bool isValid = true;
+    cell.forEachBound(step.sign * (factor + length),
+      [&](const Polynomial& d, const Lengths& lengths, bool)
+      {
+        isValid = isValid && d[0] > 0;
+        step.add(d, lengths);
+      });
+    const double next = step.take();
+    factor += isValid ? length : 0;
+    allowed = isValid ? next : allowed;
+    if (length <= Precision * factor)
+    {
+      break;
+    }
+    length *= isValid ? 2 : 0.5;
+  }
+  return factor < last ? factor : Infinity;
 }
 }
 
@@ -530,8 +591,11 @@ ValidRange validRange(const Mesh& mesh, const NodeMotion& given,
             down.add(d, lengths);
             up.add(d, lengths);
           });
-        const double below = isValid ? follow(cell, down) : 0;
-        const double above = isValid ? follow(cell, up) : 0;
+        const double pace = cell.unitHere();
+        const auto endOf = [&](Step& step)
+        { return cell.isPolyhedron() ? followPolyhedron(cell, step, pace) : follow(cell, step); };
+        const double below = isValid ? endOf(down) : 0;
+        const double above = isValid ? endOf(up) : 0;
         if (below < Infinity || above < Infinity)
         {
           const std::lock_guard<std::mutex> lock(mutex);

@@ -39,9 +39,7 @@ struct ValidRange
 };
 
 /// Returns the interval of s around 0 in which every volume cell is valid as measureQuality() has
-/// it: all the determinants at corners, and at the center of a hexahedron, are positive. Those of a
-/// polyhedron are taken with the centers of PolyhedronPlaces, which keep their weights at s = 0.
-/// The measure's own weights change on the way, so that its ends differ a little.
+/// it: all the determinants at corners, and at the center of a hexahedron, are positive.
 ///
 /// Each determinant is followed from 0 by steps in which it cannot reach 0. A step is the first
 /// root (PolynomialRoot.h) of a lower bound: the determinant of the edges' tangents, a cubic, less

@@ -356,8 +356,8 @@ SmoothingReport smoothMesh(const Mesh& rest, const std::vector<std::int8_t>& ori
   HigherOrderNodes followers;
   followers.prepare(rest, partition, communicator);
   followers.carry(rest.points, smoothed);
-  report.wasKept =
-    options.neverWorse && isWorse(rest, orientation, smoothed, points, monitor, communicator);
+  report.wasKept = (options.neverWorse || !report.isValid) &&
+                   isWorse(rest, orientation, smoothed, points, monitor, communicator);
   if (!report.wasKept)
   {
     points.swap(smoothed);

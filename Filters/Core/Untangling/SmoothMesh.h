@@ -51,7 +51,9 @@ struct SmoothingReport
 ///
 /// 1. If tetrahedra of the cells (one a corner) are inverted: untangling (UntangleEnergy.h) with a
 ///    margin of 0.05 by L-BFGS, which checks every hundred steps whether the mesh is valid. If some
-///    stay inverted, this is the result: not every mesh can be untangled in this way.
+///    stay inverted, this is the result, or the start if it is no worse by the measure of quality:
+///    not every mesh can be untangled in this way, and the layer of a sharply bent shell may be
+///    tangled where its faces are not.
 /// 2. If few cells have a scaled Jacobian below 0.2: the shape measure below on the nodes of three
 ///    rings of cells around them. Single bad cells would shorten the steps of the whole mesh.
 ///    (Also with Adaptive, the measure is that of stage 3.)

@@ -8,6 +8,8 @@
 #include "Quality/BoundaryDetermined.h"
 #include "Untangling/KeepMinimum.h"
 
+#include <string>
+
 namespace morph
 {
 namespace
@@ -17,13 +19,15 @@ constexpr double Affine = 1e-9; // of the mesh's size: rounding of an affine mot
 /// Warns of what stays inverted, and returns the counts. `determined`: cells that the boundary
 /// itself inverts, ascending, by their ids in the whole mesh.
 EvaluateReport reportSmoothing(const SmoothingReport& smoothing, Index takenBack,
-  const std::vector<Index>& determined, Monitor& monitor)
+  const std::vector<Index>& determined, bool isShell, Monitor& monitor)
 {
   warnOfDetermined(determined, monitor);
   if (!smoothing.isValid)
   {
-    monitor.warn("Smoothing could not untangle the mesh. Move the boundary in smaller steps, or "
-                 "use a method that carries the motion inside.");
+    monitor.warn("Smoothing could not untangle the " +
+                 std::string(isShell ? "layer of a shell that is bent so sharply" : "mesh") +
+                 ". Move the boundary in smaller steps, or use a method that carries the motion "
+                 "inside.");
   }
   EvaluateReport report;
   report.iterations = static_cast<int>(smoothing.untangleSteps + smoothing.newtonSteps);
@@ -137,6 +141,7 @@ EvaluateReport Smoothing::displace(const Points& prescribed, Points& free, Monit
   }
   displacement(own.nodes(), allColumns) = points - rest.points;
   free = displacement(this->partition().free, allColumns);
-  return reportSmoothing(smoothing, takenBack, own.gatherIds(determined), monitor);
+  return reportSmoothing(
+    smoothing, takenBack, own.gatherIds(determined), rest.layer.isCurved(), monitor);
 }
 }

@@ -32,6 +32,10 @@ int commonType(const std::vector<Part>& parts, vtkAbstractArray* first)
   for (const Part& part : parts)
   {
     vtkAbstractArray* array = part.From->GetAbstractArray(first->GetName());
+    if (!array && part.MayLack && first != parts.front().From->GetGlobalIds())
+    {
+      continue;
+    }
     if (!array || array->GetNumberOfComponents() != first->GetNumberOfComponents())
     {
       return -1;
@@ -128,9 +132,16 @@ void Merge(const std::vector<Part>& parts, vtkIdType count, vtkDataSetAttributes
     {
       continue;
     }
+    if (auto* numbers = vtkDataArray::SafeDownCast(merged))
+    {
+      numbers->Fill(0);
+    }
     for (const Part& part : parts)
     {
-      copyTuples(part.From->GetAbstractArray(array->GetName()), part, merged);
+      if (vtkAbstractArray* from = part.From->GetAbstractArray(array->GetName()))
+      {
+        copyTuples(from, part, merged);
+      }
     }
     to->AddArray(merged);
   }

@@ -19,11 +19,13 @@ struct Part
 {
   vtkDataSetAttributes* From;
   vtkIdList *FromIds, *ToIds;
+  bool MayLack = false; ///< without an array, the others keep it
 };
 
 /// Fills `to` with arrays of `count` tuples: those that all parts have, with as many components.
-/// One of several types becomes double. Ghost flags are 0 where a part has none. The first part
-/// says which arrays are active. Cost: one pass over the arrays.
+/// Numbers that a part may lack, but for global ids, are 0 there. One of several types becomes
+/// double. Ghost flags are 0 where a part has none. The first part says which arrays are active.
+/// Cost: one pass over the arrays.
 void Merge(const std::vector<Part>& parts, vtkIdType count, vtkDataSetAttributes* to);
 
 /// Adds to `to` the tuples `ids` of `array`, under its name. Where an id is -1: 0 for the array

@@ -51,6 +51,7 @@ struct Part
   unsigned int FlatIndex;
   Index Group; ///< in which nodes are shared
   morph::Mesh Mesh;
+  bool IsAttached = false; ///< of lower dimension than the mesh
 };
 
 /// The cells of all parts, of which those with the same nodes are one.
@@ -110,6 +111,38 @@ SharedNodes numberNodes(
       options.Merges && isStructured(part.Data), part.Group });
   }
   return nodes;
+}
+
+/// Blocks of lower dimension, such as shells and beams, become parts of the mesh where they hang on
+/// it by some of their points, and so on with those that hang on these. A block that is on it with
+/// all of its points is a set of its faces, edges or nodes.
+void attachParts(const std::vector<Leaves::Leaf>& leaves, const MergedBlocks::Options& options,
+  SharedNodes& nodes, std::vector<Part>& parts, MergedBlocks& merged)
+{
+  for (bool isAny = options.Merges && !options.AreOnRanks; isAny;)
+  {
+    isAny = false;
+    for (std::size_t i = 0; i < leaves.size(); ++i)
+    {
+      Block& block = merged.All[i];
+      auto* data = vtkPointSet::SafeDownCast(leaves[i].Data);
+      if (block.IsMesh || !data || BlockCells::Dimension(data) < 1)
+      {
+        continue;
+      }
+      Part part = { i, data, leaves[i].FlatIndex, 0,
+        BlockCells::Read(data, block.Name, options.Unknown), true };
+      const std::vector<Index> ids = idsOf(part, options);
+      const std::vector<Index> found = nodes.Find({ part.Mesh.points, ids });
+      const auto missing = std::count(found.begin(), found.end(), -1);
+      if (missing > 0 && missing < part.Mesh.numberOfNodes())
+      {
+        block.IsMesh = isAny = true;
+        block.Nodes = nodes.Add({ part.Mesh.points, ids });
+        parts.push_back(std::move(part));
+      }
+    }
+  }
 }
 
 /// Lets faces decide where places do not; returns the number of nodes.
@@ -291,9 +324,9 @@ public:
     this->From[part]->InsertNextId(from);
     this->To[part]->InsertNextId(to);
   }
-  BlockArrays::Part Of(std::size_t part, vtkDataSetAttributes* from) const
+  BlockArrays::Part Of(std::size_t part, vtkDataSetAttributes* from, bool mayLack) const
   {
-    return { from, this->From[part], this->To[part] };
+    return { from, this->From[part], this->To[part], mayLack };
   }
 
 private:
@@ -324,7 +357,7 @@ void writeNodes(const std::vector<Part>& parts, Index number, MergedBlocks& merg
         owned.Add(p, static_cast<Index>(i), nodes[i]);
       }
     }
-    sources.push_back(owned.Of(p, parts[p].Data->GetPointData()));
+    sources.push_back(owned.Of(p, parts[p].Data->GetPointData(), parts[p].IsAttached));
   }
   merged.Grid->SetPoints(points);
   BlockArrays::Merge(sources, number, merged.Grid->GetPointData());
@@ -340,7 +373,7 @@ void writeCellArrays(const std::vector<Part>& parts, const Cells& cells, MergedB
   std::vector<BlockArrays::Part> sources;
   for (std::size_t p = 0; p < parts.size(); ++p)
   {
-    sources.push_back(owned.Of(p, parts[p].Data->GetCellData()));
+    sources.push_back(owned.Of(p, parts[p].Data->GetCellData(), parts[p].IsAttached));
   }
   BlockArrays::Merge(
     sources, static_cast<vtkIdType>(cells.Owners.size()), merged.Grid->GetCellData());
@@ -472,13 +505,14 @@ MergedBlocks MergedBlocks::Make(vtkDataObjectTree* tree, const Options& options)
   merged.Grid = vtkSmartPointer<vtkUnstructuredGrid>::New();
   merged.Grid->GetFieldData()->ShallowCopy(tree->GetFieldData());
   const std::vector<Leaves::Leaf> leaves = Leaves::Of(tree);
-  const std::vector<Part> parts = readParts(leaves, options, merged);
+  std::vector<Part> parts = readParts(leaves, options, merged);
   if (parts.empty())
   {
     return merged;
   }
 
   SharedNodes nodes = numberNodes(parts, options, merged);
+  attachParts(leaves, options, nodes, parts, merged);
   Options chosen = options;
   merged.Contradiction = nodes.Contradiction(1e-6 * sizeOf(parts));
   if (merged.Contradiction)
