@@ -87,6 +87,7 @@ int vtkBoundaryDisplacement::RequestData(
   filters::CrewMonitor monitor(this, this->Options->NumberOfThreads);
   const auto displace = [&]
   {
+    vtkInternals::WarnOfSeries(inputVector, outputVector->GetInformationObject(0), monitor);
     const filters::Input::Mesh mesh = filters::Input::TakeMesh(
       vtkDataObject::GetData(inputVector[0]), own.Blocks, this->Options->CoincidentPoints,
       filters::Input::Use::ToMorph, this->GetClassName(), monitor);

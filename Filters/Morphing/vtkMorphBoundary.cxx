@@ -22,6 +22,7 @@
 #include "Private/Pipeline/Monitor.h"
 #include "Private/Pipeline/Ports.h"
 #include "Private/Pipeline/Ranks.h"
+#include "Private/Pipeline/Time.h"
 #include "Private/Project/TargetData.h"
 #include "Support/Error.h"
 
@@ -254,6 +255,8 @@ int vtkMorphBoundary::RequestData(
     [&](vtkUnstructuredGrid* grid, vtkDataObject* boundary, bool isDistributed,
       filters::Monitor& monitor)
     {
+      filters::Time::WarnOfSeries(
+        inputVector, outputVector->GetInformationObject(0), { "", "", "The target" }, monitor);
       isDistributed ? kept.MorphOnRanks(grid, boundary, target, output, monitor)
                     : kept.Morph(grid, boundary, target, output, monitor);
     },

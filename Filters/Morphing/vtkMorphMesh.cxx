@@ -247,7 +247,13 @@ int vtkMorphMesh::RequestInformation(
 int vtkMorphMesh::RequestUpdateExtent(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  filters::Time::AskRest(this->MeshOptions->RestTime, inputVector[0]->GetInformationObject(0));
+  for (int port = 0; port < this->GetNumberOfInputPorts(); ++port)
+  {
+    if (vtkInformation* info = inputVector[port]->GetInformationObject(0))
+    {
+      filters::Time::AskRest(this->MeshOptions->RestTime, info);
+    }
+  }
   filters::GridMorpher::Motion& motion = this->Morphing->Motion;
   motion.Steps = filters::Steps(this->MeshOptions->NumberOfSteps, nullptr);
   motion.Step = motion.Steps.Asked(filters::Ports::Asked(request, outputVector));
@@ -293,6 +299,7 @@ int vtkMorphMesh::RequestData(
       }
     };
     filters::RankGroup(mesh.IsDistributed).Together(check);
+    vtkInternals::WarnOfSeries(inputVector, nullptr, monitor);
     const vtkMorphing::Inputs inputs = vtkInternals::InputsOf(inputVector);
     const morph::DisplacementOptions options = own.Displacement(inputs);
     own.Displace(options, mesh, inputs, monitor);

@@ -8,6 +8,7 @@
 #include "Private/Pipeline/CrewMonitor.h"
 #include "Private/Pipeline/Execution.h"
 #include "Private/Pipeline/Property.h"
+#include "Private/Pipeline/Time.h"
 #include "Private/Shapes/Internals.h"
 #include "Support/Error.h"
 #include "Support/Lists.h"
@@ -260,6 +261,7 @@ int vtkMorphShapes::RequestData(
     },
     [&](vtkUnstructuredGrid* grid, vtkDataObject*, bool isDistributed, filters::Monitor& monitor)
     {
+      filters::Time::WarnOfSeries(inputVector, nullptr, { "", "A shape" }, monitor);
       vtkDataObject* table = vtkDataObject::GetData(inputVector[2]);
       kept.Morph(grid, isDistributed, inputVector[1], table, outputVector, monitor);
     },

@@ -155,16 +155,25 @@ std::vector<TableLine> readLines(const std::string& path)
   return lines;
 }
 
+std::optional<double> decimal(const std::string& text)
+{
+  char* end = nullptr;
+  const double number = std::strtod(text.c_str(), &end);
+  const bool isHexadecimal = text.find_first_of("xX") != std::string::npos;
+  return text.empty() || *end != '\0' || isHexadecimal || !std::isfinite(number)
+           ? std::nullopt
+           : std::optional(number);
+}
+
 double numberIn(const TableLine& line, std::size_t field)
 {
   const std::string& text = line.fields[field];
-  char* end = nullptr;
-  const double number = std::strtod(text.c_str(), &end);
-  if (text.empty() || *end != '\0' || !std::isfinite(number))
+  const std::optional<double> number = decimal(text);
+  if (!number)
   {
     throw Failure(line.where + "'" + text + "' is no finite number, in " + cited(line.text) + ".");
   }
-  return number;
+  return *number;
 }
 
 std::vector<NumberLine> readNumbers(

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,9 @@ std::vector<std::string> splitLine(const std::string& line, char separator = ','
 /// Throws Failure where it cannot be read, is empty, or a line has another number of fields than
 /// the first; empty ones at its end do not count.
 std::vector<TableLine> readLines(const std::string& path);
+
+/// The finite decimal number that a text is, if it is one.
+std::optional<double> decimal(const std::string& text);
 
 /// The number in a field. Throws Failure where it is no finite number.
 double numberIn(const TableLine& line, std::size_t field);

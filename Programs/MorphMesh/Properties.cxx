@@ -2,14 +2,14 @@
 #include "Properties.h"
 
 #include "Arguments.h"
+#include "NumberColumns.h"
 
 #include <vtksys/SystemTools.hxx>
 
 #include <algorithm>
 #include <cctype>
-#include <cerrno>
 #include <cmath>
-#include <cstdlib>
+#include <optional>
 #include <sstream>
 
 namespace morph_mesh
@@ -38,16 +38,13 @@ const Property& named(const std::string& name)
 
 double number(const Property& property, const std::string& text)
 {
-  char* end = nullptr;
-  errno = 0;
-  const double value = std::strtod(text.c_str(), &end);
-  const bool isWhole = property.kind != Property::Kind::Integer || value == std::floor(value);
-  if (text.empty() || *end != '\0' || errno == ERANGE || !std::isfinite(value) ||
-      value < property.least || value > property.most || !isWhole)
+  const std::optional<double> value = decimal(text);
+  const bool isWhole = property.kind == Property::Kind::Integer;
+  if (!value || *value < property.least || *value > property.most ||
+      (isWhole && *value != std::floor(*value)))
   {
     std::ostringstream message;
-    message << property.option << " needs a "
-            << (property.kind == Property::Kind::Integer ? "whole number" : "number");
+    message << property.option << " needs a " << (isWhole ? "whole number" : "number");
     if (std::abs(property.least) < 1e300 || std::abs(property.most) < 1e300)
     {
       message << " from " << property.least;
@@ -58,7 +55,7 @@ double number(const Property& property, const std::string& text)
     }
     throw UsageError(message.str() + ", not '" + text + "'.");
   }
-  return value;
+  return *value;
 }
 
 /// "1,2,3"; "z,2" with the defaults for the others; "2" for all where the defaults are one number
@@ -66,7 +63,7 @@ double number(const Property& property, const std::string& text)
 std::vector<double> numbers(const Property& property, const std::string& text)
 {
   std::vector<std::string> parts;
-  std::istringstream list(text);
+  std::istringstream list(text + ","); // so that what is missing after a comma counts
   for (std::string part; std::getline(list, part, ',');)
   {
     parts.push_back(part);

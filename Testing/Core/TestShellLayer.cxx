@@ -497,6 +497,33 @@ TEST_P(CurvedShell, HowTheCellsAreWoundHasNoEffect)
   }
 }
 
+TEST_P(CurvedShell, HowTheSheetsOfABranchAreWoundHasNoEffect)
+{
+  Mesh branch = square(GetParam());
+  const Index nodes = branch.numberOfNodes(), cells = branch.numberOfCells();
+  const Index middle = Boxes / 2 * (Boxes + 1);
+  Points points(nodes + Boxes + 1, 3);
+  points << branch.points, branch.points.middleRows(middle, Boxes + 1).rowwise() + Row(0, 0, 0.3);
+  branch.points = points;
+  for (Index j = 0; j < Boxes; ++j)
+  {
+    meshes::add(branch, morph::Quad, { middle + j + 1, middle + j, nodes + j, nodes + j + 1 });
+  }
+  const auto thickened = [&branch](Index firstTurned, Index lastTurned)
+  {
+    Mesh mesh = branch;
+    for (Index c = firstTurned; c < lastTurned; ++c)
+    {
+      Index* cell = mesh.connectivity.data() + mesh.offsets[c];
+      std::reverse(cell + 1, cell + mesh.cellSize(c));
+    }
+    return morph::thicken(mesh).points;
+  };
+  const Points expected = thickened(0, 0);
+  EXPECT_LT(motions::difference(thickened(cells, cells + Boxes), expected), 1e-15); // the fin
+  EXPECT_LT(motions::difference(thickened(0, cells / 2), expected), 1e-15);
+}
+
 TEST_P(CurvedShell, LinearMethodsAreExactForAffineMotions)
 {
   for (Shell shell : { openShell(GetParam()), quadraticShell(GetParam()),

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Zones, KeepLayers and SlideRounds on random partitions, against the same filter on one rank.
 #include "Meshes.h"
+#include "Octree.h"
 #include "Pieces.h"
 #include "PolyhedralMeshes.h"
 #include "RankGrids.h"
@@ -358,7 +359,11 @@ TEST(RankSlideRounds, AgreeWithTheSerialOnes)
         filter->AddRigidZone("Blade");
       } } };
   unsigned seed = meshes::seed();
-  for (const auto& [name, mesh] : meshesOfBox())
+  std::vector<std::pair<std::string, morph::Mesh>> boxes = meshesOfBox();
+  boxes.emplace_back("polyhedra", polyhedraAbove());
+  boxes.emplace_back("octree", meshes::Octree(seed, 1, { 3, 3, 3 }).mesh);
+  boxes.back().second.points *= 2;
+  for (const auto& [name, mesh] : boxes)
   {
     for (const auto& [what, configure] : cases)
     {
@@ -429,8 +434,7 @@ TEST(RankZones, CountsAndOutputsAreThoseOfTheWholeMesh)
 TEST(RankZones, OneErrorEndsAllRanks)
 {
   const Ranks ranks = pieces::world();
-  const morph::Mesh hexes = meshes::hexes(6, 6, 6), tets = meshes::tets(6, 6, 6),
-                    polyhedra = polyhedraAbove();
+  const morph::Mesh hexes = meshes::hexes(6, 6, 6), tets = meshes::tets(6, 6, 6);
   const std::vector<std::tuple<std::string, const morph::Mesh*, Configure>> cases = {
     { "The zone 'Nowhere' is neither", &hexes,
       [](vtkMorphMesh* filter) { filter->AddFixedZone("Nowhere"); } },
@@ -447,12 +451,6 @@ TEST(RankZones, OneErrorEndsAllRanks)
       {
         filter->SetKeepLayers(2);
         filter->SetLayersArray("Nowhere");
-      } },
-    { "`SlideRounds` does not know polyhedra", &polyhedra,
-      [](vtkMorphMesh* filter)
-      {
-        filter->AddSlidingSurface("Surface 1");
-        filter->SetSlideRounds(2);
       } },
   };
   for (const auto& [message, mesh, configure] : cases)

@@ -205,10 +205,13 @@ TEST(CompositeBlocks, BodiesInContactAreKeptApart)
   EXPECT_EQ(pointsOf(output, 1), right) << "another body does not";
 
   // Ids of their own keep bodies apart without an option, and one can ask for the positions.
-  setIds(blocks::grid(data, 0), 0);
-  setIds(blocks::grid(data, 1), 100);
-  EXPECT_EQ(boundaryFaces(data, vtkMorphAlgorithm::COINCIDENT_POINTS_MERGE), 48);
-  EXPECT_EQ(boundaryFaces(data, vtkMorphAlgorithm::COINCIDENT_POINTS_MERGE_BY_POSITION), 40);
+  for (const vtkIdType first : { vtkIdType(0), vtkIdType(1) << 60 })
+  {
+    setIds(blocks::grid(data, 0), first);
+    setIds(blocks::grid(data, 1), first + 100);
+    EXPECT_EQ(boundaryFaces(data, vtkMorphAlgorithm::COINCIDENT_POINTS_MERGE), 48);
+    EXPECT_EQ(boundaryFaces(data, vtkMorphAlgorithm::COINCIDENT_POINTS_MERGE_BY_POSITION), 40);
+  }
 }
 
 TEST(CompositeBlocks, PartitionsOfOneBlockAreNeverKeptApart)

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Filters on meshes with hanging nodes: shapes, derivatives, steps and Compare leave no gap,
 // either.
+#include "DisplacedBoundaries.h"
+#include "Geometry/RigidFit.h"
 #include "MorphFilters.h"
 #include "Octree.h"
 #include "TestGrids.h"
 
 #include "vtkCompareMorphMethods.h"
 #include "vtkFEMWarpMorph.h"
+#include "vtkMorphMesh.h"
 #include "vtkMorphShapes.h"
 
 #include <vtkNew.h>
@@ -19,6 +22,7 @@
 namespace
 {
 using grids::Row;
+using morph::Index;
 using morph::Points;
 
 class HangingNodesOfFilters : public testing::TestWithParam<int>
@@ -62,6 +66,32 @@ TEST_P(HangingNodesOfFilters, FollowShapesAsAMorph)
   EXPECT_LT((moved - expected).cwiseAbs().maxCoeff(), 1e-9 * this->Size);
   EXPECT_LT(this->Octree.gap(moved), 1e-12 * this->Size);
   EXPECT_STREQ(shapes->GetMorphStatus(), "Valid");
+}
+
+TEST_P(HangingNodesOfFilters, TakeARigidZoneAlongAsFemWarpDoes)
+{
+  const auto isZone = [](const Row& x) {
+    return x[2] == 1 && (x.array() >= 1 && x.array() <= 2 && x.array() == x.array().round()).all();
+  };
+  grids::mark(this->Grid, "Zone", isZone);
+  const Points rest = grids::points(this->Grid);
+  grids::addVectors(this->Grid, "Bulge", grids::mapped(rest, bulged) - rest);
+  auto filter = grids::of<vtkMorphMesh>(this->Grid);
+  filter->SetMovingToEverything();
+  filter->SetDisplacementToArray();
+  filter->SetDisplacementArray("Bulge");
+  filter->AddRigidZone("Zone");
+
+  grids::expectWarning(filter, "they hang on faces");
+
+  const std::vector<Index> zone = displaced::nodesWhere(this->Grid, isZone);
+  const Points moved = grids::points(filter->GetOutput()), method = morphedBy(this->Grid, bulged);
+  const morph::RigidMotion expected =
+    morph::fitRigidMotion(rest(zone, morph::allColumns), method(zone, morph::allColumns));
+  for (const Index node : zone)
+  {
+    EXPECT_LT((expected(rest.row(node)) - moved.row(node)).norm(), 1e-6 * this->Size);
+  }
 }
 
 TEST_P(HangingNodesOfFilters, LeaveNoGapInSteps)

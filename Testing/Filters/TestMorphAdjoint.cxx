@@ -327,6 +327,18 @@ TEST_F(AdjointInputs, SmoothingAfterTheMethodDrawsAWarning)
   grids::expectWarning(adjoint, "PostSmooth");
 }
 
+TEST_F(AdjointInputs, NodesThatTurnWithTheVolumeDrawAWarning)
+{
+  morph::Mesh mesh = meshes::hexes(3, 3, 3); // and a beam
+  mesh.points.conservativeResize(65, 3);
+  mesh.points.row(64) << 3, 3, 4;
+  mesh.add(morph::Line, { 63, 64 });
+  auto grid = grids::make(mesh);
+  grids::addVectors(grid, "Gradient", randomVectors(65, meshes::seed()));
+  auto adjoint = adjointOf(this->Morph, grid, this->Boundary, nullptr);
+  grids::expectWarning(adjoint, "about the undeformed mesh");
+}
+
 TEST_F(AdjointInputs, AChangedOptionOfTheMethodRunsAgain)
 {
   auto adjoint = adjointOf(this->Morph, this->Grid, this->Boundary, nullptr);

@@ -4,6 +4,8 @@
 
 #include "vtkExtractMorphBoundary.h"
 #include "vtkFEMWarpMorph.h"
+#include "vtkMorphMesh.h"
+#include "vtkMorphShapes.h"
 
 #include <vtkInformation.h>
 #include <vtkInformationVector.h>
@@ -324,3 +326,25 @@ TEST_P(MorphTimeOneSource, ATimeThatFailsEndsTheExecution)
 
 INSTANTIATE_TEST_SUITE_P(
   Routes, MorphTimeOneSource, testing::Combine(testing::Bool(), testing::Values(0.0, 1.0)));
+
+TEST(MorphTime, OfSeveralStepsWithNothingToFollowOneIsTakenWithAWarning)
+{
+  vtkNew<GrowingGrid> mesh;
+  vtkNew<RisingBoundary> boundary;
+  boundary->Steps = { 0.25, 0.5, 4 };
+  boundary->SetInputConnection(mesh->GetOutputPort());
+  vtkNew<vtkMorphShapes> shapes;
+  shapes->SetInputConnection(mesh->GetOutputPort());
+  shapes->AddShapeConnection(boundary->GetOutputPort());
+  grids::expectWarning(shapes, "A shape has 3 time steps, and is taken at one.");
+
+  vtkNew<vtkMorphMesh> fit;
+  fit->SetInputConnection(mesh->GetOutputPort());
+  fit->SetTargetConnection(boundary->GetOutputPort());
+  fit->SetMovingToEverything();
+  fit->SetDisplacementToTarget();
+  fit->SetRestTime(1);
+  fit->SetNumberOfSteps(2);
+  grids::expectWarning(fit, "The target has 3 time steps, and is taken at one, 0.5.");
+  EXPECT_NEAR(sizeAndHeight(fit->GetOutput()).second, 0.5, 1e-6);
+}

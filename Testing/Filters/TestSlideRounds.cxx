@@ -3,6 +3,8 @@
 #include "DisplacedBoundaries.h"
 
 #include "../Core/Meshes.h"
+#include "../Core/Motions.h"
+#include "../Core/Octree.h"
 #include "../Core/PolyhedralMeshes.h"
 #include "vtkFEMWarpMorph.h"
 #include "vtkMorphMesh.h"
@@ -263,7 +265,31 @@ TEST(SlideRounds, RefusesWhatItDoesNotKnow)
   boundary->SetMovingToNothing();
   boundary->Update();
   EXPECT_NE(message(boundary->GetOutput(), true).find("the input is a surface"), std::string::npos);
-  EXPECT_NE(message(grids::make(meshes::asPolyhedra(meshes::hexes(3, 3, 3))), true)
-              .find("does not know polyhedra"),
-    std::string::npos);
+}
+
+TEST(SlideRounds, ReproduceAffineMotionsOfPolyhedraAndOctrees)
+{
+  const morph::Mesh pyramids = meshes::hexesAndPyramids(Side, Side, Side);
+  for (const morph::Mesh& mesh : { meshes::asPolyhedra(pyramids), meshes::refinedLayer(3),
+         meshes::Octree(meshes::seed(), 1, { 3, 3, 3 }).mesh })
+  {
+    auto grid = grids::make(mesh);
+    const Points rest = grids::points(grid);
+    const auto isSide = [&](const Row& x)
+    {
+      return onPlane(x) && !isAt(x[1], 0) && !isAt(x[1], rest.col(1).maxCoeff()) &&
+             !isAt(x[2], 0) && !isAt(x[2], rest.col(2).maxCoeff());
+    };
+    const grids::Map motion = [](const Row& x) { return Row(.1 * x[0], .2 * x[1], .1 * x[1]); };
+    vtkNew<vtkMorphMesh> filter;
+    configure(filter, grid, motion);
+    grids::mark(grid, "Bottom", [&](const Row& x) { return !isSide(x); });
+    filter->AddSlidingSurface(surface(grid, onPlane).c_str());
+    filter->SetSlideRounds(1);
+
+    grids::update(filter);
+
+    const Points wanted = rest + grids::mapped(rest, motion);
+    EXPECT_LT(motions::difference(grids::points(filter->GetOutput()), wanted), 1e-9);
+  }
 }

@@ -700,8 +700,9 @@ class MorphMesh(unittest.TestCase):
         self.fails(2, "one of Error, Relax", *files, "--method=LBWARP",
                    "--outside-hull", "Maybe")
         self.fails(2, "--validity is one of", *files, "--validity", "Pray")
-        for wrong in ("1x", "nan", "inf"):
+        for wrong in ("1x", "nan", "inf", "0x10"):
             self.fails(2, "--scale-factor needs a number", *files, "--scale-factor", wrong)
+        self.fails(2, "--translate needs <x,y,z>", *files, "--translate", "1,2,3,")
         self.fails(2, "--threads needs a whole number", *files, "--threads", "-1")
         self.assertFalse((self.folder / "out.vtu").exists())
 

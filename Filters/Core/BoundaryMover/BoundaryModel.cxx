@@ -2,6 +2,7 @@
 #include "BoundaryMover/BoundaryModel.h"
 
 #include "Boundary/FaceAreas.h"
+#include "Boundary/LinearEdges.h"
 #include "Mesh/FaceTable.h"
 #include "Mesh/FacesOfCells.h"
 #include "Mesh/HangingNodes.h"
@@ -48,43 +49,6 @@ std::vector<Index> facesOfCells(const Mesh& mesh, const BoundaryFaces& faces, st
       result.push_back(static_cast<Index>(f));
     }
   }
-  return result;
-}
-
-/// See BoundaryModel::onLinearEdges. Cost: a pass over the cells of a mesh with quadratic ones.
-std::vector<Index> linearEdges(const Mesh& mesh, const BoundaryFaces& faces)
-{
-  std::map<std::pair<Index, Index>, Index> middle; // of edges
-  for (std::size_t i = 0; i < faces.nodes.size(); ++i)
-  {
-    const auto k = static_cast<Index>(i);
-    const Index* ends = faces.between.begin(k);
-    if (faces.between.end(k) - ends == 2)
-    {
-      middle.emplace(std::minmax(ends[0], ends[1]), k);
-    }
-  }
-  std::vector<Index> result;
-  const auto take = [&](const Index* face, Index size)
-  {
-    for (Index k = 0; k < size; ++k)
-    {
-      const auto found = middle.find(std::minmax(face[k], face[(k + 1) % size]));
-      if (found != middle.end())
-      {
-        result.push_back(found->second);
-      }
-    }
-  };
-  for (Index c = 0; c < mesh.numberOfCells() && !middle.empty(); ++c)
-  {
-    const CellShape* shape = volumeShape(mesh, c);
-    if (isPolyhedron(mesh, c) || (shape && shape->numberOfNodes == shape->numberOfCorners))
-    {
-      forEachSide(mesh, c, take);
-    }
-  }
-  sortUnique(result);
   return result;
 }
 
@@ -221,8 +185,7 @@ void BoundaryModel::findFaces(const std::vector<std::uint8_t>& isNamed, Monitor&
 {
   const ConnectedComponents bodies = connectedComponents(this->mesh);
   this->bodyOfNode = bodyOfNodes(this->mesh, bodies);
-  HangingNodes hanging;
-  this->faces = boundaryFaces(this->mesh, hanging, monitor);
+  this->faces = boundaryFaces(this->mesh, this->hanging, monitor);
   this->inner = innerFaces(this->mesh, this->faces, isNamed, monitor);
   InnerFaces::Places& sheets = this->inner.sheets;
   for (const InnerSurface& surface : this->innerSurfaces)
@@ -250,9 +213,9 @@ void BoundaryModel::findFaces(const std::vector<std::uint8_t>& isNamed, Monitor&
       places.insert(places.end(), some->begin(), some->end());
     }
     this->faces = facesAt(this->mesh, places);
-    hanging.divideEdges(this->faces);
+    this->hanging.divideEdges(this->faces);
   }
-  this->onLinearEdges = linearEdges(this->mesh, this->faces);
+  this->onLinearEdges = nodesOnLinearEdges(this->mesh, this->faces);
   const std::vector<std::int8_t> ofCell = cellSigns(this->mesh, bodies);
   this->orientation.clear();
   for (const Index cell : this->faces.cells)

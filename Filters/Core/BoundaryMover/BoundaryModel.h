@@ -2,6 +2,7 @@
 #pragma once
 
 #include "Boundary/Classification.h"
+#include "Mesh/HangingNodes.h"
 #include "Mesh/InnerFaces.h"
 #include "Mesh/Mesh.h"
 #include "Mesh/Topology.h"
@@ -35,8 +36,9 @@ NamedSet boundarySet(const std::string& name, const Mesh& mesh, const BoundaryFa
 /// points and no cells, and `undeformed` is where its geometry was found.
 struct BoundaryModel
 {
-  Mesh mesh;         ///< its points are the current positions
-  Points undeformed; ///< of a boundary alone: #nodes x 3
+  Mesh mesh;            ///< its points are the current positions
+  Points undeformed;    ///< of a boundary alone: #nodes x 3
+  HangingNodes hanging; ///< of `mesh`
   /// The outer faces, then those of baffles, then those of sheets; see innerFaces().
   BoundaryFaces faces;
   /// Nodes between corners on edges that linear cells have, too, by their numbers in faces.nodes.

@@ -55,7 +55,8 @@ public:
       {
         return false;
       }
-      y = this->surfaces_.slid(this->model_, this->nodes_.at(node).sliding, node, there);
+      y = this->surfaces_.slid(
+        this->model_, this->nodes_.at(node).sliding, this->model_.points().row(node), there);
       if ((y - there).norm() <= 1e-14 * this->model_.size)
       {
         break;

@@ -5,7 +5,6 @@
 #include "Geometry/AffineFit.h"
 #include "Geometry/RigidFit.h"
 #include "LinearMethods/FemWarp.h"
-#include "Mesh/Polyhedra.h"
 #include "Mesh/ShellLayer.h"
 #include "Morpher/PolyhedralMorpher.h"
 #include "Support/Error.h"
@@ -484,6 +483,7 @@ InnerNodes::Moved InnerNodes::guess(const Rigid& zone, const BoundaryModel& mode
   const std::shared_ptr<const Communicator> others =
     this->pieces_ ? this->pieces_->processes() : nullptr;
   const Communicator& processes = others ? *others : Communicator::alone();
+  const HangingNodes& hanging = this->pieces_ ? this->pieces_->hanging() : model.hanging;
   Points places;
   std::vector<Index> given, by = zone.edge.empty() ? zone.nodes : zone.edge;
   if (this->pieces_)
@@ -496,18 +496,19 @@ InnerNodes::Moved InnerNodes::guess(const Rigid& zone, const BoundaryModel& mode
     given = prescribed(model, result);
     places = result.moved;
   }
+  given = hanging.without(given); // these follow what they hang on
   if (!processes.all(this->method_ && this->methodVersion_ == model.inputVersion &&
                      &this->method_->processes() == &processes &&
                      this->method_->partition().prescribed == given))
   {
     std::unique_ptr<Morpher> method = std::make_unique<FemWarp>();
     this->method_ = nullptr; // in case it throws
-    if (!processes.all(!hasPolyhedra(mesh)))
+    if (this->pieces_ ? this->pieces_->needsPieces() : needsPieces(mesh, hanging))
     {
-      method = morpherForPolyhedra(std::move(method));
+      method = morpherForPolyhedra(std::move(method), false, hanging);
     }
     NodePartition partition;
-    processes.together([&] { partition = partitionNodes(mesh, given); });
+    processes.together([&] { partition = partitionNodes(mesh, hanging, given); });
     method->prepare(mesh, partition, monitor, others);
     this->method_ = std::move(method);
     this->methodVersion_ = model.inputVersion;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Mesh/HangingNodes.h"
 #include "Mesh/Mesh.h"
 #include "Support/Communicator.h"
 
@@ -25,6 +26,11 @@ public:
   virtual const Mesh& piece() const = 0;
   /// The same for methods: its points come first, and then copies of what is around them.
   virtual const Mesh& mesh() const = 0;
+  /// What hangs in mesh(), and whether methods work on pieces of its cells on any process.
+  ///@{
+  virtual const HangingNodes& hanging() const = 0;
+  virtual bool needsPieces() const = 0;
+  ///@}
   /// Those that have the other parts of mesh().
   virtual const std::shared_ptr<const Communicator>& processes() const = 0;
   /// The node of mesh() that a node is, or -1.

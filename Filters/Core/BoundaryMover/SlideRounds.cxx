@@ -2,11 +2,12 @@
 #include "BoundaryMover/SlideRounds.h"
 
 #include "BoundaryMorphing/MidNodes.h"
-#include "Mesh/Polyhedra.h"
+#include "Morpher/PolyhedralMorpher.h"
 #include "Support/Error.h"
 #include "Support/ProgressRange.h"
 
 #include <algorithm>
+#include <functional>
 #include <iterator>
 #include <map>
 #include <sstream>
@@ -92,42 +93,87 @@ void moveBetween(const BoundaryModel& model, const std::map<Index, Surfaces>& sl
       [&](Index corner) { return Row(moved.row(corner) - before.row(corner)); });
     if (!shift.isZero(0))
     {
-      moved.row(found->first) =
-        shapes.slid(model, found->second, found->first, before.row(found->first) + shift);
+      moved.row(found->first) = shapes.slid(
+        model, found->second, model.points().row(found->first), before.row(found->first) + shift);
     }
   }
 }
 
-void requireKnownCells(bool hasPolyhedra)
+/// A node that the method slides, where it is undeformed, and its surfaces.
+struct Slide
 {
-  if (hasPolyhedra)
+  Index node;
+  Row rest;
+  Surfaces on;
+};
+
+/// The centers of faces that have all nodes on one of the surfaces. `prescribed`: of the pieces,
+/// and what they are if sliding nodes are, too. `marks`: 1 at the nodes of a surface, else 0.
+std::vector<Slide> slidingCenters(const CellPieces& pieces, const std::vector<Index>& prescribed,
+  const std::vector<Index>& withSliding, const Surfaces& surfaces,
+  const std::function<Points(Index surface)>& marks)
+{
+  std::vector<Index> centers;
+  std::set_difference(withSliding.begin(), withSliding.end(), prescribed.begin(), prescribed.end(),
+    std::back_inserter(centers));
+  std::vector<Slide> result;
+  for (const Index s : surfaces)
   {
-    throw Error("`SlideRounds` does not know polyhedra, and the mesh has some, or hexahedra that "
-                "name a node more than once. Set it to 0.");
+    const Points isOn = pieces.extend(marks(s));
+    for (const Index center : centers)
+    {
+      if (isOn(center, 0) > 1 - 1e-9) // a mean
+      {
+        result.push_back({ center, pieces.mesh().points.row(center), { s } });
+      }
+    }
   }
+  return result;
 }
 }
 
-void SlideRounds::prepare(const Mesh& mesh, const std::shared_ptr<const Communicator>& processes,
-  std::int64_t version, const std::vector<Index>& sliding, const std::vector<Index>& prescribed,
-  Monitor& monitor)
+const Communicator& SlideRounds::Volume::all() const
 {
-  const Communicator& all = processes ? *processes : Communicator::alone();
-  requireKnownCells(!all.all(!hasPolyhedra(mesh)));
-  if (!all.all(this->method_ && this->methodVersion_ == version &&
-               &this->method_->processes() == &all && sliding == this->sliding_ &&
-               this->method_->partition().prescribed == prescribed))
+  return this->processes ? *this->processes : Communicator::alone();
+}
+
+NodePartition SlideRounds::Volume::partition(const std::vector<Index>& prescribed) const
+{
+  return this->hanging.extend(
+    partitionNodes(this->mesh, this->hanging, this->hanging.without(prescribed)));
+}
+
+void SlideRounds::prepare(const Volume& volume, std::int64_t version,
+  const std::vector<Index>& sliding, const std::vector<Index>& prescribed, Monitor& monitor)
+{
+  const Communicator& all = volume.all();
+  if (all.all(this->method_ && this->methodVersion_ == version &&
+              this->processes_ == volume.processes && sliding == this->sliding_ &&
+              prescribed == this->prescribed_))
   {
-    this->method_ = nullptr; // in case it throws
-    auto method = std::make_unique<SlidingWarp>();
-    QuietRange silent(monitor, 0, 1);
-    NodePartition partition;
-    all.together([&] { partition = partitionNodes(mesh, prescribed); });
-    method->prepare(mesh, partition, silent, processes);
-    this->method_ = std::move(method);
-    this->methodVersion_ = version;
-    this->sliding_ = sliding;
+    return;
   }
+  this->method_ = nullptr; // in case it throws
+  QuietRange silent(monitor, 0, 1);
+  NodePartition partition;
+  all.together([&] { partition = volume.partition(prescribed); });
+  auto method = std::make_unique<SlidingWarp>();
+  if (volume.needsPieces)
+  {
+    this->pieces_ = cutCells(volume.mesh, volume.hanging, all, 1, silent);
+    method->prepare(
+      this->pieces_->mesh(), this->pieces_->extend(partition), silent, this->pieces_->processes());
+  }
+  else
+  {
+    this->pieces_ = nullptr;
+    method->prepare(volume.mesh, partition, silent, volume.processes);
+  }
+  this->method_ = std::move(method);
+  this->methodVersion_ = version;
+  this->processes_ = volume.processes;
+  this->sliding_ = sliding;
+  this->prescribed_ = prescribed;
 }
 
 void SlideRounds::run(const BoundaryModel& model, const std::vector<Index>& held,
@@ -148,13 +194,14 @@ void SlideRounds::run(const BoundaryModel& model, const std::vector<Index>& held
     nodes.push_back(node);
   }
   const Points before = result.moved;
-  const Mesh& mesh = pieces ? pieces->mesh() : model.mesh;
   if (model.mesh.numberOfCells() == 0)
   {
     throw Error("`SlideRounds` needs the mesh's cells, and the input is a surface. Give the "
                 "volume mesh to this filter, or set `SlideRounds` to 0.");
   }
-  const std::shared_ptr<const Communicator> others = pieces ? pieces->processes() : nullptr;
+  const Volume volume =
+    pieces ? Volume{ pieces->mesh(), pieces->hanging(), pieces->needsPieces(), pieces->processes() }
+           : Volume{ model.mesh, model.hanging, needsPieces(model.mesh, model.hanging), nullptr };
   Points places = before;
   std::vector<Index> prescribed;
   if (pieces)
@@ -182,15 +229,60 @@ void SlideRounds::run(const BoundaryModel& model, const std::vector<Index>& held
   {
     own.push_back(node);
   }
-  const auto of = [&](Index i) { return sliding.find(here[static_cast<std::size_t>(i)].second); };
+  this->prepare(volume, model.inputVersion, own, prescribed, monitor);
+  std::vector<Slide> slides;
+  for (const auto& [node, ofBoundary] : here)
+  {
+    if (const Index at = this->pieces_ ? this->pieces_->nodeOf(node) : node; at >= 0)
+    {
+      slides.push_back({ at, model.points().row(ofBoundary), sliding.at(ofBoundary) });
+    }
+  }
+  if (this->pieces_)
+  {
+    std::vector<Index> given;
+    std::set_union(
+      prescribed.begin(), prescribed.end(), own.begin(), own.end(), std::back_inserter(given));
+    const auto marks = [&](Index s)
+    {
+      Points isOn = Points::Zero(places.rows(), 3);
+      for (const Index node : model.geometry.surfaces[s].nodes)
+      {
+        if (const Index at = pieces ? pieces->nodeOf(node) : node; at >= 0)
+        {
+          isOn(at, 0) = 1;
+        }
+      }
+      return isOn;
+    };
+    const std::vector<Slide> centers =
+      slidingCenters(*this->pieces_, this->method_->partition().prescribed,
+        this->pieces_->extend(volume.partition(given)).prescribed, surfaces, marks);
+    slides.insert(slides.end(), centers.begin(), centers.end());
+  }
+  std::sort(
+    slides.begin(), slides.end(), [](const Slide& a, const Slide& b) { return a.node < b.node; });
+  std::vector<Index> ofMethod;
+  for (const Slide& slide : slides)
+  {
+    ofMethod.push_back(slide.node);
+  }
   const NodeSliding::Surfaces along = { [&](Index i, const Row& x)
-    { return directionsAt(model, of(i)->second, shapes, x); },
-    [&](Index i, const Row& x) { return shapes.slid(model, of(i)->second, of(i)->first, x); } };
-  this->prepare(mesh, others, model.inputVersion, own, prescribed, monitor);
-  this->rounds_ = this->method_->slide(own, along, limits, places, monitor);
+    { return directionsAt(model, slides[i].on, shapes, x); },
+    [&](Index i, const Row& x) { return shapes.slid(model, slides[i].on, slides[i].rest, x); } };
+  volume.hanging.place(volume.mesh.points, places);
+  Points all = this->pieces_ ? this->pieces_->extend(places) : std::move(places);
+  this->rounds_ = this->method_->slide(ofMethod, along, limits, all, monitor);
+  places = this->pieces_ ? this->pieces_->reduce(all, std::move(places)) : std::move(all);
   // In the order of the nodes' ids, as `nodes` are.
-  result.moved(nodes, allColumns) = this->method_->processes().gather(places, own);
+  result.moved(nodes, allColumns) = volume.all().gather(places, own);
   moveBetween(model, sliding, before, shapes, result.moved);
+  for (const auto& [node, ofBoundary] : here)
+  {
+    places.row(node) = result.moved.row(ofBoundary);
+  }
+  volume.hanging.place(volume.mesh.points, places);
+  result.moved(nodes, allColumns) = volume.all().gather(places, own);
   for (const Index node : nodes)
   {
     if (result.moved.row(node) != before.row(node))

@@ -5,6 +5,7 @@
 #include "BoundaryMover/InnerNodes.h"
 #include "BoundaryMover/Surroundings.h"
 #include "LinearMethods/SlidingWarp.h"
+#include "Mesh/PolyhedronPieces.h"
 
 #include <memory>
 #include <string>
@@ -19,9 +20,10 @@ class SlideRounds
 public:
   /// Moves the nodes of `surfaces` in `result`, which Surroundings made, and gives them the role
   /// Follows. A node slides if all of its surfaces do, and if it neither moves, nor is held, nor is
-  /// of a zone or layer. Mid-side nodes move with their corners, and back onto the surface. Throws
-  /// Error for a model without cells, and for polyhedra. `pieces`: of a mesh on several
-  /// processes, of which `inner` has the inner nodes; else null. Then this is collective.
+  /// of a zone or layer. Mid-side nodes move with their corners, and back onto the surface; nodes
+  /// that hang, with what they hang on. Centers of faces of polyhedra on such a surface slide for
+  /// the method. Throws Error for a model without cells. `pieces`: of a mesh on several processes,
+  /// of which `inner` has the inner nodes; else null. Then this is collective.
   void run(const BoundaryModel& model, const std::vector<Index>& held,
     const std::vector<Index>& surfaces, const SlidingWarp::Limits& limits, Surroundings& shapes,
     const InnerPieces* pieces, const InnerNodes& inner, Surroundings::Result& result,
@@ -34,14 +36,27 @@ public:
   std::string report(double size) const;
 
 private:
-  /// Prepares the method for sliding nodes of the mesh, unless it is. `processes`: null for one.
-  void prepare(const Mesh& mesh, const std::shared_ptr<const Communicator>& processes,
-    std::int64_t version, const std::vector<Index>& sliding, const std::vector<Index>& prescribed,
-    Monitor& monitor);
+  /// The mesh of the method; here a part of it if there are several processes.
+  struct Volume
+  {
+    const Mesh& mesh;
+    const HangingNodes& hanging;
+    bool needsPieces;
+    std::shared_ptr<const Communicator> processes; ///< null for one
 
-  std::unique_ptr<SlidingWarp> method_; ///< prepared, or null
+    const Communicator& all() const;
+    /// Nodes that hang are not prescribed, unless all that they hang on are.
+    NodePartition partition(const std::vector<Index>& prescribed) const;
+  };
+  /// Prepares the method for sliding nodes of the mesh, unless it is. Collective.
+  void prepare(const Volume& volume, std::int64_t version, const std::vector<Index>& sliding,
+    const std::vector<Index>& prescribed, Monitor& monitor);
+
+  std::shared_ptr<const CellPieces> pieces_; ///< that the method works on, or null
+  std::unique_ptr<SlidingWarp> method_;      ///< prepared, or null
   std::int64_t methodVersion_ = -1;
-  std::vector<Index> sliding_; ///< that it was prepared for
+  std::shared_ptr<const Communicator> processes_;
+  std::vector<Index> prescribed_, sliding_; ///< that it was prepared for
   std::vector<SlidingWarp::Round> rounds_;
 };
 }

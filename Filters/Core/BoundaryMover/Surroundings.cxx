@@ -142,33 +142,6 @@ void moveBetween(const BoundaryModel& model, const std::vector<Surroundings::Rol
   moveBetween(model, consecutive(model.faces.nodes.size()), roles, result);
 }
 
-/// Warns of moving nodes that leave the edge of a linear cell, which is straight.
-void warnOfGaps(const BoundaryModel& model, const Surroundings::Result& result, Monitor& monitor)
-{
-  std::vector<Index> off;
-  double most = 0;
-  for (const Index k : model.onLinearEdges)
-  {
-    const Index node = model.faces.nodes[k];
-    const Eigen::RowVector3d to = model.points().row(node) + shiftBetween(model, k, result);
-    const double gap = (result.moved.row(node) - to).norm();
-    if (result.roles[node] == Surroundings::Moves && gap > 1e-6 * model.size)
-    {
-      off.push_back(node);
-      most = std::max(most, gap);
-    }
-  }
-  if (!off.empty())
-  {
-    std::ostringstream size;
-    size << most;
-    monitor.warn("Quadratic cells part from linear ones beside them by up to " + size.str() +
-                 ": what moves takes nodes between corners off edges that are straight on the "
-                 "other side. Point ids " +
-                 listIds(off) + ". Make the cells on both sides linear or quadratic.");
-  }
-}
-
 /// A result in which nothing moves, in the memory of another one.
 Surroundings::Result atRest(const BoundaryModel& model, Surroundings::Result last)
 {
@@ -234,7 +207,6 @@ Surroundings::Result Surroundings::spread(const BoundaryModel& model, const Choi
   {
     this->place(model, choice, options, result, monitor);
     moveBetween(model, model.onLinearEdges, { Stays, Follows, IsHeld }, result);
-    warnOfGaps(model, result, monitor);
   }
   leaveFree(model, choice.held, options.free, options.freeNodes, result);
   return result;
@@ -291,7 +263,7 @@ const SurfaceShape& Surroundings::shapeOf(const BoundaryModel& model, Index surf
 }
 
 Eigen::RowVector3d Surroundings::slid(const BoundaryModel& model,
-  const std::vector<Index>& surfaces, Index node, const Eigen::RowVector3d& to)
+  const std::vector<Index>& surfaces, const Eigen::RowVector3d& from, const Eigen::RowVector3d& to)
 {
   std::vector<const SurfaceShape*> shapes;
   bool isCurve = false;
@@ -310,7 +282,7 @@ Eigen::RowVector3d Surroundings::slid(const BoundaryModel& model,
     const Eigen::RowVector3d before = x;
     for (const SurfaceShape* shape : shapes)
     {
-      x = shape->slid(model.points().row(node), x);
+      x = shape->slid(from, x);
     }
     if (x == before)
     {
@@ -336,7 +308,8 @@ std::vector<Index> Surroundings::ableToSlide(const BoundaryModel& model,
       if (result.roles[node] == Moves || result.roles[node] == Follows)
       {
         const Eigen::RowVector3d to = result.moved.row(node);
-        const double distance = (this->slid(model, { s }, node, to) - to).norm();
+        const double distance =
+          (this->slid(model, { s }, model.points().row(node), to) - to).norm();
         all = std::max(all, distance);
         given = std::max(given, result.roles[node] == Moves ? distance : 0);
         follows |= result.roles[node] == Follows;
@@ -379,7 +352,8 @@ void Surroundings::slide(const BoundaryModel& model, const std::vector<Index>& s
   }
   for (const auto& [node, on] : surfacesOf)
   {
-    result.moved.row(node) = this->slid(model, on, node, result.moved.row(node));
+    result.moved.row(node) =
+      this->slid(model, on, model.points().row(node), result.moved.row(node));
   }
 }
 

@@ -90,12 +90,13 @@ public:
 
   /// The undeformed shape of a surface of the geometry, by its number; kept with the boundary.
   const SurfaceShape& shapeOf(const BoundaryModel& model, Index surface);
-  /// Where a node of these surfaces slides to from its place `to`: the nearest point of a single
-  /// surface. Of several it is where they meet, by alternating projections. The node keeps its
-  /// undeformed height above each. An edge of a curved shell that is no part of a plane, cylinder
-  /// or sphere across the shell is a curve on the shell, where the two meet.
+  /// Where a node of these surfaces, undeformed at `from`, slides to from its place `to`: the
+  /// nearest point of a single surface. Of several it is where they meet, by alternating
+  /// projections. The node keeps its undeformed height above each. An edge of a curved shell that
+  /// is no part of a plane, cylinder or sphere across the shell is a curve on the shell, where the
+  /// two meet.
   Eigen::RowVector3d slid(const BoundaryModel& model, const std::vector<Index>& surfaces,
-    Index node, const Eigen::RowVector3d& to);
+    const Eigen::RowVector3d& from, const Eigen::RowVector3d& to);
 
   /// How often weights were computed so far, those of a surface or of the falloff.
   int prepareCount() const;

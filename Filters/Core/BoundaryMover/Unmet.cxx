@@ -71,7 +71,7 @@ void warnOfUnmet(const BoundaryModel& model, const Choice& choice, const Points&
       if (result.roles[node] == Surroundings::IsZone)
       {
         const Eigen::RowVector3d to = result.moved.row(node);
-        off.add(node, (surroundings.slid(model, { s }, node, to) - to).norm());
+        off.add(node, (surroundings.slid(model, { s }, model.points().row(node), to) - to).norm());
       }
     }
   }

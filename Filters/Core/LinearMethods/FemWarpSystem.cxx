@@ -373,6 +373,6 @@ std::string describe(const BadCells& bad)
             " of them enter with absolute volumes, so near them affine motions are reproduced "
             "approximately.";
   }
-  return text + " Repair Mesh untangles them.";
+  return text;
 }
 }

@@ -57,8 +57,10 @@ std::vector<NodeList> facesOf(const CellShape& shape, const NodeList& corners)
     {
       face.push_back(corners[shape.faces[f].corner[k]]);
     }
+    // A quadrilateral that goes to a corner and back, twice, covers itself.
+    const bool hasArea = face.size() < 4 || (face[0] != face[2] && face[1] != face[3]);
     face = different(face);
-    if (face.size() < 3)
+    if (!hasArea || face.size() < 3)
     {
       continue;
     }

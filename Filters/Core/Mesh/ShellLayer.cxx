@@ -5,6 +5,7 @@
 #include "Mesh/FacesOfCells.h"
 #include "Mesh/StandingCells.h"
 #include "Support/Error.h"
+#include "Support/UnionFind.h"
 
 #include <Eigen/Geometry>
 
@@ -110,16 +111,62 @@ ShellLayer layerOf(const Mesh& mesh, const Points& points)
   return plane;
 }
 
+/// A side of a cell, and whether it runs from the lower to the higher id.
+struct Side
+{
+  Index low, high, cell;
+  bool isUp;
+};
+
+/// Of each cell: others, and 1 if they are wound alike, else -1.
+using Windings = std::vector<std::vector<std::pair<Index, std::int8_t>>>;
+
+void relate(const Side& a, const Side& b, bool areFolded, Windings& windings)
+{
+  const std::int8_t same = (a.isUp == b.isUp) == areFolded ? 1 : -1;
+  windings[a.cell].emplace_back(b.cell, same);
+  windings[b.cell].emplace_back(a.cell, same);
+}
+
+/// Relates the sheets that meet at an edge, each to the one that goes on from it most smoothly.
+/// Those at less than 60 degrees are folded onto each other.
+void relateSheets(
+  const Mesh& shell, const Points& points, const std::vector<Side>& sheets, Windings& windings)
+{
+  const auto low = points.row(sheets[0].low), high = points.row(sheets[0].high);
+  const Eigen::RowVector3d along = (high - low).stableNormalized();
+  std::vector<Eigen::RowVector3d> inward;
+  for (const Side& side : sheets)
+  {
+    const Eigen::RowVector3d d =
+      points(frontOf(shell, side.cell), allColumns).colwise().mean() - low;
+    inward.push_back(Eigen::RowVector3d(d - d.dot(along) * along).stableNormalized());
+  }
+  std::vector<std::tuple<double, std::size_t, std::size_t>> pairs; // by the cosine but for rounding
+  for (std::size_t k = 0; k < sheets.size(); ++k)
+  {
+    for (std::size_t i = 0; i < k; ++i)
+    {
+      pairs.emplace_back(std::round(1e6 * inward[i].dot(inward[k])), i, k);
+    }
+  }
+  std::sort(pairs.begin(), pairs.end());
+  UnionFind<std::size_t> known(sheets.size());
+  for (const auto& [cosine, i, k] : pairs)
+  {
+    if (known.root(i) != known.root(k))
+    {
+      known.join(i, k);
+      relate(sheets[i], sheets[k], cosine > 0.5e6, windings);
+    }
+  }
+}
+
 /// Whether each front is wound as its neighbors, across edges of two fronts, are on the whole: 1 or
-/// -1. Most of the area of what hangs together is wound right, in a plane about its normal.
-/// `points`: of the front.
+/// -1. Sheets that meet at edges of more fronts are related by one of these. Most of the area of
+/// what hangs together is wound right, in a plane about its normal. `points`: of the front.
 std::vector<std::int8_t> windingsOf(const Mesh& shell, const Points& points)
 {
-  struct Side
-  {
-    Index low, high, cell;
-    bool isUp; ///< from the lower to the higher id
-  };
   std::vector<Side> sides;
   for (Index c = 0; c < shell.numberOfCells(); ++c)
   {
@@ -133,34 +180,37 @@ std::vector<std::int8_t> windingsOf(const Mesh& shell, const Points& points)
   std::sort(sides.begin(), sides.end(),
     [](const Side& a, const Side& b)
     { return std::tie(a.low, a.high, a.cell) < std::tie(b.low, b.high, b.cell); });
-  std::vector<std::vector<std::pair<Index, std::int8_t>>> neighbors(shell.numberOfCells());
-  for (std::size_t first = 0, last; first < sides.size(); first = last)
+  Windings neighbors(shell.numberOfCells()), across(shell.numberOfCells());
+  for (auto first = sides.begin(), last = first; first != sides.end(); first = last)
   {
-    const Side &a = sides[first], *b = nullptr;
-    for (last = first + 1;
-         last < sides.size() && sides[last].low == a.low && sides[last].high == a.high; ++last)
+    last = std::find_if(first, sides.end(),
+      [&](const Side& side) { return side.low != first->low || side.high != first->high; });
+    if (last - first == 2 && first->cell != first[1].cell)
     {
-      b = &sides[last];
+      relate(first[0], first[1], false, neighbors);
     }
-    if (last - first == 2 && a.cell != b->cell)
+    else if (last - first > 2 && shell.layer.isCurved())
     {
-      const std::int8_t same = a.isUp == b->isUp ? -1 : 1;
-      neighbors[a.cell].emplace_back(b->cell, same);
-      neighbors[b->cell].emplace_back(a.cell, same);
+      relateSheets(shell, points, { first, last }, across);
     }
   }
   std::vector<std::int8_t> windings(shell.numberOfCells(), 0);
   std::vector<Index> part;
+  const auto take = [&](Index cell, std::int8_t winding)
+  {
+    windings[cell] = winding;
+    part.push_back(cell);
+  };
   for (Index seed = 0; seed < shell.numberOfCells(); ++seed)
   {
     if (windings[seed] != 0)
     {
       continue;
     }
-    windings[seed] = 1;
-    part.assign(1, seed);
+    part.clear();
+    take(seed, 1);
     double area = 0;
-    for (std::size_t i = 0; i < part.size(); ++i)
+    for (std::size_t i = 0, sheet = 0; i < part.size(); ++i)
     {
       const Index c = part[i];
       const std::vector<Index> corners = frontOf(shell, c);
@@ -182,9 +232,17 @@ std::vector<std::int8_t> windingsOf(const Mesh& shell, const Points& points)
         }
         if (windings[other] == 0)
         {
-          windings[other] = asked;
-          part.push_back(other);
+          take(other, asked);
         }
+      }
+      while (i + 1 == part.size() && sheet < part.size()) // its sheets are known: to the next one
+      {
+        const Index from = part[sheet];
+        const auto next = std::find_if(across[from].begin(), across[from].end(),
+          [&](const auto& other) { return windings[other.first] == 0; });
+        next == across[from].end()
+          ? void(++sheet)
+          : take(next->first, static_cast<std::int8_t>(next->second * windings[from]));
       }
     }
     for (const Index c : part)

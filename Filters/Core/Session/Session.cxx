@@ -215,6 +215,14 @@ std::shared_ptr<const StepResult> Session::morphSeries(int step,
   return result;
 }
 
+std::vector<Index> Session::counting(const std::vector<Index>& nodes) const
+{
+  std::vector<Index> result;
+  std::copy_if(nodes.begin(), nodes.end(), std::back_inserter(result),
+    [this](Index node) { return this->countsHere(node); });
+  return result;
+}
+
 bool Session::countsHere(Index node) const
 {
   const std::vector<Index>& elsewhere = this->copies_->countedElsewhere();
@@ -241,15 +249,9 @@ StepResult Session::morphStep(const Mesh& from, const BoundaryTargets& boundary,
   {
     StepResult result = this->morphStep(
       from, forMethod(boundary, std::move(ids), from, monitor), nullptr, options, monitor);
-    std::vector<Index> dropped;
-    for (const Index node : droppedTargets(boundary, hanging, result.moved, this->mesh_->size()))
-    {
-      if (this->countsHere(node))
-      {
-        dropped.push_back(node);
-      }
-    }
-    const std::string note = noteOfDropped(processes.gatherNodes(dropped));
+    const std::vector<Index> dropped =
+      droppedTargets(boundary, hanging, result.moved, this->mesh_->size());
+    const std::string note = noteOfDropped(processes.gatherNodes(this->counting(dropped)));
     if (!note.empty() && result.valid.error.empty()) // else there is another reason
     {
       monitor.warn(note);
@@ -340,6 +342,11 @@ StepResult Session::morphStep(const Mesh& from, const BoundaryTargets& boundary,
   }
   keepInPlane(rest, partition.free, result.moved); // after smoothing and repairs
   this->attached_.apply(result.moved);
+  const Parting parting =
+    partingNodes(rest, this->mesh_->outerFaces(), rest.points, result.moved, this->mesh_->size());
+  warnOfParting(
+    { processes.gatherNodes(this->counting(parting.nodes)), processes.maximum(parting.largest) },
+    monitor);
   result.attached = static_cast<Index>(this->attached_.nodes().size());
   result.loose = this->attached_.loose();
   const std::string& status = result.valid.status;
@@ -463,7 +470,14 @@ Points Session::transpose(
     gradient.bottomRows(gradient.rows() - front).setZero(); // a plane mesh is the front
   }
   Points own, all = Points::Zero(gradient.rows(), 3); // what hangs moves by its ties
+  const Points given = gradient;
   this->attached_.applyTranspose(gradient);
+  if (!this->all().all(gradient == given))
+  {
+    monitor.warn(
+      "Nodes of shells, beams or links turn with the volume on which they hang, which is "
+      "not linear. Their part of the derivatives is that about the undeformed mesh.");
+  }
   this->copies_->collect(gradient);
   linear->applyTranspose(gradient, own, applying);
   all(this->partition_->prescribed, allColumns) = own;

@@ -124,6 +124,7 @@ public:
 private:
   const Communicator& all() const { return this->mesh_->all(); }
   bool countsHere(Index node) const;
+  std::vector<Index> counting(const std::vector<Index>& nodes) const; ///< those that count here
   /// The last step until `number` that all processes keep: their memory may differ.
   std::pair<int, Series::Step> lastUntil(int number) const;
   StepResult morphStep(const Mesh& from, const BoundaryTargets& boundary,

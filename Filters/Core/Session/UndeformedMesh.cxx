@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <sstream>
 #include <string>
 #include <utility>
 
@@ -255,6 +256,19 @@ void warnOfUnrecognized(const std::vector<Index>& cells, Monitor& monitor)
                  ". They count as degenerate, however they move, and methods see them "
                  "approximately. Divide them into other cells or, if they are quadratic, make them "
                  "linear.");
+  }
+}
+
+void warnOfParting(const Parting& parting, Monitor& monitor)
+{
+  if (!parting.nodes.empty())
+  {
+    std::ostringstream largest;
+    largest << parting.largest;
+    monitor.warn("Quadratic cells part from linear ones beside them by up to " + largest.str() +
+                 ": what moves takes nodes between corners off edges that are straight on the "
+                 "other side. Point ids " +
+                 listIds(parting.nodes) + ". Make the cells on both sides linear or quadratic.");
   }
 }
 

@@ -9,6 +9,7 @@
 #include <vtkDataArray.h>
 #include <vtkDataSetAttributes.h>
 #include <vtkIdList.h>
+#include <vtkIdTypeArray.h>
 #include <vtkNew.h>
 #include <vtkPointSet.h>
 #include <vtkPolyData.h>
@@ -109,15 +110,22 @@ std::vector<morph::Index> GlobalIds(vtkDataSetAttributes* attributes, vtkIdType 
   {
     return {};
   }
+  // A double does not hold every number of 64 bits.
+  const bool isWhole = array->GetDataType() != VTK_FLOAT && array->GetDataType() != VTK_DOUBLE;
+  vtkNew<vtkIdTypeArray> whole;
+  if (isWhole)
+  {
+    whole->DeepCopy(array);
+  }
   std::vector<morph::Index> ids(count);
   for (vtkIdType i = 0; i < count; ++i)
   {
     const double id = array->GetComponent(i, 0);
-    if (!(id >= 0 && id <= 9007199254740992. && std::floor(id) == id))
+    if (!(id >= 0 && (isWhole || (id <= 9007199254740992. && std::floor(id) == id))))
     {
       return {};
     }
-    ids[i] = static_cast<morph::Index>(id);
+    ids[i] = isWhole ? whole->GetValue(i) : static_cast<morph::Index>(id);
   }
   return ids;
 }

@@ -11,6 +11,7 @@
 #include "Private/Data/Surface.h"
 #include "Private/Displace/DisplacedSurface.h"
 #include "Private/Pipeline/Ranks.h"
+#include "Private/Pipeline/Time.h"
 #include "Private/Project/TargetDistance.h"
 #include "Support/Error.h"
 #include "Support/Lists.h"
@@ -189,6 +190,15 @@ vtkDisplacementAlgorithm::vtkInternals::Inputs vtkDisplacementAlgorithm::vtkInte
   return { vtkSelection::GetData(inputVector[1]), vtkDataObject::GetData(inputVector[2]),
     vtkSelection::GetData(inputVector[3]), vtkDataObject::GetData(inputVector[4]),
     vtkDataObject::GetData(inputVector[5]) };
+}
+
+void vtkDisplacementAlgorithm::vtkInternals::WarnOfSeries(
+  vtkInformationVector** inputVector, vtkInformation* output, morph::Monitor& monitor)
+{
+  morph::filters::Time::WarnOfSeries(inputVector, output,
+    { "", "The selection", "The target", "The selection of the zone", "The control points",
+      "The field" },
+    monitor);
 }
 
 bool vtkDisplacementAlgorithm::vtkInternals::IsTeller() const

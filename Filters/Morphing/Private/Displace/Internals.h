@@ -104,6 +104,9 @@ struct vtkDisplacementAlgorithm::vtkInternals
     vtkDataObject* Field;         ///< of DISPLACEMENT_FIELD
   };
   static Inputs InputsOf(vtkInformationVector** inputVector);
+  /// See filters::Time: of these inputs.
+  static void WarnOfSeries(
+    vtkInformationVector** inputVector, vtkInformation* output, morph::Monitor& monitor);
 
   /// Displaces the boundary of a mesh, or a boundary that was extracted before. Of a mesh on
   /// several MPI processes each gets the part that its cells have; then all processes call it. The

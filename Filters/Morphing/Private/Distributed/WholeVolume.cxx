@@ -26,6 +26,16 @@ const morph::Mesh& WholeVolume::mesh() const
   return this->Surface.Pieces().Whole().mesh();
 }
 
+const morph::HangingNodes& WholeVolume::hanging() const
+{
+  return this->Surface.Pieces().Rest()->hanging();
+}
+
+bool WholeVolume::needsPieces() const
+{
+  return this->Surface.Pieces().Rest()->needsPieces();
+}
+
 const std::shared_ptr<const morph::Communicator>& WholeVolume::processes() const
 {
   return this->Surface.Pieces().Rest()->processes();

@@ -17,6 +17,8 @@ public:
 
   const morph::Mesh& piece() const override;
   const morph::Mesh& mesh() const override;
+  const morph::HangingNodes& hanging() const override;
+  bool needsPieces() const override;
   const std::shared_ptr<const morph::Communicator>& processes() const override;
   morph::Index nodeOf(morph::Index node) const override;
   void together(const std::function<void()>& work) const override;

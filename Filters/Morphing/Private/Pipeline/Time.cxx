@@ -3,6 +3,7 @@
 
 #include "Private/Blocks/Leaves.h"
 #include "Private/Pipeline/Ranks.h"
+#include "Support/Monitor.h"
 
 #include <vtkDataObject.h>
 #include <vtkDataObjectTree.h>
@@ -10,9 +11,11 @@
 #include <vtkInformationDoubleKey.h>
 #include <vtkInformationDoubleVectorKey.h>
 #include <vtkInformationIntegerKey.h>
+#include <vtkInformationVector.h>
 #include <vtkStreamingDemandDrivenPipeline.h>
 
 #include <algorithm>
+#include <sstream>
 
 namespace morph::filters
 {
@@ -57,6 +60,34 @@ std::optional<double> Time::AskRest(double restTime, vtkInformation* mesh)
     Ask(mesh, step);
   }
   return step;
+}
+
+void Time::WarnOfSeries(vtkInformationVector** inputVector, vtkInformation* output,
+  const std::vector<std::string>& names, morph::Monitor& monitor)
+{
+  if (output && output->Has(Pipeline::TIME_RANGE()))
+  {
+    return;
+  }
+  for (std::size_t port = 0; port < names.size(); ++port)
+  {
+    for (int i = 0; i < inputVector[port]->GetNumberOfInformationObjects(); ++i)
+    {
+      vtkInformation* info = inputVector[port]->GetInformationObject(i);
+      vtkDataObject* data = vtkDataObject::GetData(info);
+      if (!names[port].empty() && data && info->Length(Pipeline::TIME_STEPS()) > 1)
+      {
+        std::ostringstream text;
+        text << names[port] << " has " << info->Length(Pipeline::TIME_STEPS())
+             << " time steps, and is taken at one";
+        if (data->GetInformation()->Has(vtkDataObject::DATA_TIME_STEP()))
+        {
+          text << ", " << data->GetInformation()->Get(vtkDataObject::DATA_TIME_STEP());
+        }
+        monitor.warn(text.str() + ". The filter Force Time before this one chooses another.");
+      }
+    }
+  }
 }
 
 void Time::Request(double restTime, std::optional<double> boundaryTime, vtkInformation* mesh,

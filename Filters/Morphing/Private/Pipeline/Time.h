@@ -5,9 +5,17 @@
 
 #include <functional>
 #include <optional>
+#include <string>
+#include <vector>
 
 class vtkDataObject;
 class vtkInformation;
+class vtkInformationVector;
+
+namespace morph
+{
+class Monitor;
+}
 
 namespace morph::filters
 {
@@ -32,6 +40,12 @@ public:
   /// For RequestUpdateExtent of a filter with a mesh and no boundary: asks for the last of the
   /// mesh's time steps that is not after `restTime`, or the first. Returns that time, if any.
   static std::optional<double> AskRest(double restTime, vtkInformation* mesh);
+
+  /// Warns of inputs with several time steps that are taken at one. `names`: of each port what it
+  /// has; empty for one that is left out. `output`: whose time they follow, if it varies in time;
+  /// null where they follow none.
+  static void WarnOfSeries(vtkInformationVector** inputVector, vtkInformation* output,
+    const std::vector<std::string>& names, morph::Monitor& monitor);
 
   /// For RequestUpdateExtent: sets the times that the two ports are asked for. The boundary is
   /// asked for `boundaryTime`, or for none. The mesh is asked for the last of its time steps that

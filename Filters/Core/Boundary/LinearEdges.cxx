@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Boundary/LinearEdges.h"
+
+#include "Mesh/CellShape.h"
+#include "Mesh/FaceTable.h"
+#include "Mesh/Polyhedra.h"
+#include "Support/Lists.h"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+namespace morph
+{
+std::vector<Index> nodesOnLinearEdges(const Mesh& mesh, const BoundaryFaces& faces)
+{
+  std::map<std::pair<Index, Index>, Index> middle; // of edges
+  for (std::size_t i = 0; i < faces.nodes.size(); ++i)
+  {
+    const auto k = static_cast<Index>(i);
+    const Index* ends = faces.between.begin(k);
+    if (faces.between.end(k) - ends == 2)
+    {
+      middle.emplace(std::minmax(ends[0], ends[1]), k);
+    }
+  }
+  std::vector<Index> result;
+  const auto take = [&](const Index* face, Index size)
+  {
+    for (Index k = 0; k < size; ++k)
+    {
+      const auto found = middle.find(std::minmax(face[k], face[(k + 1) % size]));
+      if (found != middle.end())
+      {
+        result.push_back(found->second);
+      }
+    }
+  };
+  for (Index c = 0; c < mesh.numberOfCells() && !middle.empty(); ++c)
+  {
+    const CellShape* shape = volumeShape(mesh, c);
+    if (isPolyhedron(mesh, c) || (shape && shape->numberOfNodes == shape->numberOfCorners))
+    {
+      forEachSide(mesh, c, take);
+    }
+  }
+  sortUnique(result);
+  return result;
+}
+
+Parting partingNodes(const Mesh& mesh, const BoundaryFaces& faces, const Points& rest,
+  const Points& moved, double size)
+{
+  Parting result;
+  for (const Index k : nodesOnLinearEdges(mesh, faces))
+  {
+    const Index node = faces.nodes[k];
+    const Index* ends = faces.between.begin(k);
+    const Eigen::RowVector3d edge = rest.row(ends[1]) - rest.row(ends[0]);
+    const double place = edge.dot(rest.row(node) - rest.row(ends[0])) / edge.squaredNorm();
+    const Points shift = moved(std::vector<Index>{ ends[0], ends[1], node }, allColumns) -
+                         rest(std::vector<Index>{ ends[0], ends[1], node }, allColumns);
+    const double gap = (shift.row(2) - (1 - place) * shift.row(0) - place * shift.row(1)).norm();
+    if (gap > 1e-6 * size)
+    {
+      result.nodes.push_back(node);
+      result.largest = std::max(result.largest, gap);
+    }
+  }
+  std::sort(result.nodes.begin(), result.nodes.end());
+  return result;
+}
+}
