@@ -4,6 +4,7 @@
 #include "../Core/BoundaryShapes.h"
 #include "BlockGrids.h"
 #include "DisplacedBoundaries.h"
+#include "Support/Lists.h"
 
 #include "vtkExtractMorphBoundary.h"
 #include "vtkFEMWarpMorph.h"
@@ -162,6 +163,16 @@ vtkIdType boundaryFaces(vtkDataObject* data, int coincident)
   extract->SetCoincidentPoints(coincident);
   extract->Update();
   return extract->GetOutput()->GetNumberOfCells();
+}
+
+/// A cell of the points in their order.
+vtkSmartPointer<vtkUnstructuredGrid> oneCell(std::uint8_t type, const morph::Points& points)
+{
+  morph::Mesh mesh;
+  mesh.points = points;
+  const std::vector<morph::Index> nodes = morph::consecutive(points.rows());
+  mesh.add(type, nodes.begin(), nodes.end());
+  return grids::make(mesh);
 }
 
 /// The one error of a filter with this input, and none of the executive's.
@@ -333,38 +344,48 @@ TEST(CompositeBlocks, SetsMoveWithTheirNodes)
 
 TEST(CompositeBlocks, AShellAndABeamOfOtherBlocksComeAlong)
 {
-  // The shell stands on two nodes of the solid, the beam on the shell. All of the solid moves.
-  auto data = touching();
-  for (std::size_t solid : { 0, 1 })
+  for (const bool withIds : { false, true })
   {
-    grids::mark(blocks::grid(data, solid), "Left", [](const Row&) { return true; });
-  }
-  vtkNew<vtkPolyData> shell;
-  auto corners =
-    grids::cloud((morph::Points(4, 3) << 0, 0, 2, 0, 1, 2, 0, 1, 3, 0, 0, 3).finished());
-  vtkNew<vtkCellArray> quads;
-  const vtkIdType ids[] = { 0, 1, 2, 3 };
-  quads->InsertNextCell(4, ids);
-  shell->SetPoints(corners->GetPoints());
-  shell->SetPolys(quads);
-  vtkNew<vtkPolyData> beam;
-  auto ends = grids::cloud((morph::Points(2, 3) << 0, 1, 3, 0, 1, 5).finished());
-  vtkNew<vtkCellArray> lines;
-  lines->InsertNextCell(2, ids);
-  beam->SetPoints(ends->GetPoints());
-  beam->SetLines(lines);
-  data->SetBlock(1, beam);
-  data->SetBlock(2, shell);
+    // The shell stands on two nodes of the solid, the beam on the shell. All of the solid moves.
+    auto data = touching();
+    auto shell =
+      oneCell(morph::Quad, (morph::Points(4, 3) << 0, 0, 2, 0, 1, 2, 0, 1, 3, 0, 0, 3).finished());
+    auto beam = oneCell(morph::Line, (morph::Points(2, 3) << 0, 1, 3, 0, 1, 5).finished());
+    for (std::size_t solid : { 0, 1 })
+    {
+      grids::mark(blocks::grid(data, solid), "Left", [](const Row&) { return true; });
+    }
+    if (withIds) // other ones at the same places
+    {
+      setIds(shell, 1000);
+      setIds(blocks::grid(data, 0), 0);
+    }
+    data->SetBlock(1, beam);
+    data->SetBlock(2, shell);
 
+    auto filter = lifting(data);
+    grids::Run listener(filter);
+    vtkDataObject* output = filter->GetOutputDataObject(0);
+    const auto lifted = [](vtkPointSet* set)
+    { return (grids::points(set).rowwise() + Row(0, 0, 0.3)).eval(); };
+    EXPECT_LT((pointsOf(output, 2) - lifted(beam)).cwiseAbs().maxCoeff(), 1e-12);
+    EXPECT_LT((pointsOf(output, 3) - lifted(shell)).cwiseAbs().maxCoeff(), 1e-12);
+    EXPECT_EQ(filter->GetAttachedPoints(), 3);
+    EXPECT_TRUE(listener.Warnings.empty()) << listener.Warnings[0];
+  }
+}
+
+TEST(CompositeBlocks, ASetWithARoundedPointIsNoShell)
+{
+  auto data = marked(touching());
+  auto set =
+    oneCell(morph::Quad, (morph::Points(4, 3) << 0, 0, 0, 0, 1, 0, 0, 1, 1, 0, 1e-8, 1).finished());
+  data->SetBlock(1, set);
   auto filter = lifting(data);
   grids::Run listener(filter);
-  vtkDataObject* output = filter->GetOutputDataObject(0);
-  const auto lifted = [](vtkPointSet* set)
-  { return (grids::points(set).rowwise() + Row(0, 0, 0.3)).eval(); };
-  EXPECT_LT((pointsOf(output, 2) - lifted(beam)).cwiseAbs().maxCoeff(), 1e-12);
-  EXPECT_LT((pointsOf(output, 3) - lifted(shell)).cwiseAbs().maxCoeff(), 1e-12);
-  EXPECT_EQ(filter->GetAttachedPoints(), 3);
-  EXPECT_TRUE(listener.Warnings.empty()) << listener.Warnings[0];
+  EXPECT_EQ(filter->GetAttachedPoints(), 0);
+  ASSERT_FALSE(listener.Warnings.empty());
+  EXPECT_NE(listener.Warnings[0].find("1 of its 4 points"), std::string::npos);
 }
 
 TEST(CompositeBlocks, SetsAreNamesOfSurfaces)

@@ -267,6 +267,35 @@ TEST(SlideRounds, RefusesWhatItDoesNotKnow)
   EXPECT_NE(message(boundary->GetOutput(), true).find("the input is a surface"), std::string::npos);
 }
 
+TEST(SlideRounds, NodesOfPolyhedraStayOnTwoObliquePlanes)
+{
+  // Sheared, so that sides at x = 0 and y = 0 meet at an angle of 56 degrees.
+  morph::Mesh sheared = meshes::asPolyhedra(meshes::hexes(Side, Side, Side));
+  sheared.points.col(0) += sheared.points.col(1) / 1.5;
+  auto grid = grids::make(sheared);
+  const auto across = [](const Row& x) { return x[0] - x[1] / 1.5; };
+  vtkNew<vtkMorphMesh> filter;
+  configure(filter, grid,
+    [&](const Row& x) { return Row(0, 0, isAt(x[2], 0) ? .1 * (across(x) + x[1]) : 0); });
+  filter->AddSlidingSurface(
+    surface(grid, [&](const Row& x) { return isAt(across(x), 0); }).c_str());
+  filter->AddSlidingSurface(surface(grid, [](const Row& x) { return isAt(x[1], 0); }).c_str());
+  filter->SetSlideRounds(3);
+  grids::update(filter);
+  const Points rest = grids::points(grid), moved = grids::points(filter->GetOutput());
+  for (Index i = 0; i < rest.rows(); ++i)
+  {
+    if (isAt(across(rest.row(i)), 0))
+    {
+      EXPECT_NEAR(across(moved.row(i)), 0, 1e-9) << i;
+    }
+    if (isAt(rest(i, 1), 0))
+    {
+      EXPECT_NEAR(moved(i, 1), 0, 1e-9) << i;
+    }
+  }
+}
+
 TEST(SlideRounds, ReproduceAffineMotionsOfPolyhedraAndOctrees)
 {
   const morph::Mesh pyramids = meshes::hexesAndPyramids(Side, Side, Side);

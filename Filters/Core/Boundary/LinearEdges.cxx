@@ -67,7 +67,6 @@ Parting partingNodes(const Mesh& mesh, const BoundaryFaces& faces, const Points&
       result.largest = std::max(result.largest, gap);
     }
   }
-  std::sort(result.nodes.begin(), result.nodes.end());
   return result;
 }
 }

@@ -3,7 +3,6 @@
 
 #include "Mesh/Topology.h"
 
-#include <string>
 #include <vector>
 
 namespace morph

@@ -99,24 +99,23 @@ void moveBetween(const BoundaryModel& model, const std::map<Index, Surfaces>& sl
   }
 }
 
-/// A node that the method slides, where it is undeformed, and its surfaces.
+/// Where a node that the method slides is undeformed, and its surfaces.
 struct Slide
 {
-  Index node;
   Row rest;
   Surfaces on;
 };
 
-/// The centers of faces that have all nodes on one of the surfaces. `prescribed`: of the pieces,
-/// and what they are if sliding nodes are, too. `marks`: 1 at the nodes of a surface, else 0.
-std::vector<Slide> slidingCenters(const CellPieces& pieces, const std::vector<Index>& prescribed,
+/// Adds the centers of faces that have all nodes on one of the surfaces. `prescribed`: of the
+/// pieces, and what they are if sliding nodes are, too. `marks`: 1 at the nodes of a surface, else
+/// 0.
+void addCenters(const CellPieces& pieces, const std::vector<Index>& prescribed,
   const std::vector<Index>& withSliding, const Surfaces& surfaces,
-  const std::function<Points(Index surface)>& marks)
+  const std::function<Points(Index surface)>& marks, std::map<Index, Slide>& slides)
 {
   std::vector<Index> centers;
   std::set_difference(withSliding.begin(), withSliding.end(), prescribed.begin(), prescribed.end(),
     std::back_inserter(centers));
-  std::vector<Slide> result;
   for (const Index s : surfaces)
   {
     const Points isOn = pieces.extend(marks(s));
@@ -124,11 +123,11 @@ std::vector<Slide> slidingCenters(const CellPieces& pieces, const std::vector<In
     {
       if (isOn(center, 0) > 1 - 1e-9) // a mean
       {
-        result.push_back({ center, pieces.mesh().points.row(center), { s } });
+        // The sliding nodes themselves are there already.
+        slides.try_emplace(center, Slide{ pieces.mesh().points.row(center), { s } });
       }
     }
   }
-  return result;
 }
 }
 
@@ -230,12 +229,12 @@ void SlideRounds::run(const BoundaryModel& model, const std::vector<Index>& held
     own.push_back(node);
   }
   this->prepare(volume, model.inputVersion, own, prescribed, monitor);
-  std::vector<Slide> slides;
+  std::map<Index, Slide> slides; // by the method's nodes
   for (const auto& [node, ofBoundary] : here)
   {
     if (const Index at = this->pieces_ ? this->pieces_->nodeOf(node) : node; at >= 0)
     {
-      slides.push_back({ at, model.points().row(ofBoundary), sliding.at(ofBoundary) });
+      slides[at] = { model.points().row(ofBoundary), sliding.at(ofBoundary) };
     }
   }
   if (this->pieces_)
@@ -255,21 +254,20 @@ void SlideRounds::run(const BoundaryModel& model, const std::vector<Index>& held
       }
       return isOn;
     };
-    const std::vector<Slide> centers =
-      slidingCenters(*this->pieces_, this->method_->partition().prescribed,
-        this->pieces_->extend(volume.partition(given)).prescribed, surfaces, marks);
-    slides.insert(slides.end(), centers.begin(), centers.end());
+    addCenters(*this->pieces_, this->method_->partition().prescribed,
+      this->pieces_->extend(volume.partition(given)).prescribed, surfaces, marks, slides);
   }
-  std::sort(
-    slides.begin(), slides.end(), [](const Slide& a, const Slide& b) { return a.node < b.node; });
   std::vector<Index> ofMethod;
-  for (const Slide& slide : slides)
+  std::vector<const Slide*> ordered;
+  for (const auto& [node, slide] : slides)
   {
-    ofMethod.push_back(slide.node);
+    ofMethod.push_back(node);
+    ordered.push_back(&slide);
   }
   const NodeSliding::Surfaces along = { [&](Index i, const Row& x)
-    { return directionsAt(model, slides[i].on, shapes, x); },
-    [&](Index i, const Row& x) { return shapes.slid(model, slides[i].on, slides[i].rest, x); } };
+    { return directionsAt(model, ordered[i]->on, shapes, x); },
+    [&](Index i, const Row& x)
+    { return shapes.slid(model, ordered[i]->on, ordered[i]->rest, x); } };
   volume.hanging.place(volume.mesh.points, places);
   Points all = this->pieces_ ? this->pieces_->extend(places) : std::move(places);
   this->rounds_ = this->method_->slide(ofMethod, along, limits, all, monitor);

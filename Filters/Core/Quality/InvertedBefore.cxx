@@ -50,7 +50,7 @@ std::vector<bool> InvertedBefore::placesOf(
   {
     std::vector<Vector> x;
     std::transform(nodes, nodes + this->mesh_->cellSize(cell), std::back_inserter(x),
-      [&](Index node) { return points.row(node).transpose(); });
+      [&](Index node) -> Vector { return (points.row(node) - points.row(nodes[0])).transpose(); });
     PolyhedronPlaces places;
     places.take(*this->mesh_, cell, x);
     places.forEach(x.data(), add);

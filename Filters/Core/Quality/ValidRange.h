@@ -52,10 +52,14 @@ struct ValidRange
 /// not necessary: its ends are on the safe side by more, and 0 where a coefficient is not positive
 /// at s = 0.
 ///
+/// The centers of a polyhedron change their weights (PolyhedronQuality.h) on the way. A step keeps
+/// those at its beginning, and those at its end have to find the cell valid, too. So its ends are
+/// the measure's, but an inversion within one step, at first of up to the cell's size, is missed.
+///
 /// `orientation`: #cells of +1 / -1 (Topology.h), or empty. Left out is what was not positive in
 /// the undeformed mesh: the places of cells in `before`, and these between their corners. The
 /// result does not depend on the number of threads. Cost: one pass, about as much as ten measures
-/// of quality, with turns some forty times that.
+/// of quality, with turns some forty times that; for polyhedra some forty measures.
 ValidRange validRange(const Mesh& mesh, const NodeMotion& motion,
   const std::vector<std::int8_t>& orientation, const InvertedBefore& before, Monitor& monitor);
 }

@@ -470,9 +470,9 @@ Points Session::transpose(
     gradient.bottomRows(gradient.rows() - front).setZero(); // a plane mesh is the front
   }
   Points own, all = Points::Zero(gradient.rows(), 3); // what hangs moves by its ties
-  const Points given = gradient;
+  const bool reachesAttached = !gradient(this->attached_.nodes(), allColumns).isZero(0);
   this->attached_.applyTranspose(gradient);
-  if (!this->all().all(gradient == given))
+  if (!this->all().all(!reachesAttached))
   {
     monitor.warn(
       "Nodes of shells, beams or links turn with the volume on which they hang, which is "

@@ -217,12 +217,14 @@ void LsDynaFile::takeKeyword(std::size_t part, Span span)
   this->isWide_ = this->isWide_ || name.find("I10=Y") != std::string::npos;
   this->isWideBlock_ = this->isWide_ || name.find('%') != std::string::npos;
   this->isLongBlock_ = this->isLong_;
-  if (!name.empty() && (name.back() == '+' || name.back() == '-'))
+  // The sign of long fields, and that of wide ones, may stand behind a blank.
+  const std::size_t end = name.find_first_of(" ,%+-");
+  const std::size_t sign = end == std::string::npos ? end : name.find_first_not_of(" ,%", end);
+  if (sign != std::string::npos && (name[sign] == '+' || name[sign] == '-'))
   {
-    this->isLongBlock_ = name.back() == '+';
-    name.pop_back();
+    this->isLongBlock_ = name[sign] == '+';
   }
-  name = name.substr(0, name.find_first_of(" ,%"));
+  name = name.substr(0, end);
   for (const auto& [start, what] : refused)
   {
     if (name.rfind(start, 0) == 0)

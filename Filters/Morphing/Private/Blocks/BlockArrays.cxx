@@ -12,6 +12,7 @@
 #include <vtkSmartPointer.h>
 #include <vtkUnsignedCharArray.h>
 
+#include <algorithm>
 #include <cstring>
 #include <string>
 
@@ -132,7 +133,10 @@ void Merge(const std::vector<Part>& parts, vtkIdType count, vtkDataSetAttributes
     {
       continue;
     }
-    if (auto* numbers = vtkDataArray::SafeDownCast(merged))
+    auto* numbers = vtkDataArray::SafeDownCast(merged);
+    const bool isEverywhere = std::all_of(parts.begin(), parts.end(),
+      [&](const Part& part) { return part.From->HasArray(array->GetName()) != 0; });
+    if (numbers && !isEverywhere)
     {
       numbers->Fill(0);
     }

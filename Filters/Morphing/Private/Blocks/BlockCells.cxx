@@ -121,11 +121,15 @@ std::vector<morph::Index> GlobalIds(vtkDataSetAttributes* attributes, vtkIdType 
   for (vtkIdType i = 0; i < count; ++i)
   {
     const double id = array->GetComponent(i, 0);
-    if (!(id >= 0 && (isWhole || (id <= 9007199254740992. && std::floor(id) == id))))
+    if (!isWhole && !(std::abs(id) <= 9007199254740992. && std::floor(id) == id))
     {
       return {};
     }
     ids[i] = isWhole ? whole->GetValue(i) : static_cast<morph::Index>(id);
+    if (ids[i] < 0)
+    {
+      return {};
+    }
   }
   return ids;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Private/Blocks/MergedBlocks.h"
 
+#include "Geometry/NearestNodes.h"
 #include "Mesh/Polyhedra.h"
 #include "Private/Blocks/BlockArrays.h"
 #include "Private/Blocks/BlockCells.h"
@@ -113,6 +114,27 @@ SharedNodes numberNodes(
   return nodes;
 }
 
+/// Whether one of the points that are on no node is next to one, as in a set whose coordinates are
+/// rounded.
+bool areRounded(
+  const std::vector<Part>& parts, const morph::Points& points, const std::vector<Index>& found)
+{
+  const double reach = 1e-6 * sizeOf(parts);
+  return std::any_of(parts.begin(), parts.end(),
+    [&](const Part& part)
+    {
+      const morph::NearestNodes near(part.Mesh.points);
+      for (std::size_t i = 0; i < found.size(); ++i)
+      {
+        if (found[i] < 0 && near.distance(points.row(static_cast<Index>(i))) <= reach)
+        {
+          return true;
+        }
+      }
+      return false;
+    });
+}
+
 /// Blocks of lower dimension, such as shells and beams, become parts of the mesh where they hang on
 /// it by some of their points, and so on with those that hang on these. A block that is on it with
 /// all of its points is a set of its faces, edges or nodes.
@@ -130,17 +152,24 @@ void attachParts(const std::vector<Leaves::Leaf>& leaves, const MergedBlocks::Op
       {
         continue;
       }
-      Part part = { i, data, leaves[i].FlatIndex, 0,
-        BlockCells::Read(data, block.Name, options.Unknown), true };
-      const std::vector<Index> ids = idsOf(part, options);
-      const std::vector<Index> found = nodes.Find({ part.Mesh.points, ids });
+      DataCheck::Require(data, block.Name.c_str());
+      const morph::Points points = BlockCells::ReadPoints(data);
+      const std::vector<Index> found = nodes.Find({ points, {} });
       const auto missing = std::count(found.begin(), found.end(), -1);
-      if (missing > 0 && missing < part.Mesh.numberOfNodes())
+      if (missing == 0 || missing == points.rows() || areRounded(parts, points, found))
       {
-        block.IsMesh = isAny = true;
-        block.Nodes = nodes.Add({ part.Mesh.points, ids });
-        parts.push_back(std::move(part));
+        continue;
       }
+      parts.push_back({ i, data, leaves[i].FlatIndex, 0,
+        BlockCells::Read(data, block.Name, options.Unknown), true });
+      // A point at a node is that node, whatever ids they have.
+      std::vector<Index> ids = idsOf(parts.back(), options);
+      for (std::size_t k = 0; k < ids.size(); ++k)
+      {
+        ids[k] = found[k] < 0 ? ids[k] : -1;
+      }
+      block.IsMesh = isAny = true;
+      block.Nodes = nodes.Add({ points, ids });
     }
   }
 }
