@@ -22,10 +22,10 @@ namespace
 /// Above all ids, and a double holds it.
 constexpr std::int64_t NoBody = std::int64_t(1) << 52;
 
-bool isVolume(const Mesh& mesh, Index cell)
+int dimension(const Mesh& mesh, Index cell)
 {
   const CellShape* shape = cellShape(mesh.types[cell]);
-  return shape && shape->dimension == 3;
+  return shape ? shape->dimension : 0;
 }
 
 /// A copy of `mesh` with a vertex for each ghost.
@@ -33,6 +33,7 @@ Mesh withoutGhosts(const Mesh& mesh, const std::vector<std::uint8_t>& isGhost)
 {
   Mesh result;
   result.points = mesh.points;
+  result.layer = mesh.layer;
   result.types = mesh.types;
   result.offsets = { 0 };
   if (hasPolyhedra(mesh))
@@ -148,7 +149,7 @@ struct DistributedMesh::Builder
     }
     for (Index c = 0; c < this->from.pieceCells_ && !ranksOf.empty(); ++c)
     {
-      if (this->from.isGhost_[c] != 0 || !isVolume(m, c))
+      if (this->from.isGhost_[c] != 0 || dimension(m, c) < this->from.dimension_)
       {
         continue;
       }
@@ -331,15 +332,20 @@ Index DistributedMesh::nodeOf(std::int64_t id) const
   return found != this->byId_.end() && found->first == id ? found->second : -1;
 }
 
-/// The box of the nodes of volume cells, and their number.
+/// The highest dimension of cells, the box of the nodes of these, and the number of volume cells.
 void DistributedMesh::measure()
 {
   Eigen::AlignedBox3d box;
-  Index cells = 0;
+  Index cells = 0, highest = 0;
   for (Index c = 0; c < this->pieceCells_; ++c)
   {
-    const bool isOwn = this->isGhost_[c] == 0 && isVolume(this->mesh_, c);
-    cells += isOwn ? 1 : 0;
+    highest = std::max<Index>(highest, dimension(this->mesh_, c)); // a ghost has 0
+  }
+  this->dimension_ = static_cast<int>(this->ranks_->maximum(highest));
+  for (Index c = 0; c < this->pieceCells_; ++c)
+  {
+    const bool isOwn = this->isGhost_[c] == 0 && dimension(this->mesh_, c) == this->dimension_;
+    cells += isOwn && this->dimension_ == 3 ? 1 : 0;
     for (Index k = 0; isOwn && k < this->mesh_.cellSize(c); ++k)
     {
       box.extend(this->mesh_.points.row(this->mesh_.cell(c)[k]).transpose());

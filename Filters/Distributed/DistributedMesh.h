@@ -24,7 +24,7 @@ namespace morph::distributed
 double diagonal(const Ranks& ranks, const Eigen::AlignedBox3d& box);
 
 /// A mesh whose cells are distributed over ranks. Each rank has its piece and, behind it, copies of
-/// the other ranks' cells around the piece's nodes (ghosts). Each node that a cell uses has one
+/// the other ranks' cells of the highest dimension around the piece's nodes (ghosts). Each node that a cell uses has one
 /// owner, the lowest rank that uses it.
 ///
 /// Local numbers: the piece's nodes and cells come first, in the piece's order. A ghost cell of the
@@ -84,7 +84,7 @@ public:
   const HangingNodes& hanging() const { return this->hanging_; }
   /// Whether any rank has nodes that hang, or cells at divided faces.
   bool hasHanging() const { return this->hasHanging_; }
-  /// The diagonal of the bounding box of the nodes that volume cells use.
+  /// The diagonal of the bounding box of the nodes that cells of the highest dimension use.
   double size() const { return this->size_; }
   /// Volume cells of all ranks.
   Index volumeCells() const { return this->volumeCells_; }
@@ -118,6 +118,7 @@ private:
   std::vector<std::int8_t> orientation_;
   HangingNodes hanging_;
   bool hasHanging_ = false;
+  int dimension_ = 0; ///< the highest of cells
   double size_ = 0;
   Index volumeCells_ = 0;
 };

@@ -115,6 +115,7 @@ private:
 RankCommunicator::RankCommunicator(const DistributedMesh& mesh)
   : RankCommunicator(mesh, consecutive(mesh.mesh().numberOfNodes()))
 {
+  this->isPart_ = false;
 }
 
 RankCommunicator::RankCommunicator(const DistributedMesh& mesh, std::vector<Index> nodes)

@@ -47,7 +47,10 @@ public:
     return &this->mesh_.orientation();
   }
   Index sumBefore(Index value) const override { return this->mesh_.ranks().sumBefore(value); }
-  bool isCopy(Index cell) const override { return this->mesh_.isGhost()[cell] != 0; }
+  bool isCopy(Index cell) const override
+  {
+    return !this->isPart_ && this->mesh_.isGhost()[cell] != 0;
+  }
   bool owns(Index node) const override { return this->mesh_.owns(node); }
   void update(Points& rows) const override { this->mesh_.halo().update(this->mesh_.ranks(), rows); }
   std::vector<double> gather(const std::vector<double>& values) const override
@@ -74,6 +77,7 @@ private:
 
   const DistributedMesh& mesh_;
   std::vector<Index> nodes_;
+  bool isPart_ = true;
 };
 
 /// The mesh for a session. Collective.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "RankGrids.h"
 
+#include "Mesh/CellShape.h"
 #include "Meshes.h"
 #include "Pieces.h"
 #include "TestGrids.h"
@@ -65,6 +66,36 @@ grids::Map intoTheGap(double way)
 {
   return [way](const grids::Row& x)
   { return x[0] == 5 && x[2] > 2 ? grids::Row(x + grids::Row(way, 0, 0)) : x; };
+}
+
+morph::Mesh sheet(const grids::Map& place)
+{
+  constexpr Index Cells = 8, Row = Cells + 1; // along a side
+  morph::Mesh mesh;
+  mesh.points.resize(Row * Row, 3);
+  for (Index i = 0; i < mesh.points.rows(); ++i)
+  {
+    mesh.points.row(i) = place(grids::Row(double(i % Row), double(i / Row), 0) / Cells);
+  }
+  for (Index cell = 0; cell < Cells * Cells; ++cell)
+  {
+    const Index a = cell / Cells * Row + cell % Cells, b = a + 1, c = b + Row, d = a + Row;
+    if (cell % 3 == 0)
+    {
+      mesh.add(morph::Triangle, { a, b, c });
+      mesh.add(morph::Triangle, { a, c, d });
+    }
+    else
+    {
+      cell % 5 == 0 ? mesh.add(morph::Quad, { d, c, b, a }) : mesh.add(morph::Quad, { a, b, c, d });
+    }
+  }
+  return mesh;
+}
+
+grids::Row dome(const grids::Row& x)
+{
+  return { x[0], x[1], 0.4 * x[0] * (1 - x[0]) + 0.5 * x[1] * (1 - x[1]) };
 }
 
 std::vector<Index> globalIds(vtkDataSet* data, const char* name)

@@ -23,6 +23,10 @@ vtkSmartPointer<vtkUnstructuredGrid> piece(
 morph::Mesh fork();
 grids::Map intoTheGap(double way);
 
+/// [0, 1]^2 moved by `place`: quadrilaterals and pairs of triangles, some wound the other way.
+morph::Mesh sheet(const grids::Map& place);
+grids::Row dome(const grids::Row& x);
+
 std::vector<morph::Index> globalIds(vtkDataSet* data, const char* name);
 
 /// Calls `work` as a program of one process would.

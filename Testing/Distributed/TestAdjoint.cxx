@@ -79,9 +79,8 @@ morph::Mesh block()
 }
 
 template <typename Filter>
-void compare(const Ranks& ranks)
+void compare(const Ranks& ranks, const morph::Mesh& whole)
 {
-  const morph::Mesh whole = block();
   std::map<Index, grids::Row> expected;
   rank_grids::alone(
     [&]
@@ -149,9 +148,12 @@ double objective(const Ranks& ranks, vtkMorphAlgorithm* filter)
 TEST(RankAdjoint, AgreesWithTheSerialOne)
 {
   const Ranks ranks = pieces::world();
-  compare<vtkFEMWarpMorph>(ranks);
-  compare<vtkLBWarpMorph>(ranks);
-  compare<vtkRadialBasisMorph>(ranks);
+  for (const morph::Mesh& mesh : { block(), rank_grids::sheet(rank_grids::dome) })
+  {
+    compare<vtkFEMWarpMorph>(ranks, mesh);
+    compare<vtkLBWarpMorph>(ranks, mesh);
+    compare<vtkRadialBasisMorph>(ranks, mesh);
+  }
 }
 
 TEST(RankAdjoint, AgreesWithFiniteDifferences)

@@ -107,25 +107,6 @@ TEST(DistributedFilters, ShellsFollowTheVolumeAcrossRanks)
     1e-9);
 }
 
-TEST(DistributedFilters, APlaneMeshOnSeveralRanksIsOneError)
-{
-  const Ranks ranks = pieces::world();
-  morph::Mesh square;
-  square.points.resize(4, 3);
-  square.points << 0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0;
-  square.points.col(0).array() += ranks.rank();
-  meshes::add(square, VTK_QUAD, { 0, 1, 2, 3 });
-  const auto grid = grids::make(square);
-  auto filter = grids::of<vtkFEMWarpMorph>(grid);
-  filter->SetBoundaryData(grids::cloud(square.points));
-  const grids::Run listener(filter);
-  EXPECT_EQ(ranks.sum(static_cast<morph::Index>(listener.Errors.size())), ranks.count() > 1);
-  for (const std::string& error : listener.Errors)
-  {
-    EXPECT_NE(error.find("triangles and quadrilaterals alone"), std::string::npos) << error;
-  }
-}
-
 TEST(DistributedFilters, AnAbortOnOneRankEndsAllWithoutAMessage)
 {
   const Ranks ranks = pieces::world();

@@ -159,7 +159,15 @@ std::vector<Index> InnerNodes::nodesOf(
   nodes.erase(std::remove_if(nodes.begin(), nodes.end(),
                 [&](Index node) { return !std::binary_search(outer.begin(), outer.end(), node); }),
     nodes.end());
-  const std::vector<Index> inner = this->addPoints(model, this->pieces_->ownInner(ofPiece));
+  std::vector<Index> points = this->pieces_->ownInner(ofPiece), ofBoundary;
+  std::transform(outer.begin(), outer.end(), std::back_inserter(ofBoundary),
+    [&](Index node) { return this->pieces_->nodeOf(node); });
+  sortUnique(ofBoundary);
+  points.erase(
+    std::remove_if(points.begin(), points.end(), // those of inner surfaces
+      [&](Index point) { return std::binary_search(ofBoundary.begin(), ofBoundary.end(), point); }),
+    points.end());
+  const std::vector<Index> inner = this->addPoints(model, points);
   nodes.insert(nodes.end(), inner.begin(), inner.end());
   return nodes;
 }
@@ -357,6 +365,11 @@ void InnerNodes::moveLayers(const Points& rest, const BoundaryModel& model, cons
 WallLayers InnerNodes::layersOnRanks(
   const BoundaryModel& model, const Choice& choice, const Options& options)
 {
+  if (model.inner.size() > 0)
+  {
+    throw Error("On several MPI ranks no layers are kept in a mesh with baffles or other inner "
+                "surfaces. Run on one rank, or without `KeepLayers`.");
+  }
   const InnerPieces::Columns found =
     this->pieces_->findLayers(choice.isMovingFace, options.keepLayers, options.isLayer);
   if (!this->pieces_->anywhere(!found.nodes.empty() || !found.points.empty()))

@@ -4,7 +4,6 @@
 #include "Geometry/CosphericalStars.h"
 #include "Interpolation/AffineWeights.h"
 #include "Interpolation/PointLocation.h"
-#include "Mesh/ShellLayer.h"
 #include "Support/Error.h"
 #include "Support/Parallel.h"
 #include "Support/ReproducibleSum.h"
@@ -119,7 +118,6 @@ void fillWeights(const Delaunay& delaunay, const PointLocation& enclosing,
 
 void SimplexLinear::doPrepare(const Mesh& rest, Monitor& monitor)
 {
-  requireRegion(rest);
   this->sites_ = InterpolationSites(rest.points, this->partition().prescribed);
   monitor.progress(0.1);
   this->delaunay_.build(this->sites_.coordinates(), monitor);

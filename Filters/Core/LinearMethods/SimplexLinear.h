@@ -4,6 +4,7 @@
 #include "Geometry/Delaunay.h"
 #include "Interpolation/InterpolationSites.h"
 #include "Interpolation/WeightMatrix.h"
+#include "Mesh/ShellLayer.h"
 #include "Morpher/Morpher.h"
 
 #include <memory>
@@ -45,6 +46,7 @@ public:
   {
     return std::make_unique<SimplexLinear>(*this);
   }
+  void requireMesh(const Mesh& rest) const override { requireRegion(rest); }
 
 protected:
   void doPrepare(const Mesh& rest, Monitor& monitor) override;

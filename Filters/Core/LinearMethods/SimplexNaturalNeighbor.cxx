@@ -2,7 +2,6 @@
 #include "LinearMethods/SimplexNaturalNeighbor.h"
 
 #include "Geometry/SpatialOrder.h"
-#include "Mesh/ShellLayer.h"
 #include "Support/ProgressRange.h"
 #include "Support/Stopwatch.h"
 
@@ -136,7 +135,6 @@ Index SimplexNaturalNeighbor::forEachBlock(
 
 void SimplexNaturalNeighbor::doPrepare(const Mesh& rest, Monitor& monitor)
 {
-  requireRegion(rest);
   const std::vector<Index>& free = this->partition().free;
   this->stored_.clear();
   this->sites_ = InterpolationSites(rest.points, this->partition().prescribed);

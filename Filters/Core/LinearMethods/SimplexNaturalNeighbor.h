@@ -6,6 +6,7 @@
 #include "Interpolation/NaturalNeighbors.h"
 #include "Interpolation/PointLocation.h"
 #include "Interpolation/WeightMatrix.h"
+#include "Mesh/ShellLayer.h"
 #include "Morpher/Morpher.h"
 
 #include <functional>
@@ -42,6 +43,7 @@ public:
   {
     return std::make_unique<SimplexNaturalNeighbor>(*this);
   }
+  void requireMesh(const Mesh& rest) const override { requireRegion(rest); }
 
 protected:
   void doPrepare(const Mesh& rest, Monitor& monitor) override;

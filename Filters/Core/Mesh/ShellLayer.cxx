@@ -5,14 +5,18 @@
 #include "Mesh/FacesOfCells.h"
 #include "Mesh/StandingCells.h"
 #include "Support/Error.h"
+#include "Support/Lists.h"
 #include "Support/UnionFind.h"
 
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <map>
+#include <memory>
 #include <string>
 #include <tuple>
 
@@ -44,9 +48,57 @@ std::vector<Index> frontNodes(const Mesh& layer, Index cell)
   return nodes;
 }
 
+/// The smallest and the largest of the heights that `add` gives, of all processes.
+class Heights
+{
+public:
+  void add(double height)
+  {
+    this->most_[0] = std::max(this->most_[0], -height);
+    this->most_[1] = std::max(this->most_[1], height);
+  }
+  double range(const Communicator& processes) const
+  {
+    std::array<double, 2> most = this->most_;
+    processes.maximum(most.data(), 2);
+    return most[0] + most[1];
+  }
+
+private:
+  std::array<double, 2> most_ = { -std::numeric_limits<double>::infinity(),
+    -std::numeric_limits<double>::infinity() };
+};
+
+/// Joins the boxes of all processes.
+Eigen::AlignedBox3d joined(const Eigen::AlignedBox3d& box, const Communicator& processes)
+{
+  std::array<double, 6> most;
+  for (int j = 0; j < 3; ++j)
+  {
+    most[j] = -box.min()[j];
+    most[j + 3] = box.max()[j];
+  }
+  processes.maximum(most.data(), 6);
+  return { Eigen::Vector3d(-most[0], -most[1], -most[2]),
+    Eigen::Vector3d(most[3], most[4], most[5]) };
+}
+
+/// The largest of the areas of all processes.
+Eigen::RowVector3d largestOf(const Eigen::RowVector3d& area, const Communicator& processes)
+{
+  const std::vector<double> all = processes.gather({ area[0], area[1], area[2] });
+  Eigen::RowVector3d largest = Eigen::RowVector3d::Zero();
+  for (std::size_t i = 0; i < all.size(); i += 3)
+  {
+    const Eigen::RowVector3d one(all[i], all[i + 1], all[i + 2]);
+    largest = one.squaredNorm() > largest.squaredNorm() ? one : largest;
+  }
+  return largest;
+}
+
 /// The plane, if the prisms' fronts lie in one, and how thick the layer is to be. `points`: of the
 /// front.
-ShellLayer layerOf(const Mesh& mesh, const Points& points)
+ShellLayer layerOf(const Mesh& mesh, const Points& points, const Communicator& processes)
 {
   Eigen::RowVector3d largest = Eigen::RowVector3d::Zero(), sum = largest;
   double length = 0;
@@ -56,7 +108,7 @@ ShellLayer layerOf(const Mesh& mesh, const Points& points)
   for (Index c = 0; c < mesh.numberOfCells(); ++c)
   {
     const std::vector<Index> corners = frontOf(mesh, c);
-    if (corners.empty())
+    if (corners.empty() || processes.isCopy(c))
     {
       continue;
     }
@@ -73,6 +125,8 @@ ShellLayer layerOf(const Mesh& mesh, const Points& points)
       box.extend(points.row(corners[k]).transpose());
     }
   }
+  largest = largestOf(largest, processes);
+  box = joined(box, processes);
   // Of cells that are wound either way, most of the area decides.
   double counterclockwise = 0;
   for (const Eigen::RowVector3d& area : areas)
@@ -81,6 +135,10 @@ ShellLayer layerOf(const Mesh& mesh, const Points& points)
     sum += side * area;
     counterclockwise += side * area.stableNorm();
   }
+  processes.sum(sum.data(), 3);
+  counterclockwise = processes.sum(counterclockwise);
+  length = processes.sum(length);
+  edges = processes.sum(edges);
   ShellLayer plane;
   plane.nodes = points.rows();
   plane.thickness = edges > 0 ? length / static_cast<double>(edges) : 0;
@@ -90,26 +148,30 @@ ShellLayer layerOf(const Mesh& mesh, const Points& points)
                 "surface to morph.");
   }
   plane.normal = sum.stableNormalized() * (counterclockwise < 0 ? -1 : 1);
-  const double size = box.diagonal().stableNorm();
-  std::vector<Index> off;
   const Eigen::RowVector3d from = box.center().transpose();
-  double least = 0, most = 0;
+  Heights heights;
   for (Index c = 0; c < mesh.numberOfCells(); ++c)
   {
     for (const Index node : frontNodes(mesh, c))
     {
-      const double height = (points.row(node) - from).dot(plane.normal);
-      least = std::min(least, height);
-      most = std::max(most, height);
+      heights.add((points.row(node) - from).dot(plane.normal));
     }
   }
-  if (most - least > 2 * Flatness * size)
+  if (heights.range(processes) > 2 * Flatness * box.diagonal().stableNorm())
   {
     plane.normal.setZero(); // as ShellLayer has it
     plane.thickness *= Thin;
   }
   return plane;
 }
+
+/// What hangs together of a surface across edges of two fronts, on this process.
+struct Parts
+{
+  std::vector<Index> ofCell;         ///< #cells, -1: no front
+  std::vector<std::int8_t> windings; ///< #cells: 1 or -1, alike in neighbors; 0: no front
+  std::vector<double> areas;         ///< of each, so wound; in a plane about its normal
+};
 
 /// A side of a cell, and whether it runs from the lower to the higher id.
 struct Side
@@ -118,20 +180,24 @@ struct Side
   bool isUp;
 };
 
-/// Of each cell: others, and 1 if they are wound alike, else -1.
-using Windings = std::vector<std::vector<std::pair<Index, std::int8_t>>>;
-
-void relate(const Side& a, const Side& b, bool areFolded, Windings& windings)
+/// Two cells, and whether they are wound alike (1) or not (-1).
+struct Relation
 {
-  const std::int8_t same = (a.isUp == b.isUp) == areFolded ? 1 : -1;
-  windings[a.cell].emplace_back(b.cell, same);
-  windings[b.cell].emplace_back(a.cell, same);
-}
+  Index cell, other;
+  std::int8_t same;
+
+  Relation(const Side& a, const Side& b, bool areFolded)
+    : cell(a.cell)
+    , other(b.cell)
+    , same((a.isUp == b.isUp) == areFolded ? 1 : -1)
+  {
+  }
+};
 
 /// Relates the sheets that meet at an edge, each to the one that goes on from it most smoothly.
 /// Those at less than 60 degrees are folded onto each other.
-void relateSheets(
-  const Mesh& shell, const Points& points, const std::vector<Side>& sheets, Windings& windings)
+void relateSheets(const Mesh& shell, const Points& points, const std::vector<Side>& sheets,
+  std::vector<Relation>& relations)
 {
   const auto low = points.row(sheets[0].low), high = points.row(sheets[0].high);
   const Eigen::RowVector3d along = (high - low).stableNormalized();
@@ -157,15 +223,19 @@ void relateSheets(
     if (known.root(i) != known.root(k))
     {
       known.join(i, k);
-      relate(sheets[i], sheets[k], cosine > 0.5e6, windings);
+      relations.emplace_back(sheets[i], sheets[k], cosine > 0.5e6);
     }
   }
 }
 
-/// Whether each front is wound as its neighbors, across edges of two fronts, are on the whole: 1 or
-/// -1. Sheets that meet at edges of more fronts are related by one of these. Most of the area of
-/// what hangs together is wound right, in a plane about its normal. `points`: of the front.
-std::vector<std::int8_t> windingsOf(const Mesh& shell, const Points& points)
+/// Cells at edges of two fronts, and the sheets that meet at edges of more in a curved shell. All
+/// cells at an edge are here if one of them is no copy.
+struct Relations
+{
+  std::vector<Relation> beside, across;
+};
+
+Relations relationsOf(const Mesh& shell, const Points& points, const Communicator& processes)
 {
   std::vector<Side> sides;
   for (Index c = 0; c < shell.numberOfCells(); ++c)
@@ -180,117 +250,284 @@ std::vector<std::int8_t> windingsOf(const Mesh& shell, const Points& points)
   std::sort(sides.begin(), sides.end(),
     [](const Side& a, const Side& b)
     { return std::tie(a.low, a.high, a.cell) < std::tie(b.low, b.high, b.cell); });
-  Windings neighbors(shell.numberOfCells()), across(shell.numberOfCells());
+  Relations result;
   for (auto first = sides.begin(), last = first; first != sides.end(); first = last)
   {
     last = std::find_if(first, sides.end(),
       [&](const Side& side) { return side.low != first->low || side.high != first->high; });
-    if (last - first == 2 && first->cell != first[1].cell)
+    const bool isWhole =
+      std::any_of(first, last, [&](const Side& side) { return !processes.isCopy(side.cell); });
+    if (isWhole && last - first == 2 && first->cell != first[1].cell)
     {
-      relate(first[0], first[1], false, neighbors);
+      result.beside.emplace_back(first[0], first[1], false);
     }
-    else if (last - first > 2 && shell.layer.isCurved())
+    else if (isWhole && last - first > 2 && shell.layer.isCurved())
     {
-      relateSheets(shell, points, { first, last }, across);
+      // In an order that is the same on all processes.
+      std::vector<Side> sheets(first, last);
+      std::sort(sheets.begin(), sheets.end(),
+        [&](const Side& a, const Side& b) {
+          return processes.idsOfCells({ a.cell }).front() <
+                 processes.idsOfCells({ b.cell }).front();
+        });
+      relateSheets(shell, points, sheets, result.across);
     }
   }
-  std::vector<std::int8_t> windings(shell.numberOfCells(), 0);
-  std::vector<Index> part;
-  const auto take = [&](Index cell, std::int8_t winding)
+  return result;
+}
+
+[[noreturn]] void throwOneSided(std::vector<Index> ids)
+{
+  sortUnique(ids);
+  throw Error(
+    "The shell has one side alone, as a Möbius strip: no winding of its cells agrees with "
+    "all neighbors, at cell ids " +
+    listIds(ids) + ". Cut it along edges there, by nodes of their own on each side.");
+}
+
+/// `points`: of the front; `beside`: cells at edges of two fronts.
+Parts partsOf(const Mesh& shell, const Points& points, const std::vector<Relation>& beside,
+  const Communicator& processes)
+{
+  std::vector<std::vector<std::pair<Index, std::int8_t>>> neighbors(shell.numberOfCells());
+  for (const Relation& relation : beside)
   {
-    windings[cell] = winding;
-    part.push_back(cell);
-  };
+    neighbors[relation.cell].emplace_back(relation.other, relation.same);
+    neighbors[relation.other].emplace_back(relation.cell, relation.same);
+  }
+  const ShellLayer& layer = shell.layer;
+  Parts parts;
+  parts.ofCell.assign(shell.numberOfCells(), -1);
+  parts.windings.assign(shell.numberOfCells(), 0);
+  std::vector<Index> part;
   for (Index seed = 0; seed < shell.numberOfCells(); ++seed)
   {
-    if (windings[seed] != 0)
+    if (parts.windings[seed] != 0 || frontOf(shell, seed).empty())
     {
       continue;
     }
-    part.clear();
-    take(seed, 1);
+    parts.windings[seed] = 1;
+    part.assign(1, seed);
     double area = 0;
-    for (std::size_t i = 0, sheet = 0; i < part.size(); ++i)
+    for (std::size_t i = 0; i < part.size(); ++i)
     {
       const Index c = part[i];
-      const std::vector<Index> corners = frontOf(shell, c);
-      if (!corners.empty())
+      parts.ofCell[c] = static_cast<Index>(parts.areas.size());
+      if (!processes.isCopy(c))
       {
-        const Eigen::RowVector3d own = areaOf(points, corners);
-        area +=
-          windings[c] * (shell.layer.isCurved() ? own.stableNorm() : own.dot(shell.layer.normal));
+        const Eigen::RowVector3d own = areaOf(points, frontOf(shell, c));
+        area += parts.windings[c] * (layer.isCurved() ? own.stableNorm() : own.dot(layer.normal));
       }
       for (const auto& [other, same] : neighbors[c])
       {
-        const auto asked = static_cast<std::int8_t>(same * windings[c]);
-        if (windings[other] == -asked && shell.layer.isCurved())
+        const auto asked = static_cast<std::int8_t>(same * parts.windings[c]);
+        if (parts.windings[other] == -asked && layer.isCurved())
         {
-          throw Error("The shell has one side alone, as a Möbius strip: no winding of its cells "
-                      "agrees with all neighbors, at cell ids " +
-                      listIds({ std::min(c, other), std::max(c, other) }) +
-                      ". Cut it along edges there, by nodes of their own on each side.");
+          throwOneSided(processes.idsOfCells({ c, other }));
         }
-        if (windings[other] == 0)
+        if (parts.windings[other] == 0)
         {
-          take(other, asked);
+          parts.windings[other] = asked;
+          part.push_back(other);
         }
       }
-      while (i + 1 == part.size() && sheet < part.size()) // its sheets are known: to the next one
+    }
+    parts.areas.push_back(area);
+  }
+  return parts;
+}
+
+/// Two parts that have a cell in common, or sheets that meet, by their numbers among those of all
+/// processes.
+struct Link
+{
+  double part, other;
+  double same;  ///< 1: they wind it alike, -1
+  double cell;  ///< its id
+  double sheet; ///< of sheets that meet, the other's id; else -1
+};
+
+/// A copy of a cell is of a part here, and of another part on its own process.
+std::vector<Link> linksOf(const Parts& parts, const std::vector<Relation>& across, Index first,
+  const Communicator& processes)
+{
+  std::vector<double> mine, theirs;
+  for (std::size_t c = 0; c < parts.ofCell.size(); ++c)
+  {
+    mine.push_back(parts.windings[c] * static_cast<double>(first + parts.ofCell[c] + 1));
+  }
+  theirs = mine;
+  processes.completeCells(theirs);
+  std::map<std::array<double, 3>, double> links;
+  for (std::size_t c = 0; c < mine.size(); ++c)
+  {
+    const auto cell = static_cast<Index>(c);
+    if (mine[c] != 0 && processes.isCopy(cell))
+    {
+      links.emplace(std::array<double, 3>{ std::abs(mine[c]) - 1, std::abs(theirs[c]) - 1,
+                      mine[c] * theirs[c] > 0 ? 1. : -1. },
+        processes.idsOfCells({ cell }).front());
+    }
+  }
+  std::vector<double> flat;
+  for (const auto& [link, cell] : links)
+  {
+    flat.insert(flat.end(), link.begin(), link.end());
+    flat.insert(flat.end(), { static_cast<double>(cell), -1 });
+  }
+  for (const Relation& sheets : across)
+  {
+    for (const Index cell : { sheets.cell, sheets.other })
+    {
+      flat.push_back(static_cast<double>(first + parts.ofCell[cell]));
+    }
+    flat.push_back(sheets.same * parts.windings[sheets.cell] * parts.windings[sheets.other]);
+    for (const Index cell : { sheets.cell, sheets.other })
+    {
+      flat.push_back(static_cast<double>(processes.idsOfCells({ cell }).front()));
+    }
+  }
+  flat = processes.gather(flat);
+  std::vector<Link> all;
+  for (std::size_t i = 0; i < flat.size(); i += 5)
+  {
+    all.push_back({ flat[i], flat[i + 1], flat[i + 2], flat[i + 3], flat[i + 4] });
+  }
+  // Sheets come last, in an order that is the same for any number of processes, and join parts
+  // that nothing before them does.
+  std::stable_sort(all.begin(), all.end(),
+    [](const Link& a, const Link& b)
+    {
+      const bool isA = a.sheet >= 0, isB = b.sheet >= 0;
+      return isA != isB ? isB : isA && std::tie(a.cell, a.sheet) < std::tie(b.cell, b.sheet);
+    });
+  return all;
+}
+
+/// Whether each front is wound as its neighbors, across edges of two fronts, are on the whole: 1 or
+/// -1, and 0 for other cells. Sheets that meet at edges of more fronts are related by one of these.
+/// Most of the area of what hangs together is wound right, in a plane about its normal. `points`:
+/// of the front.
+std::vector<std::int8_t> windingsOf(
+  const Mesh& shell, const Points& points, const Communicator& processes)
+{
+  const Relations relations = relationsOf(shell, points, processes);
+  Parts parts = partsOf(shell, points, relations.beside, processes);
+  const auto count = static_cast<Index>(parts.areas.size());
+  const Index first = processes.sumBefore(count), all = processes.sum(count);
+  std::vector<double> areas(all, 0);
+  std::copy(parts.areas.begin(), parts.areas.end(), areas.begin() + first);
+  processes.sum(areas.data(), static_cast<int>(all));
+  std::vector<std::vector<Link>> links(all);
+  UnionFind<Index> known(all);
+  for (const Link& link : linksOf(parts, relations.across, first, processes))
+  {
+    const auto part = static_cast<Index>(link.part), other = static_cast<Index>(link.other);
+    if (link.sheet < 0 || known.root(part) != known.root(other))
+    {
+      links[part].push_back(link);
+      links[other].push_back({ link.other, link.part, link.same, link.cell, link.sheet });
+    }
+    known.join(part, other);
+  }
+  std::vector<double> sign(all, 0);
+  std::vector<Index> joined;
+  for (Index seed = 0; seed < all; ++seed)
+  {
+    if (sign[seed] != 0)
+    {
+      continue;
+    }
+    sign[seed] = 1;
+    joined.assign(1, seed);
+    double area = 0;
+    for (std::size_t i = 0; i < joined.size(); ++i)
+    {
+      const Index part = joined[i];
+      area += sign[part] * areas[part];
+      for (const Link& link : links[part])
       {
-        const Index from = part[sheet];
-        const auto next = std::find_if(across[from].begin(), across[from].end(),
-          [&](const auto& other) { return windings[other.first] == 0; });
-        next == across[from].end()
-          ? void(++sheet)
-          : take(next->first, static_cast<std::int8_t>(next->second * windings[from]));
+        double& other = sign[static_cast<Index>(link.other)];
+        const double asked = link.same * sign[part];
+        if (other == -asked && shell.layer.isCurved())
+        {
+          throwOneSided({ static_cast<Index>(link.cell) });
+        }
+        if (other == 0)
+        {
+          other = asked;
+          joined.push_back(static_cast<Index>(link.other));
+        }
       }
     }
-    for (const Index c : part)
+    for (const Index part : joined)
     {
-      windings[c] = static_cast<std::int8_t>(area < 0 ? -windings[c] : windings[c]);
+      sign[part] *= area < 0 ? -1 : 1;
     }
   }
-  return windings;
+  for (std::size_t c = 0; c < parts.windings.size(); ++c)
+  {
+    const double turn = parts.ofCell[c] < 0 ? 1 : sign[first + parts.ofCell[c]];
+    parts.windings[c] = static_cast<std::int8_t>(turn * parts.windings[c]);
+  }
+  return parts.windings;
 }
 
-/// Adds, at each node of the front, what its cells have: `of(cell, its nodes)`, a row.
-template <typename Of>
-Points sumsAround(const Mesh& layer, const Of& of)
+/// The nodes of the front of a layer, with the cells around them on all processes.
+class Front
 {
-  Points sums = Points::Zero(layer.layer.nodes, 3);
-  for (Index c = 0; c < layer.numberOfCells(); ++c)
+public:
+  Front(const Mesh& layer, const Communicator& processes)
+    : layer_(layer)
+    , processes_(processes)
+    , rows_(processes.rows(consecutive(layer.layer.nodes)))
   {
-    const std::vector<Index> nodes = frontNodes(layer, c);
-    const Eigen::RowVector3d value =
-      nodes.empty() ? Eigen::RowVector3d(0, 0, 0) : Eigen::RowVector3d(of(c, nodes));
-    for (const Index node : nodes)
+  }
+
+  /// Adds, at each node, what its cells have: `of(cell, its nodes)`, a row.
+  template <typename Of>
+  Points sums(const Of& of) const
+  {
+    Points sums = Points::Zero(this->layer_.layer.nodes, 3);
+    for (Index c = 0; c < this->layer_.numberOfCells(); ++c)
     {
-      sums.row(node) += value;
+      const std::vector<Index> nodes = frontNodes(this->layer_, c);
+      const bool counts = !nodes.empty() && !this->processes_.isCopy(c);
+      const Eigen::RowVector3d value =
+        counts ? Eigen::RowVector3d(of(c, nodes)) : Eigen::RowVector3d(0, 0, 0);
+      for (const Index node : nodes)
+      {
+        sums.row(node) += value;
+      }
     }
+    this->rows_->add(sums);
+    return sums;
   }
-  return sums;
-}
 
-/// The sum of the areas around each node of the front, which inside the surface does not depend on
-/// the node's own place.
-Points areasAround(const Mesh& layer, const Points& points)
-{
-  return sumsAround(layer,
-    [&](Index c, const std::vector<Index>&) -> Eigen::RowVector3d
-    { return areaOf(points, frontOf(layer, c)); });
-}
-
-/// The mean over the neighborhood of each node, cell by cell.
-Points widened(const Mesh& layer, Points areas)
-{
-  for (int ring = 0; ring < Rings; ++ring)
+  /// The sum of the areas around each node, which inside the surface does not depend on the node's
+  /// own place.
+  Points areas(const Points& points) const
   {
-    areas = sumsAround(layer,
-      [&](Index, const std::vector<Index>& nodes) -> Eigen::RowVector3d
-      { return areas(nodes, allColumns).colwise().mean(); });
+    return this->sums([&](Index c, const std::vector<Index>&) -> Eigen::RowVector3d
+      { return areaOf(points, frontOf(this->layer_, c)); });
   }
-  return areas;
-}
+
+  /// The mean over the neighborhood of each node, cell by cell.
+  Points widened(Points areas) const
+  {
+    for (int ring = 0; ring < Rings; ++ring)
+    {
+      areas = this->sums([&](Index, const std::vector<Index>& nodes) -> Eigen::RowVector3d
+        { return areas(nodes, allColumns).colwise().mean(); });
+    }
+    return areas;
+  }
+
+private:
+  const Mesh& layer_;
+  const Communicator& processes_;
+  std::unique_ptr<CopiedRows> rows_;
+};
 
 /// The unit normals at each node: of the areas around it, or zero where they have none.
 Points normalized(Points areas)
@@ -339,8 +576,9 @@ void placeBetween(const Mesh& rest, Points& moved)
 class Layer
 {
 public:
-  explicit Layer(const Mesh& plane, Mesh& mesh)
+  explicit Layer(const Mesh& plane, const Communicator& processes, Mesh& mesh)
     : plane_(plane)
+    , processes_(processes)
     , mesh_(mesh)
     , count_(plane.numberOfNodes())
     , middle_(plane.numberOfNodes(), -1)
@@ -387,7 +625,7 @@ public:
     if (shape.dimension == 2)
     {
       throw Error("The mesh of faces has a " + std::string(shape.name) + ", cell " +
-                  std::to_string(cell) +
+                  std::to_string(this->idOf(cell)) +
                   ". Triangles and quadrilaterals, linear or with nodes in the middle of their "
                   "edges, are morphed. Divide the others.");
     }
@@ -396,10 +634,13 @@ public:
 
 private:
   const Mesh& plane_;
+  const Communicator& processes_;
   Mesh& mesh_;
   Index count_;
   std::vector<Index> middle_, middles_;
   Index next_;
+
+  Index idOf(Index cell) const { return this->processes_.idsOfCells({ cell }).front(); }
 
   Index middleOf(Index node)
   {
@@ -422,7 +663,7 @@ private:
     if (corners.size() < 3)
     {
       throw Error("The mesh of faces has a cell with fewer than three different corners: cell " +
-                  std::to_string(this->mesh_.numberOfCells()) + ". Remove it.");
+                  std::to_string(this->idOf(this->mesh_.numberOfCells())) + ". Remove it.");
     }
     this->prism(corners.size() == 3 ? Wedge : Hexahedron, corners, {});
   }
@@ -447,18 +688,18 @@ private:
 };
 }
 
-Mesh thicken(const Mesh& shell)
+Mesh thicken(const Mesh& shell, const Communicator& processes)
 {
   validate(shell); // as cells are read by their types
   Mesh mesh;
-  Layer layer(shell, mesh);
+  Layer layer(shell, processes, mesh);
   for (Index c = 0; c < shell.numberOfCells(); ++c)
   {
     layer.add(c);
   }
-  mesh.layer = layerOf(mesh, shell.points);
+  mesh.layer = layerOf(mesh, shell.points, processes);
   const Index count = shell.numberOfNodes(), middles = static_cast<Index>(layer.middles().size());
-  const std::vector<std::int8_t> windings = windingsOf(mesh, shell.points);
+  const std::vector<std::int8_t> windings = windingsOf(mesh, shell.points, processes);
   for (Index c = 0; c < mesh.numberOfCells(); ++c)
   {
     if (windings[c] < 0)
@@ -469,9 +710,10 @@ Mesh thicken(const Mesh& shell)
   Points across = mesh.layer.normal.replicate(count, 1);
   if (mesh.layer.isCurved())
   {
-    const Points sizes = sumsAround(mesh, [&](Index c, const std::vector<Index>&)
+    const Front front(mesh, processes);
+    const Points sizes = front.sums([&](Index c, const std::vector<Index>&)
       { return Eigen::RowVector3d(areaOf(shell.points, frontOf(mesh, c)).stableNorm(), 0, 0); });
-    across = areasAround(mesh, shell.points);
+    across = front.areas(shell.points);
     std::vector<Index> cancelled;
     for (Index node = 0; node < count; ++node)
     {
@@ -483,7 +725,8 @@ Mesh thicken(const Mesh& shell)
     if (!cancelled.empty())
     {
       throw Error("The shell turns back on itself, so that it has no normal at node ids " +
-                  listIds(cancelled) + ". Separate its sheets there, or widen the fold.");
+                  listIds(processes.idsOf(cancelled)) +
+                  ". Separate its sheets there, or widen the fold.");
     }
     across = normalized(std::move(across));
   }
@@ -495,7 +738,7 @@ Mesh thicken(const Mesh& shell)
   return mesh;
 }
 
-bool leavesPlane(const Mesh& rest, const ConstPoints& points)
+bool leavesPlane(const Mesh& rest, const ConstPoints& points, const Communicator& processes)
 {
   const ShellLayer& layer = rest.layer;
   if (layer.nodes == 0 || layer.isCurved())
@@ -503,18 +746,16 @@ bool leavesPlane(const Mesh& rest, const ConstPoints& points)
     return false;
   }
   Eigen::AlignedBox3d box;
-  double least = std::numeric_limits<double>::infinity(), most = -least; // of heights
+  Heights heights;
   for (Index node = 0; node < layer.nodes; ++node)
   {
     if (points.row(node).allFinite()) // else it is of no cell
     {
-      const double height = (points.row(node) - rest.points.row(node)).dot(layer.normal);
-      least = std::min(least, height);
-      most = std::max(most, height);
+      heights.add((points.row(node) - rest.points.row(node)).dot(layer.normal));
       box.extend(points.row(node).transpose());
     }
   }
-  return most - least > 2 * Flatness * box.diagonal().stableNorm();
+  return heights.range(processes) > 2 * Flatness * joined(box, processes).diagonal().stableNorm();
 }
 
 void requireRegion(const Mesh& mesh)
@@ -527,11 +768,11 @@ void requireRegion(const Mesh& mesh)
   }
 }
 
-Mesh bent(Mesh mesh)
+Mesh bent(Mesh mesh, const Communicator& processes)
 {
   mesh.layer.normal.setZero();
   Points points = mesh.points;
-  placeImages(mesh, points);
+  placeImages(mesh, points, processes);
   mesh.points.swap(points);
   return mesh;
 }
@@ -559,19 +800,20 @@ BoundaryFaces frontFaces(const Mesh& mesh)
   return facesAt(mesh, places);
 }
 
-void placeImages(const Mesh& rest, Points& moved)
+void placeImages(const Mesh& rest, Points& moved, const Communicator& processes)
 {
   const Index count = rest.layer.nodes;
   if (!rest.layer.isCurved())
   {
     return;
   }
+  const Front front(rest, processes);
   // Where cells around a node are folded over, their sum is no normal, and the wider neighborhood
   // tells it. At a sharp bend of the undeformed shell the two differ without a fold.
   const auto bothAt = [&](const Points& points)
   {
-    Points areas = areasAround(rest, points);
-    Points wide = normalized(widened(rest, areas));
+    Points areas = front.areas(points);
+    Points wide = normalized(front.widened(areas));
     return std::make_pair(normalized(std::move(areas)), std::move(wide));
   };
   const auto atRest = bothAt(rest.points);
@@ -632,11 +874,12 @@ void markImages(const ShellLayer& layer, std::vector<std::uint8_t>& marks)
   std::copy_n(marks.begin(), layer.nodes, marks.begin() + layer.nodes);
 }
 
-void keepInPlane(const Mesh& rest, const std::vector<Index>& ids, Points& moved)
+void keepInPlane(
+  const Mesh& rest, const std::vector<Index>& ids, Points& moved, const Communicator& processes)
 {
   if (rest.layer.isCurved())
   {
-    return placeImages(rest, moved);
+    return placeImages(rest, moved, processes);
   }
   for (const auto& [k, l] : imagesAmong(rest.layer, ids))
   {

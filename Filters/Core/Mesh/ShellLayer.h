@@ -3,6 +3,7 @@
 
 #include "Mesh/Mesh.h"
 #include "Mesh/Topology.h"
+#include "Support/Communicator.h"
 
 #include <cstdint>
 #include <utility>
@@ -25,14 +26,20 @@ namespace morph
 /// Throws Error for a mesh without area, and for cells other than vertices, lines, triangles and
 /// quadrilaterals, linear or quadratic. It throws for shells with one side alone or without a
 /// normal at a node, too. Cost: passes over the mesh.
-Mesh thicken(const Mesh& shell);
+///
+/// `processes`: that have parts of the shell, each with copies of the cells around its nodes. The
+/// layer is that of the whole shell then, at all nodes here. Each process has some nodes, perhaps of
+/// no cell. Collective.
+Mesh thicken(const Mesh& shell, const Communicator& processes = Communicator::alone());
 
 /// Whether nodes of a plane layer, at `points`, leave its plane by more than 1e-6 of its size.
 /// `points`: of the front, and of any others after these. Nodes that are off it in the undeformed
-/// mesh, as those of beams, do not.
-bool leavesPlane(const Mesh& rest, const ConstPoints& points);
+/// mesh, as those of beams, do not. Collective.
+bool leavesPlane(const Mesh& rest, const ConstPoints& points,
+  const Communicator& processes = Communicator::alone());
 /// A plane layer as a curved one that is as thick, for motions that leave the plane.
-Mesh bent(Mesh mesh);
+/// Collective.
+Mesh bent(Mesh mesh, const Communicator& processes = Communicator::alone());
 
 /// Throws Error for a curved layer, whose nodes span no region that could be tessellated.
 void requireRegion(const Mesh& mesh);
@@ -44,8 +51,10 @@ BoundaryFaces frontFaces(const Mesh& mesh);
 /// normals that the surface has where it has moved. `moved`: #nodes x 3, whose front is read. So a
 /// cell that is folded over lies against the normals around it, as these turn along with the
 /// surface. Where folded cells leave a node no normal of its own, it has that of three rings of
-/// cells. Other meshes stay. Cost: some passes over the cells.
-void placeImages(const Mesh& rest, Points& moved);
+/// cells. Other meshes stay. `processes`: that have the mesh, or parts of it without copies of
+/// cells. Cost: some passes over the cells. Collective.
+void placeImages(
+  const Mesh& rest, Points& moved, const Communicator& processes = Communicator::alone());
 
 /// Returns the points of all nodes of a layer where those of its front are `front`.
 Points layerBehind(const Mesh& rest, const ConstPoints& front);
@@ -64,5 +73,7 @@ void markImages(const ShellLayer& layer, std::vector<std::uint8_t>& marks);
 
 /// Moves the nodes `ids`, ascending, of a plane layer into their plane, and both images of a node
 /// alike; of a curved one, placeImages(). `moved`: #nodes x 3. Nothing happens without a layer.
-void keepInPlane(const Mesh& rest, const std::vector<Index>& ids, Points& moved);
+/// Collective.
+void keepInPlane(const Mesh& rest, const std::vector<Index>& ids, Points& moved,
+  const Communicator& processes = Communicator::alone());
 }

@@ -16,6 +16,7 @@ public:
   /// `method`: one that has copyWithoutCells(), not prepared. `bodyOfNode`: see bodyOfNodes(); of
   /// the mesh that is prepared, if it has cells, none is needed.
   explicit BodyByBody(std::unique_ptr<Morpher> method, std::vector<Index> bodyOfNode = {});
+  void requireMesh(const Mesh& rest) const override { this->method_->requireMesh(rest); }
 
 protected:
   /// Throws Error of kind Singular where a body has free nodes and no prescribed one.

@@ -6,18 +6,19 @@
 
 namespace morph
 {
-void Followers::prepare(const Mesh& rest, const NodePartition& partition)
+void Followers::prepare(
+  const Mesh& rest, const NodePartition& partition, const Communicator& processes)
 {
   this->nodes_.prepare(rest, partition);
   this->moved_ = {};
   this->fits_ = {};
-  if (!this->empty() && rest.layer.isCurved())
+  if (rest.layer.isCurved() && !processes.all(this->empty()))
   {
     this->moved_.prescribed = partition.prescribed;
     this->moved_.higherOrderNodes = partition.higherOrderNodes;
     std::merge(partition.free.begin(), partition.free.end(), partition.higherOrderNodes.begin(),
       partition.higherOrderNodes.end(), std::back_inserter(this->moved_.free));
-    this->fits_ = ShellFits(rest, this->moved_);
+    this->fits_ = ShellFits(rest, this->moved_, processes);
   }
 }
 

@@ -14,8 +14,9 @@ namespace morph
 class Followers
 {
 public:
-  /// Cost: as HigherOrderNodes, and ShellFits in a curved layer.
-  void prepare(const Mesh& rest, const NodePartition& partition);
+  /// `processes`: see ShellFits. Cost: as HigherOrderNodes, and ShellFits in a curved layer.
+  /// Collective, as apply() and applyTranspose() are in a curved layer.
+  void prepare(const Mesh& rest, const NodePartition& partition, const Communicator& processes);
   bool empty() const { return this->nodes_.empty(); }
   /// Fills the followers' rows of `displacement`, #nodes x 3, from all others.
   void apply(Points& displacement) const;

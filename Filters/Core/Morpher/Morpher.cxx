@@ -135,6 +135,7 @@ void Morpher::prepareFor(const Mesh& rest, std::shared_ptr<const Points> points,
   this->prepared_ = false; // until all members below are consistent
   validate(rest);
   requireIndexable(rest);
+  this->requireMesh(rest);
   const Communicator& processes = this->processes();
   if (processes.all(partition->prescribed.empty()))
   {
@@ -145,12 +146,12 @@ void Morpher::prepareFor(const Mesh& rest, std::shared_ptr<const Points> points,
   this->copies_ = processes.rows();
   this->partition_ = countedHere(std::move(partition), this->copies_->countedElsewhere());
   this->outside_ = outside(this->partition(), rest.points.rows());
-  this->higherOrderNodes_.prepare(rest, this->partition());
+  this->higherOrderNodes_.prepare(rest, this->partition(), processes);
   this->normal_ = rest.layer.normal;
   this->images_ = imagesAmong(rest.layer, this->partition().free);
   this->shell_ = rest.layer.isCurved() ? std::make_shared<Mesh>(rest) : nullptr;
   this->prescribedImages_ = curvedImages(rest.layer, this->partition().prescribed);
-  this->fits_ = ShellFits(rest, this->partition());
+  this->fits_ = ShellFits(rest, this->partition(), processes);
   monitor.check();
   this->isComplete_ =
     processes.all(this->higherOrderNodes_.empty() && this->copies_->countedElsewhere().empty());
@@ -316,7 +317,7 @@ EvaluateReport Morpher::evaluate(
       result(ids, allColumns) = prescribed;
       if (this->shell_)
       {
-        placeImages(*this->shell_, result);
+        placeImages(*this->shell_, result, this->processes());
       }
       if (&result == &fresh)
       {

@@ -92,6 +92,9 @@ public:
   /// Takes the options that evaluate() alone reads from an object of the same class. By default
   /// there are none.
   virtual void takeEvaluateOptions(const Morpher& other);
+  /// Throws Error for a mesh that the method cannot move, as one without a region to tessellate.
+  /// prepare() calls it.
+  virtual void requireMesh(const Mesh& /*rest*/) const {}
 
   const NodePartition& partition() const { return *this->partition_; }
   const Points& restPoints() const { return *this->rest_; }

@@ -3,15 +3,20 @@
 
 #include "Mesh/Topology.h"
 
+#include <algorithm>
+#include <iterator>
+
 namespace morph
 {
-ShellFits::ShellFits(const Mesh& rest, const NodePartition& partition)
+ShellFits::ShellFits(
+  const Mesh& rest, const NodePartition& partition, const Communicator& processes)
 {
   if (!rest.layer.isCurved())
   {
     return;
   }
-  const ConnectedComponents bodies = connectedComponents(rest);
+  Monitor serial;
+  const ConnectedComponents bodies = connectedComponents(rest, serial, processes);
   const std::vector<Index> bodyOf = bodyOfNodes(rest, bodies);
   this->bodies_.resize(bodies.count);
   const auto sort = [&](const std::vector<Index>& nodes, std::vector<Index> Body::*list)
@@ -38,9 +43,13 @@ ShellFits::ShellFits(const Mesh& rest, const NodePartition& partition)
   };
   for (Body& body : this->bodies_)
   {
+    body.processes = &processes;
+    std::copy_if(body.prescribed.begin(), body.prescribed.end(), std::back_inserter(body.counted),
+      [&](Index i) { return processes.owns(partition.prescribed[i]); });
     body.prescribedPlaces = placesOf(partition.prescribed, body.prescribed);
     body.freePlaces = placesOf(partition.free, body.free);
-    body.leastSquares = AffineLeastSquares(body.prescribedPlaces, body.freePlaces);
+    body.leastSquares =
+      AffineLeastSquares(placesOf(partition.prescribed, body.counted), body.freePlaces, processes);
   }
 }
 
@@ -49,7 +58,7 @@ std::vector<AffineFit> ShellFits::takeOff(Points& prescribed) const
   std::vector<AffineFit> fits;
   for (const Body& body : this->bodies_)
   {
-    fits.push_back(body.leastSquares.fit(prescribed(body.prescribed, allColumns)));
+    fits.push_back(body.leastSquares.fit(prescribed(body.counted, allColumns), *body.processes));
     for (std::size_t i = 0; i < body.prescribed.size(); ++i)
     {
       prescribed.row(body.prescribed[i]) -=
@@ -77,10 +86,11 @@ void ShellFits::transpose(const Points& free, Points& prescribed) const
   {
     // u = F_x U + M (U - F_b U), hence the adjoint F_x^T g + (I - F_b^T) M^T g.
     const Points ofRest = prescribed(body.prescribed, allColumns);
-    Points result = ofRest;
-    body.leastSquares.fitTranspose(body.freePlaces, free(body.free, allColumns), result);
-    body.leastSquares.fitTranspose(body.prescribedPlaces, -ofRest, result);
-    prescribed(body.prescribed, allColumns) = result;
+    Points result = prescribed(body.counted, allColumns);
+    body.leastSquares.fitTranspose(
+      body.freePlaces, free(body.free, allColumns), result, *body.processes);
+    body.leastSquares.fitTranspose(body.prescribedPlaces, -ofRest, result, *body.processes);
+    prescribed(body.counted, allColumns) = result;
   }
 }
 }

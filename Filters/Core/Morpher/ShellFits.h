@@ -4,6 +4,7 @@
 #include "Geometry/AffineFit.h"
 #include "Mesh/Mesh.h"
 #include "Mesh/NodePartition.h"
+#include "Support/Communicator.h"
 
 #include <vector>
 
@@ -12,13 +13,15 @@ namespace morph
 /// The affine part of the motion of a curved layer, of each body: the fit of its prescribed nodes.
 /// On a curved surface the Laplacian of the position is the curvature normal, so the equations of a
 /// membrane do not reproduce affine motions. The fit is taken off before they are solved for the
-/// rest, and added to what they find. Images count as at their nodes.
+/// rest, and added to what they find. Images count as at their nodes. Of several processes, all
+/// functions but empty() are collective.
 class ShellFits
 {
 public:
   ShellFits() = default;
-  /// Of another mesh there are none. Cost: passes over the mesh.
-  ShellFits(const Mesh& rest, const NodePartition& partition);
+  /// Of another mesh there are none. `processes`: that have the mesh, with copies of cells; held by
+  /// reference. Cost: passes over the mesh.
+  ShellFits(const Mesh& rest, const NodePartition& partition, const Communicator& processes);
 
   bool empty() const { return this->bodies_.empty(); }
   /// Takes the fits off displacements of the prescribed nodes, #prescribed x 3, and returns them.
@@ -33,8 +36,10 @@ private:
   struct Body
   {
     std::vector<Index> prescribed, free; ///< places in the lists of the partition
+    std::vector<Index> counted; ///< those of the prescribed nodes that count on this process
     Points prescribedPlaces, freePlaces;
     AffineLeastSquares leastSquares;
+    const Communicator* processes;
   };
   std::vector<Body> bodies_;
 };

@@ -19,6 +19,7 @@ public:
   /// `method`: one that has copyWithoutCells().
   explicit SiteMethod(std::unique_ptr<Morpher> method);
   int layers() const override { return 1; }
+  void requireMesh(const Mesh& rest) const override { this->method_->requireMesh(rest); }
 
 protected:
   void doPrepare(const Mesh& rest, Monitor& monitor) override;

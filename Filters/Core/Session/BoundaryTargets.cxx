@@ -52,21 +52,6 @@ void verifyRestPositions(const NamedPoints& named, const Mesh& rest, double tole
   }
 }
 
-/// Makes a boundary of a layer that of the plane mesh: points stand for nodes of the front, and for
-/// their images. Nodes between them are in the middle of edges, and follow these.
-void nameImages(const ShellLayer& layer, NamedPoints& named)
-{
-  auto& pairs = named.pairs;
-  pairs.erase(std::remove_if(pairs.begin(), pairs.end(),
-                [&](const auto& pair) { return pair.second >= layer.nodes; }),
-    pairs.end());
-  const std::size_t front = pairs.size();
-  for (std::size_t k = 0; k < front; ++k)
-  {
-    pairs.emplace_back(pairs[k].first, pairs[k].second + layer.nodes);
-  }
-}
-
 /// Keeps the targets of a plane layer's nodes in their plane, unless the boundary leaves it by more
 /// than 1e-6 of the size. Returns the nodes that do. `targets`: of named.pairs, those of images
 /// being the front's, which they follow.
@@ -196,6 +181,19 @@ void holdUnnamed(const BoundaryFaces& outer, const Mesh& rest, double size, cons
     }
   }
 }
+}
+
+void nameImages(const ShellLayer& layer, NamedPoints& named)
+{
+  auto& pairs = named.pairs;
+  pairs.erase(std::remove_if(pairs.begin(), pairs.end(),
+                [&](const auto& pair) { return pair.second >= layer.nodes; }),
+    pairs.end());
+  const std::size_t front = pairs.size();
+  for (std::size_t k = 0; k < front; ++k)
+  {
+    pairs.emplace_back(pairs[k].first, pairs[k].second + layer.nodes);
+  }
 }
 
 void gatherPoints(const Communicator& processes, NamedPoints& named)
@@ -377,12 +375,15 @@ void conclude(const TargetOptions& options, BoundaryTargets& result)
   }
 }
 
-void requirePlane(const BoundaryTargets& result)
+void requirePlane(const BoundaryTargets& result, const Communicator& processes)
 {
-  if (!result.leaving.empty())
+  std::vector<Index> leaving;
+  std::copy_if(result.leaving.begin(), result.leaving.end(), std::back_inserter(leaving),
+    [&](Index node) { return processes.owns(node); });
+  leaving = processes.gatherNodes(leaving);
+  if (!leaving.empty())
   {
-    throw Error("The boundary of a plane mesh leaves its plane, at node ids " +
-                listIds(result.leaving) +
+    throw Error("The boundary of a plane mesh leaves its plane, at node ids " + listIds(leaving) +
                 ". Shapes and derivatives of a plane mesh are those in the plane: morph it out of "
                 "the plane first, and give them the curved shell.");
   }

@@ -56,6 +56,10 @@ struct NamedPoints
   Index valueless = 0;              ///< free points that have no displacement
 };
 
+/// Makes a boundary of a layer that of the plane mesh: points stand for nodes of the front, and for
+/// their images. Nodes between them are in the middle of edges, and follow these.
+void nameImages(const ShellLayer& layer, NamedPoints& named);
+
 /// Gives each process the points of all, one process after the other. Nodes are numbers in the
 /// whole mesh; `rest` counts where all points have it. Cost: 120 bytes a point on every process.
 /// Collective.
@@ -79,7 +83,8 @@ void countStaying(const Mesh& rest, const BoundaryFaces& outer,
 void conclude(const TargetOptions& options, BoundaryTargets& result);
 /// Throws Error, naming the nodes, where a plane mesh's boundary leaves the plane. For what is
 /// linear in the motion: the methods for a surface in space are others than those in a plane.
-void requirePlane(const BoundaryTargets& result);
+/// Collective.
+void requirePlane(const BoundaryTargets& result, const Communicator& processes);
 /// Passes its warnings on, and warns where all prescribed nodes move, and others of the boundary
 /// are open: nothing holds the mesh then.
 void warnOf(const BoundaryTargets& result, Monitor& monitor);

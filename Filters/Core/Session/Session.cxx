@@ -232,16 +232,16 @@ bool Session::countsHere(Index node) const
 StepResult Session::morphStep(const Mesh& from, const BoundaryTargets& boundary,
   const AffineHandle* handle, const Options& options, Monitor& monitor)
 {
-  if (!from.layer.isCurved() &&
-      (!boundary.leaving.empty() || leavesPlane(this->mesh_->mesh(), from.points)))
+  const Communicator& processes = this->all();
+  const bool isFlat = processes.all(boundary.leaving.empty() || from.layer.isCurved());
+  if (!isFlat || leavesPlane(this->mesh_->mesh(), from.points, processes))
   {
-    return this->morphStep(bent(from), boundary, handle, options, monitor);
+    return this->morphStep(bent(from, processes), boundary, handle, options, monitor);
   }
   const bool isBent = from.layer.isCurved() && !this->mesh_->mesh().layer.isCurved();
-  const Mesh ofBent = isBent ? bent(this->mesh_->mesh()) : Mesh();
+  const Mesh ofBent = isBent ? bent(this->mesh_->mesh(), processes) : Mesh();
   const Mesh& rest = isBent ? ofBent : this->mesh_->mesh();
   const HangingNodes& hanging = this->mesh_->hanging();
-  const Communicator& processes = this->all();
   const bool onPieces = this->mesh_->needsPieces();
   requireTargets(boundary, processes);
   if (std::vector<Index> ids = this->mesh_->prescribedFor(boundary.ids);
@@ -278,7 +278,7 @@ StepResult Session::morphStep(const Mesh& from, const BoundaryTargets& boundary,
   const Stopwatch watch;
   StepResult result;
   const EvaluateReport report = this->evaluate(boundary.targets, handle, result.moved, evaluating);
-  placeImages(from, result.moved); // of a sum of modes
+  placeImages(from, result.moved, processes); // of a sum of modes
   if (validity.isInversionFree && onPieces)
   {
     auto repairing = part(0.45, 0.5);
@@ -340,7 +340,7 @@ StepResult Session::morphStep(const Mesh& from, const BoundaryTargets& boundary,
   {
     result.valid = { "Unmeasured", std::numeric_limits<double>::quiet_NaN() };
   }
-  keepInPlane(rest, partition.free, result.moved); // after smoothing and repairs
+  keepInPlane(rest, partition.free, result.moved, processes); // after smoothing and repairs
   this->attached_.apply(result.moved);
   const Parting parting =
     partingNodes(rest, this->mesh_->outerFaces(), rest.points, result.moved, this->mesh_->size());

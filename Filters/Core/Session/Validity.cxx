@@ -233,7 +233,7 @@ bool Validity::repair(Points& moved, Monitor& monitor) const
       this->processes);
     Points repaired = moved;
     repair.repair(repaired, second);
-    placeImages(this->mesh, repaired);
+    placeImages(this->mesh, repaired, this->all());
     const Index left = this->count(bad(repaired));
     if (left < least)
     {

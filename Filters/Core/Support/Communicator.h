@@ -82,7 +82,8 @@ public:
     return this->part(nodes)->rows();
   }
   ///@}
-  /// Returns the communicator of a part of the mesh, whose node i is `nodes`[i] here.
+  /// Returns the communicator of a part of the mesh, whose node i is `nodes`[i] here. No cell of it
+  /// is a copy.
   virtual std::unique_ptr<Communicator> part(const std::vector<Index>& nodes) const;
 
   /// Of a whole mesh, whose cells a process has with copies of those around its nodes.

@@ -332,7 +332,7 @@ InversionFree::Outcome InversionFree::improveInTurns(const std::vector<Index>& h
   // A curved shell's tangent planes are those of the start. The result has others.
   for (int turn = 0; turn < Turns && this->own_->mesh().layer.isCurved(); ++turn)
   {
-    placeImages(this->own_->mesh(), points);
+    placeImages(this->own_->mesh(), points, this->own_->communicator());
     if (this->quality(hopeless).measure(points, monitor).inverted == 0)
     {
       break;

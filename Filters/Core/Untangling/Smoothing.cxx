@@ -54,8 +54,8 @@ void Smoothing::doPrepare(const Mesh& rest, Monitor& monitor)
   if (rest.layer.isCurved())
   {
     this->membrane_ = std::make_unique<FemWarp>();
-    this->membrane_->prepare(rest, this->partition(), monitor);
-    this->membraneFits_ = ShellFits(rest, this->partition());
+    this->prepareAlike(*this->membrane_, rest, monitor);
+    this->membraneFits_ = ShellFits(rest, this->partition(), processes);
   }
 }
 
@@ -83,16 +83,22 @@ Quality Smoothing::measure(Points& points, Monitor& monitor) const
   return quality;
 }
 
+bool Smoothing::startOfShell(const Points& prescribed, Points& points, Monitor& monitor) const
+{
+  const OwnCells& own = *this->own_;
+  const Communicator& processes = own.communicator();
+  Points moved, left = prescribed;
+  this->membrane_->evaluate(
+    Points(this->restPoints()(this->partition().prescribed, allColumns) + prescribed), moved,
+    monitor);
+  points = own.take(moved);
+  this->membraneFits_.takeOff(left);
+  const double tolerance = Affine * processes.maximum(meshSize(own.mesh())); // or a part of it
+  return processes.all((left.array().abs() <= tolerance).all());
+}
+
 bool Smoothing::start(const Points& prescribed, Points& points, Monitor& monitor) const
 {
-  if (this->membrane_)
-  {
-    this->membrane_->evaluate(
-      Points(points(this->own_->partition().prescribed, allColumns)), points, monitor);
-    Points left = prescribed;
-    this->membraneFits_.takeOff(left);
-    return left.cwiseAbs().maxCoeff() <= Affine * meshSize(this->own_->mesh());
-  }
   Points followed = points;
   const bool isAffine = followAffinely(this->own_->mesh(), this->bodies_, this->own_->partition(),
     prescribed, followed, this->own_->communicator());
@@ -128,7 +134,8 @@ EvaluateReport Smoothing::displace(const Points& prescribed, Points& free, Monit
     }
     determined = inversionsByBoundaryMotion(
       rest, own.partition(), own.orientation(), rest.points, points, monitor);
-    const bool isAffine = this->start(ofOwn, points, monitor);
+    const bool isAffine = this->membrane_ ? this->startOfShell(prescribed, points, monitor)
+                                          : this->start(ofOwn, points, monitor);
     const Points start = points;
     smoothing = smoothMesh(rest, own.orientation(), own.partition(), this->options_, points,
       monitor, own.communicator());

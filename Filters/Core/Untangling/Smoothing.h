@@ -59,6 +59,8 @@ private:
   /// Sets the free nodes of `points` (undeformed, with the prescribed nodes moved) to the start.
   /// Returns whether both the boundary and the start move affinely.
   bool start(const Points& prescribed, Points& points, Monitor& monitor) const;
+  /// The same of a curved shell. `prescribed`: displacements of partition().prescribed.
+  bool startOfShell(const Points& prescribed, Points& points, Monitor& monitor) const;
 
   SmoothingOptions options_;
   std::unique_ptr<OwnCells> own_;

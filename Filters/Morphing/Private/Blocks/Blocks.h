@@ -69,7 +69,7 @@ public:
   vtkDataObject* Tell(morph::Monitor& monitor) const;
   ///@}
   /// What Gather() has returned or, if it is a plane mesh, the solid to morph; see ShellGrid.
-  vtkDataObject* Thicken(vtkDataObject* mesh) { return this->Plane.Thicken(mesh); }
+  ShellGrid& Shell() { return this->Plane; }
 
   /// The blocks of the last input; null where it was not composite.
   const MergedBlocks* Merged() const;

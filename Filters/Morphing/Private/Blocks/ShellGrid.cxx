@@ -16,45 +16,39 @@
 #include <vtkDoubleArray.h>
 #include <vtkFieldData.h>
 #include <vtkIdList.h>
+#include <vtkIdTypeArray.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkUnstructuredGrid.h>
 
+#include <algorithm>
 #include <vector>
 
 namespace morph::filters
 {
 namespace
 {
-void insertCells(const morph::Mesh& mesh, vtkUnstructuredGrid* grid)
+/// The first `count` cells.
+void insertCells(const morph::Mesh& mesh, vtkIdType count, vtkUnstructuredGrid* grid)
 {
-  grid->AllocateExact(mesh.numberOfCells(), static_cast<vtkIdType>(mesh.connectivity.size()));
+  grid->AllocateExact(count, mesh.offsets[count]);
   std::vector<vtkIdType> corners;
-  for (morph::Index c = 0; c < mesh.numberOfCells(); ++c)
+  for (vtkIdType c = 0; c < count; ++c)
   {
     corners.assign(mesh.cell(c), mesh.cell(c) + mesh.cellSize(c));
     grid->InsertNextCell(mesh.types[c], mesh.cellSize(c), corners.data());
   }
 }
 
-/// `mesh` with all arrays of `from`, whose points are mesh.layer's and whose cells are the mesh's.
-vtkSmartPointer<vtkUnstructuredGrid> solidOf(const morph::Mesh& mesh, vtkUnstructuredGrid* from)
+/// Of each node of a layer that of the front that it is behind.
+std::vector<vtkIdType> imagesOf(const morph::Mesh& mesh)
 {
-  const vtkIdType front = from->GetNumberOfPoints(), nodes = mesh.numberOfNodes();
-  auto grid = vtkSmartPointer<vtkUnstructuredGrid>::New();
-  auto points = Arrays::MakePoints(from->GetPoints()->GetDataType(), nodes);
-  for (vtkIdType i = 0; i < nodes; ++i)
+  std::vector<vtkIdType> image(mesh.numberOfNodes());
+  for (morph::Index i = 0; i < 2 * mesh.layer.nodes; ++i)
   {
-    points->SetPoint(i, mesh.points.row(i).data());
-  }
-  grid->SetPoints(points);
-  insertCells(mesh, grid);
-  std::vector<vtkIdType> image(nodes);
-  for (vtkIdType i = 0; i < 2 * front; ++i)
-  {
-    image[i] = i % front;
+    image[i] = i % mesh.layer.nodes;
   }
   for (morph::Index c = 0; c < mesh.numberOfCells(); ++c)
   {
@@ -66,16 +60,44 @@ vtkSmartPointer<vtkUnstructuredGrid> solidOf(const morph::Mesh& mesh, vtkUnstruc
       image[mesh.cell(c)[mesh.cellSize(c) - k]] = mesh.cell(c)[shape.numberOfCorners / 2 - k];
     }
   }
+  return image;
+}
+
+/// The solid with all arrays of `from`, whose points and cells are the first ones of its front.
+vtkSmartPointer<vtkUnstructuredGrid> gridOf(
+  const ShellGrid::Solid& solid, vtkUnstructuredGrid* from)
+{
+  const morph::Mesh& mesh = solid.Mesh;
+  const vtkIdType own = from->GetNumberOfPoints(), nodes = mesh.numberOfNodes();
+  auto grid = vtkSmartPointer<vtkUnstructuredGrid>::New();
+  auto points = Arrays::MakePoints(own > 0 ? from->GetPoints()->GetDataType() : VTK_FLOAT, nodes);
+  for (vtkIdType i = 0; i < nodes; ++i)
+  {
+    points->SetPoint(i, mesh.points.row(i).data());
+  }
+  grid->SetPoints(points);
+  insertCells(mesh, from->GetNumberOfCells(), grid);
+  const std::vector<vtkIdType> image = imagesOf(mesh);
   vtkPointData* arrays = grid->GetPointData();
   arrays->CopyGlobalIdsOff();
   arrays->CopyAllocate(from->GetPointData(), nodes);
   for (vtkIdType i = 0; i < nodes; ++i)
   {
-    arrays->CopyData(from->GetPointData(), image[i], i);
+    image[i] < own ? arrays->CopyData(from->GetPointData(), image[i], i) : arrays->NullData(i);
   }
   grid->GetCellData()->ShallowCopy(from->GetCellData());
   grid->GetFieldData()->ShallowCopy(from->GetFieldData());
-  GridMesh::MarkLayer(mesh.layer, grid);
+  if (!solid.FrontIds.empty())
+  {
+    auto ids = Arrays::Make<vtkIdTypeArray>("MorphGlobalPointId", nodes);
+    for (vtkIdType i = 0; i < nodes; ++i)
+    {
+      const vtkIdType behind = std::min<vtkIdType>(2, i / mesh.layer.nodes);
+      ids->SetValue(i, solid.FrontIds[image[i]] + behind * solid.NextId);
+    }
+    arrays->SetGlobalIds(ids);
+  }
+  GridMesh::MarkLayer(mesh.layer, own, grid);
   return grid;
 }
 
@@ -85,7 +107,7 @@ vtkSmartPointer<vtkUnstructuredGrid> gridOf(vtkPolyData* surface)
   const morph::Mesh mesh = BlockCells::Read(surface, "The input", GridMesh::UnknownCells::Refuse);
   auto grid = vtkSmartPointer<vtkUnstructuredGrid>::New();
   grid->SetPoints(surface->GetPoints());
-  insertCells(mesh, grid);
+  insertCells(mesh, mesh.numberOfCells(), grid);
   grid->GetPointData()->ShallowCopy(surface->GetPointData());
   grid->GetCellData()->ShallowCopy(surface->GetCellData());
   grid->GetFieldData()->ShallowCopy(surface->GetFieldData());
@@ -144,14 +166,23 @@ bool ShellGrid::IsShell(vtkDataObject* input)
          BlockCells::Dimension(vtkDataSet::SafeDownCast(input)) == 2;
 }
 
-vtkDataObject* ShellGrid::Thicken(vtkDataObject* input)
+bool ShellGrid::IsKept(vtkDataObject* input, bool areOnRanks) const
 {
   auto* grid = vtkUnstructuredGrid::SafeDownCast(input);
-  auto* surface = vtkPolyData::SafeDownCast(input);
-  const bool isKept =
-    grid ? this->Seen.Is(grid)
-         : surface && surface == this->Input && surface->GetMTime() == this->InputTime;
-  if (this->Thick && isKept)
+  const bool isSame = grid ? this->Seen.Is(grid)
+                           : input && input == this->Input && input->GetMTime() == this->InputTime;
+  return this->Thick && isSame &&
+         (this->Thick->GetPointData()->GetGlobalIds() != nullptr) == areOnRanks;
+}
+
+vtkDataObject* ShellGrid::Kept() const
+{
+  return this->Thick;
+}
+
+vtkDataObject* ShellGrid::Thicken(vtkDataObject* input)
+{
+  if (this->IsKept(input, false))
   {
     return this->Thick;
   }
@@ -160,13 +191,31 @@ vtkDataObject* ShellGrid::Thicken(vtkDataObject* input)
   {
     return input;
   }
-  vtkSmartPointer<vtkUnstructuredGrid> flat = grid;
-  if (surface)
+  const auto make = [](vtkUnstructuredGrid* flat)
   {
-    flat = gridOf(surface);
+    const auto unknown = GridMesh::UnknownCells::Refuse;
+    return Solid{ morph::thicken(BlockCells::Read(flat, "The input", unknown)), {} };
+  };
+  return this->ThickenBy(make, input);
+}
+
+vtkDataObject* ShellGrid::ThickenBy(
+  const std::function<Solid(vtkUnstructuredGrid* flat)>& make, vtkDataObject* input)
+{
+  *this = ShellGrid();
+  auto* grid = vtkUnstructuredGrid::SafeDownCast(input);
+  auto* surface = vtkPolyData::SafeDownCast(input);
+  vtkSmartPointer<vtkUnstructuredGrid> flat = grid;
+  if (!grid)
+  {
+    flat = surface ? gridOf(surface) : vtkSmartPointer<vtkUnstructuredGrid>::New();
   }
-  const morph::Mesh plane = BlockCells::Read(flat, "The input", GridMesh::UnknownCells::Refuse);
-  this->Thick = solidOf(morph::thicken(plane), flat);
+  const Solid solid = make(flat);
+  if (!grid && !surface)
+  {
+    return input; // of another type, or nothing: the caller refuses it
+  }
+  this->Thick = gridOf(solid, flat);
   this->Flat = flat;
   if (grid)
   {
@@ -179,7 +228,7 @@ vtkDataObject* ShellGrid::Thicken(vtkDataObject* input)
 
 void ShellGrid::Flatten(vtkUnstructuredGrid* output, bool withFaces) const
 {
-  GridMesh::MarkLayer({}, output);
+  GridMesh::MarkLayer({}, 0, output);
   const bool isOnSolid =
     this->Thick && output->GetNumberOfPoints() == this->Thick->GetNumberOfPoints();
   const bool areFaces = isOnSolid && output->GetCells() != this->Thick->GetCells();

@@ -226,7 +226,7 @@ Found Find(const morph::UndeformedMesh& rest, const morph::Mesh& grid, vtkUnstru
     [&](const morph::ConstPoints& written)
     {
       // The sides of a layer are the edges of a plane mesh; a shell crosses itself by its faces.
-      if (grid.layer.isCurved() || morph::leavesPlane(grid, written))
+      if (grid.layer.isCurved() || morph::leavesPlane(grid, written, rest.all()))
       {
         const morph::BoundaryFaces front = morph::frontFaces(grid);
         const std::vector<std::int8_t> alike(grid.numberOfCells(), 1);

@@ -208,16 +208,28 @@ morph::Mesh FromGrid(vtkUnstructuredGrid* grid, UnknownCells unknown, morph::Mon
 morph::ShellLayer LayerOf(vtkUnstructuredGrid* grid)
 {
   vtkDataArray* mark = grid->GetFieldData()->GetArray(LayerName);
-  if (!mark || mark->GetNumberOfValues() != 5)
+  if (!mark || mark->GetNumberOfValues() != 6)
   {
     return {};
   }
   const auto nodes = static_cast<morph::Index>(mark->GetComponent(0, 0));
-  return { 2 * nodes <= grid->GetNumberOfPoints() ? nodes : 0, mark->GetComponent(1, 0),
+  if (2 * nodes > grid->GetNumberOfPoints())
+  {
+    return {}; // a part of the layer
+  }
+  return { nodes, mark->GetComponent(1, 0),
     { mark->GetComponent(2, 0), mark->GetComponent(3, 0), mark->GetComponent(4, 0) } };
 }
 
-void MarkLayer(const morph::ShellLayer& layer, vtkUnstructuredGrid* grid)
+morph::Index PointsOfFront(vtkUnstructuredGrid* grid)
+{
+  vtkDataArray* mark = grid->GetFieldData()->GetArray(LayerName);
+  return mark && mark->GetNumberOfValues() == 6
+           ? static_cast<morph::Index>(mark->GetComponent(5, 0))
+           : static_cast<morph::Index>(grid->GetNumberOfPoints());
+}
+
+void MarkLayer(const morph::ShellLayer& layer, morph::Index points, vtkUnstructuredGrid* grid)
 {
   grid->GetFieldData()->RemoveArray(LayerName);
   if (layer.nodes > 0)
@@ -230,6 +242,7 @@ void MarkLayer(const morph::ShellLayer& layer, vtkUnstructuredGrid* grid)
     {
       mark->InsertNextValue(component);
     }
+    mark->InsertNextValue(static_cast<double>(points));
     grid->GetFieldData()->AddArray(mark);
   }
 }

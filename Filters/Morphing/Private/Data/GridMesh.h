@@ -30,10 +30,13 @@ morph::Mesh FromGrid(vtkUnstructuredGrid* grid, UnknownCells unknown, morph::Mon
 morph::Mesh FromGrid(vtkUnstructuredGrid* grid, UnknownCells unknown = UnknownCells::Refuse);
 ///@}
 
-/// Marks a grid as the layer of a mesh of faces, in its field data, for FromGrid(). A layer without
-/// nodes: removes the mark.
-void MarkLayer(const morph::ShellLayer& layer, vtkUnstructuredGrid* grid);
-/// The layer that a grid is marked as; one without nodes if it is none. Cost: none.
+/// Marks a grid as the layer of a mesh of faces, in its field data, for FromGrid(). No layer:
+/// removes the mark. `points`: of the mesh of faces; on several processes, copies of other
+/// processes' nodes come behind these in the front.
+void MarkLayer(const morph::ShellLayer& layer, morph::Index points, vtkUnstructuredGrid* grid);
+/// Those points of a marked grid; of any other, its points.
+morph::Index PointsOfFront(vtkUnstructuredGrid* grid);
+/// The layer that a grid is marked as; none if it has no mark, or not all nodes. Cost: none.
 morph::ShellLayer LayerOf(vtkUnstructuredGrid* grid);
 
 /// Copies `points` as double, #points x 3. A null pointer gives 0 x 3.

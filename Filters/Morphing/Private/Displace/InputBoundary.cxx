@@ -2,10 +2,11 @@
 #include "Private/Displace/InputBoundary.h"
 
 #include "Mesh/Extent.h"
+#include "Mesh/InnerFaces.h"
 #include "Private/Data/Arrays.h"
 #include "Private/Data/GridMesh.h"
 #include "Private/Data/Surface.h"
-#include "Private/Distributed/WholeSurface.h"
+#include "Private/Distributed/GatheredSurface.h"
 #include "Support/Error.h"
 #include "Support/Lists.h"
 
@@ -169,10 +170,6 @@ void InputBoundary::Update(vtkPointSet* input, const Options& options, morph::Mo
   }
   next.takeSets(
     FindNamedSets(input, next.mesh, next.faces, next.FirstPolygon(), next.inner.size()));
-  if (options.Whole)
-  {
-    next.RefuseInside(input, options.Names);
-  }
   AddNamedSets(next.namedSets, next.Polygons, next.FirstPolygon(), next.Written);
   next.Input = input;
   next.InputTime = input->GetMTime();
@@ -180,71 +177,56 @@ void InputBoundary::Update(vtkPointSet* input, const Options& options, morph::Mo
   *this = std::move(next);
 }
 
-void InputBoundary::RefuseInside(vtkPointSet* input, const std::set<std::string>& names) const
+bool InputBoundary::LieInside(const GatheredSurface& boundary, const std::set<std::string>& names)
 {
-  const auto refuse = [](const std::string& name)
+  std::map<morph::Corners, int> flat =
+    morph::flatCells(boundary.Shell, CellsOfNamedSets(boundary.Grid));
+  for (std::size_t f = 0; f < boundary.Faces.cells.size(); ++f)
   {
-    throw Error(
-      "The surface '" + name +
-      "' lies inside of the mesh, and on several MPI processes only the outer boundary "
-      "can be moved, held or slid. Use one process, or hold or move its nodes as a zone.");
+    flat.erase(morph::cornersOfCell(boundary.Shell, boundary.Faces, static_cast<Index>(f)));
+  }
+  std::set<std::string> outer;
+  for (const NamedSet& set : FindNamedSets(boundary.Grid, boundary.Shell, boundary.Faces, 0))
+  {
+    if (!set.faces.empty())
+    {
+      outer.insert(set.name);
+    }
+  }
+  const std::vector<std::string> sets = NamesOfSets(boundary.Grid);
+  const auto mayLieInside = [&](const std::string& name)
+  {
+    return name.find(" | ") != std::string::npos ||
+           (outer.count(name) == 0 && std::find(sets.begin(), sets.end(), name) != sets.end());
   };
-  std::set<std::string> unknown = names;
-  for (const NamedSet& set : this->namedSets)
-  {
-    unknown.erase(set.name);
-  }
-  for (const NamedSet& set : this->setsInside)
-  {
-    if (unknown.count(set.name) > 0)
-    {
-      refuse(set.name);
-    }
-  }
-  for (const std::string& name : unknown)
-  {
-    if (name.find(" | ") != std::string::npos)
-    {
-      refuse(name);
-    }
-  }
-  for (const morph::NamedNodes& set : NodeSets(input))
-  {
-    const auto found = std::find_if(this->namedSets.begin(), this->namedSets.end(),
-      [&](const NamedSet& other) { return other.name == set.name; });
-    const auto marked = std::count(set.isNode.begin(), set.isNode.end(), 1);
-    if (names.count(set.name) > 0 && found != this->namedSets.end() && found->faces.empty() &&
-        marked > static_cast<std::ptrdiff_t>(found->nodes.size()))
-    {
-      refuse(set.name);
-    }
-  }
+  return !flat.empty() || std::any_of(names.begin(), names.end(), mayLieInside);
 }
 
-void InputBoundary::TakeFaces(const WholeSurface& whole)
+void InputBoundary::TakeFaces(const GatheredSurface& whole)
 {
   this->inner = {};
   this->innerSurfaces.clear();
   this->asked.clear();
   this->Listed.clear();
   this->Sets.clear();
-  this->mesh = whole.Boundary().Shell;
-  this->bodyOfNode = whole.Boundary().BodyOfNode;
-  this->faces = whole.Boundary().Faces;
+  this->mesh = whole.Shell;
+  this->bodyOfNode = whole.BodyOfNode;
+  this->faces = whole.Faces;
   this->orientation.clear();
   for (const Index cell : this->faces.cells)
   {
-    this->orientation.push_back(whole.Boundary().Orientation[cell]);
+    this->orientation.push_back(whole.Orientation[cell]);
   }
 }
 
 void InputBoundary::TakeGrid(vtkUnstructuredGrid* grid, const Options& options,
   const std::string& key, morph::Monitor& monitor)
 {
-  const WholeSurface* whole = options.Whole;
+  const GatheredSurface* whole =
+    options.Whole && !options.Whole->HasAll ? options.Whole : nullptr; // of the boundary alone
   const bool sameMesh = this->mesh.numberOfCells() > 0 && GridMesh::SameCells(grid, this->mesh) &&
                         GridMesh::SamePoints(grid, this->mesh);
-  bool sameBoundary = sameMesh && whole && sameFaces(this->faces, whole->Boundary().Faces);
+  bool sameBoundary = sameMesh && whole && sameFaces(this->faces, whole->Faces);
   if (!sameBoundary && whole)
   {
     this->TakeFaces(*whole);
@@ -277,7 +259,7 @@ void InputBoundary::TakeGrid(vtkUnstructuredGrid* grid, const Options& options,
   }
   this->Written = vtkSmartPointer<vtkPolyData>::New();
   this->Polygons = Surface::Write(
-    grid, this->mesh, this->faces, this->Written, whole ? &whole->Boundary().Orientation : nullptr);
+    grid, this->mesh, this->faces, this->Written, whole ? &whole->Orientation : nullptr);
   this->Nodes = this->faces.nodes;
   if (this->inner.size() > 0)
   {

@@ -19,7 +19,7 @@ class vtkUnstructuredGrid;
 
 namespace morph::filters
 {
-class WholeSurface;
+struct GatheredSurface;
 
 /// The boundary of a filter's input, kept while the input stays the same. The input is a grid, or a
 /// surface that was extracted from one before. Nodes are the input's points.
@@ -30,14 +30,19 @@ public:
   {
     std::set<std::string> Names;          ///< that are asked for
     const MergedBlocks* Blocks = nullptr; ///< that the input was merged from, or null
-    const WholeSurface* Whole = nullptr;  ///< of a mesh on several MPI processes, or null
+    /// Of a mesh on several MPI processes, or null: `Blocks` are null then.
+    const GatheredSurface* Whole = nullptr;
   };
 
-  /// Copies the input, a grid or polygonal data; with Whole, its Grid(). An unmodified input costs
+  /// Whether there may be something inside of the mesh that counts for its boundary: named
+  /// two-dimensional cells, or surfaces of these names. The boundary alone cannot tell what.
+  static bool LieInside(const GatheredSurface& boundary, const std::set<std::string>& names);
+
+  /// Copies the input, a grid or polygonal data; with Whole, its Grid. An unmodified input costs
   /// nothing. The geometry is reused where a modified input has the same boundary and the same
   /// arrays that define its geometry. Throws morph::Error as Geometry::Classify() does, for a grid
-  /// without volume cells, and for a surface without polygons, MorphPointId or RestPosition. So it
-  /// does, with Whole, for names of inner surfaces. Then nothing is kept.
+  /// without volume cells, and for a surface without polygons, MorphPointId or RestPosition. Then
+  /// nothing is kept.
   void Update(vtkPointSet* input, const Options& options, morph::Monitor& monitor);
 
   /// The boundary as vtkClassifyBoundary writes it, at the input's points, with the input's arrays.
@@ -59,11 +64,9 @@ private:
     morph::Monitor& monitor);
   void TakeSurface(vtkPolyData* surface, const Geometry::Options& options, const std::string& key,
     morph::Monitor& monitor);
-  void TakeFaces(const WholeSurface& whole);
+  void TakeFaces(const GatheredSurface& whole);
   void FindInnerSurfaces(
     vtkUnstructuredGrid* grid, const MergedBlocks* blocks, bool sameMesh, morph::Monitor& monitor);
-  /// Throws where one of the names is of something inside, which other processes have, too.
-  void RefuseInside(vtkPointSet* input, const std::set<std::string>& names) const;
   /// Those of the names that inner surfaces have.
   std::set<std::string> Asked(const std::set<std::string>& names) const;
 

@@ -112,6 +112,43 @@ void requireOneRole(const morph::DisplacementOptions& options)
   require(options.SlidingSurfaces, options.FreeSurfaces, "`SlidingSurfaces` and `FreeSurfaces`");
 }
 
+/// Whether all nodes of a shell move, not its edges alone.
+bool movesAll(const morph::DisplacementOptions& options, bool hasTarget)
+{
+  return options.Moving == vtkDisplacementAlgorithm::MOVING_EVERYTHING ||
+         (hasTarget && options.Moving == vtkDisplacementAlgorithm::MOVING_SURFACES &&
+           options.Surfaces.empty());
+}
+
+/// The names of surfaces that have a role.
+std::set<std::string> askedNames(const morph::DisplacementOptions& options)
+{
+  std::set<std::string> names;
+  for (const auto* some : { &options.Surfaces, &options.FixedSurfaces, &options.SlidingSurfaces,
+         &options.FreeSurfaces, &options.ContactSurfaces })
+  {
+    names.insert(some->begin(), some->end());
+  }
+  return names;
+}
+
+/// Throws for surfaces between blocks: their cells are gathered without their blocks.
+void requireNoBlocks(const std::set<std::string>& names, const filters::InputBoundary& model)
+{
+  for (const std::string& name : names)
+  {
+    const bool isFound = std::any_of(model.innerSurfaces.begin(), model.innerSurfaces.end(),
+      [&](const morph::InnerSurface& surface) { return surface.name == name; });
+    if (name.find(" | ") != std::string::npos && !isFound)
+    {
+      throw morph::Error(
+        "There is no surface '" + name +
+        "'. On several MPI ranks a surface between blocks has no name: mark the parts by cell "
+        "arrays, 1 in a part and 0 elsewhere, and name these.");
+    }
+  }
+}
+
 void writeGaps(
   const morph::Contact::Gaps& before, const morph::Contact::Gaps& after, vtkFieldData* data)
 {
@@ -149,7 +186,7 @@ void vtkDisplacementAlgorithm::vtkInternals::List(const Options& options, vtkDat
   filters::Monitor monitor(nullptr, options.NumberOfThreads);
   try
   {
-    vtkDataObject* data = this->Blocks.Thicken(this->Blocks.Gather(
+    vtkDataObject* data = this->Blocks.Shell().Thicken(this->Blocks.Gather(
       input, options.CoincidentPoints, filters::GridMesh::UnknownCells::Refuse, monitor));
     monitor.TakeWarnings(); // the execution gives them
     auto* mesh = vtkPointSet::SafeDownCast(data);
@@ -249,10 +286,7 @@ void vtkDisplacementAlgorithm::vtkInternals::Displace(const Options& options,
 vtkPolyData* vtkDisplacementAlgorithm::vtkInternals::WholeShell(
   const Options& options, vtkUnstructuredGrid* grid, bool hasTarget)
 {
-  const bool isWhole = options.Moving == MOVING_EVERYTHING ||
-                       (options.Moving == MOVING_SURFACES && options.Surfaces.empty());
-  if (!grid || !isWhole || (!hasTarget && options.Moving != MOVING_EVERYTHING) ||
-      filters::GridMesh::LayerOf(grid).nodes == 0)
+  if (!grid || !movesAll(options, hasTarget) || filters::GridMesh::LayerOf(grid).nodes == 0)
   {
     return nullptr;
   }
@@ -277,15 +311,15 @@ void vtkDisplacementAlgorithm::vtkInternals::Classify(
 {
   filters::InputBoundary::Options geometry;
   geometry.Take(options);
-  for (const auto* names : { &options.Surfaces, &options.FixedSurfaces, &options.SlidingSurfaces,
-         &options.FreeSurfaces, &options.ContactSurfaces })
-  {
-    geometry.Names.insert(names->begin(), names->end());
-  }
-  geometry.Blocks = this->Blocks.Merged();
-  geometry.Whole = this->Whole.get();
+  geometry.Names = askedNames(options);
+  geometry.Blocks = this->Whole ? nullptr : this->Blocks.Merged();
+  geometry.Whole = this->Whole ? &this->Whole->Boundary() : nullptr;
   const int before = this->Model.ClassifyCount();
   this->Model.Update(input, geometry, monitor);
+  if (this->Whole && this->Blocks.Merged())
+  {
+    requireNoBlocks(geometry.Names, this->Model);
+  }
   if (this->Model.ClassifyCount() != before)
   {
     this->Warnings.clear();
@@ -522,7 +556,7 @@ void vtkDisplacementAlgorithm::vtkInternals::Displace(const Options& options, vt
   {
     alike([&] { this->AppendInner(grid, output); });
   }
-  this->CountRoles(moves.Mover.hasInner());
+  this->CountRoles(grid, moves.Mover.hasInner());
 }
 
 void vtkDisplacementAlgorithm::vtkInternals::Write(const Options& options, vtkPointSet* input,
@@ -588,7 +622,7 @@ void vtkDisplacementAlgorithm::vtkInternals::Write(const Options& options, vtkPo
   }
 }
 
-void vtkDisplacementAlgorithm::vtkInternals::CountRoles(bool hasInner)
+void vtkDisplacementAlgorithm::vtkInternals::CountRoles(vtkUnstructuredGrid* grid, bool hasInner)
 {
   const std::vector<signed char>& roles = this->Mover.result().roles;
   std::array<morph::Index, Surroundings::IsLayer + 1> inside = {};
@@ -606,9 +640,13 @@ void vtkDisplacementAlgorithm::vtkInternals::CountRoles(bool hasInner)
     count(this->Model.faces.nodes[i]);
   }
   // All processes have the nodes of the boundary, and each has its own inner ones behind them.
-  for (std::size_t i = whole; i < roles.size(); ++i)
+  const morph::Index ownFront = hasInner ? filters::GridMesh::LayerOf(grid).nodes : 0;
+  std::vector<morph::Index> beyond =
+    morph::consecutive(roles.size() - whole, static_cast<morph::Index>(whole));
+  const std::vector<morph::Index> points = this->Mover.inner().pointsOf(this->Model, beyond);
+  for (std::size_t i = 0; i < points.size(); ++i)
   {
-    ++inside[roles[i]];
+    inside[roles[beyond[i]]] += ownFront == 0 || points[i] < ownFront;
   }
   filters::RankGroup(this->Whole != nullptr).Sum(inside.data(), inside.size());
   for (std::size_t role = 0; role < inside.size(); ++role)
@@ -655,7 +693,14 @@ void vtkDisplacementAlgorithm::vtkInternals::DisplaceOnRanks(const Options& opti
   {
     this->Whole = filters::WholeSurface::Make();
   }
-  this->Whole->Take(piece, monitor);
+  const auto needsAll = [&]
+  {
+    const filters::GatheredSurface& boundary = this->Whole->Boundary();
+    const bool isShell = boundary.Shell.layer.nodes > 0;
+    return (isShell && movesAll(options, target) && (target || boundary.Faces.nodes.empty())) ||
+           filters::InputBoundary::LieInside(boundary, askedNames(options));
+  };
+  this->Whole->Take(piece, monitor, needsAll);
   const bool byHandles = options.Displacement == DISPLACEMENT_HANDLES;
   if (options.Moving == MOVING_SELECTION ||
       (options.Moving != MOVING_NOTHING && byHandles && options.SelectedHandles))
@@ -679,6 +724,15 @@ void vtkDisplacementAlgorithm::vtkInternals::DisplaceOnRanks(const Options& opti
       });
     control = this->Whole->Gather(control);
   }
-  this->Displace(options, this->Whole->Boundary().Grid, piece,
-    { inputs.Selection, nullptr, inputs.Zone, control, inputs.Field }, whole, output, monitor);
+  const Inputs gathered{ inputs.Selection, nullptr, inputs.Zone, control, inputs.Field };
+  vtkUnstructuredGrid* grid = this->Whole->Boundary().Grid;
+  vtkPolyData* shell = nullptr;
+  if (this->Whole->Boundary().HasAll)
+  {
+    this->Whole->Together([&] { shell = this->WholeShell(options, grid, target); });
+  }
+  Options all = options;
+  all.Moving = shell ? MOVING_EVERYTHING : options.Moving;
+  this->Displace(all, shell ? static_cast<vtkPointSet*>(shell) : grid, shell ? nullptr : piece,
+    gathered, whole, output, monitor);
 }

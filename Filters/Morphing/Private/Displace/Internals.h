@@ -193,5 +193,5 @@ private:
   void WriteDistances(const morph::Surroundings::Result& result, vtkPolyData* output);
   /// Adds zones and layers inside to the output, points without cells.
   void AppendInner(vtkUnstructuredGrid* grid, vtkPolyData* output);
-  void CountRoles(bool hasInner);
+  void CountRoles(vtkUnstructuredGrid* grid, bool hasInner);
 };

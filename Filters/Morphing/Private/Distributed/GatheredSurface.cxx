@@ -10,6 +10,7 @@
 #include "Private/Data/Surface.h"
 #include "Private/Distributed/GatherData.h"
 #include "Private/Distributed/RankMesh.h"
+#include "Private/RankBlocks/SharedCells.h"
 #include "Support/Lists.h"
 
 #include <vtkCellData.h>
@@ -36,13 +37,14 @@ namespace
 {
 constexpr const char* BodyName = "MorphBodyOfCell";
 
-/// The cells of the piece with an outer face, and its own two-dimensional cells.
-std::vector<Index> cellsOfSurface(const RankMesh& mesh)
+/// The cells of the piece with an outer face, and its own two-dimensional cells, or all of its own.
+std::vector<Index> cellsOfSurface(const RankMesh& mesh, bool all)
 {
   std::vector<Index> cells = mesh.Rest()->outerFaces().cells;
   for (Index c = 0; c < mesh.Whole().pieceCells(); ++c)
   {
-    if (mesh.Whole().isGhost()[c] == 0 && GridMesh::Dimension(mesh.Grid().types[c]) == 2)
+    const bool isTaken = all || GridMesh::Dimension(mesh.Grid().types[c]) == 2;
+    if (isTaken && mesh.Whole().isGhost()[c] == 0)
     {
       cells.push_back(c);
     }
@@ -54,12 +56,7 @@ std::vector<Index> cellsOfSurface(const RankMesh& mesh)
 /// Removes an array of whole numbers, and returns them.
 std::vector<std::int64_t> take(vtkDataSetAttributes* data, const char* name)
 {
-  std::vector<std::int64_t> values;
-  vtkDataArray* array = data->GetArray(name);
-  for (vtkIdType i = 0; array && i < array->GetNumberOfTuples(); ++i)
-  {
-    values.push_back(static_cast<std::int64_t>(array->GetComponent(i, 0)));
-  }
+  std::vector<std::int64_t> values = SharedCells::Numbers(data->GetArray(name));
   data->RemoveArray(name);
   return values;
 }
@@ -117,16 +114,17 @@ void GatheredSurface::NumberBodies(const DistributedMesh& whole)
   }
 }
 
-void GatheredSurface::Gather(const RankMesh& mesh, vtkUnstructuredGrid* piece)
+void GatheredSurface::Gather(const RankMesh& mesh, vtkUnstructuredGrid* piece, bool all)
 {
   const DistributedMesh& whole = mesh.Whole();
+  this->Grid = nullptr; // in case of an error
   this->NumberBodies(whole);
   const Ranks& ranks = whole.ranks();
   vtkNew<vtkUnstructuredGrid> mine;
   ranks.together(
     [&]
     {
-      const std::vector<Index> cells = cellsOfSurface(mesh);
+      const std::vector<Index> cells = cellsOfSurface(mesh, all);
       if (cells.empty())
       {
         return;
@@ -146,6 +144,8 @@ void GatheredSurface::Gather(const RankMesh& mesh, vtkUnstructuredGrid* piece)
       mine->GetFieldData()->ShallowCopy(piece->GetFieldData());
     });
   const morph::WholeBoundary& boundary = mesh.Rest()->boundary();
+  const Index front = mesh.Grid().layer.nodes,
+              behind = ranks.maximum(front > 0 ? whole.nodeId(front) - whole.nodeId(0) : 0);
   this->Bytes = boundary.bytes();
   const auto parts = gatherData<vtkXMLUnstructuredGridWriter, vtkXMLUnstructuredGridReader>(
     ranks, mine.Get(), false, this->Bytes);
@@ -153,8 +153,10 @@ void GatheredSurface::Gather(const RankMesh& mesh, vtkUnstructuredGrid* piece)
     [&]
     {
       this->Assemble(parts);
+      this->MarkLayer(mesh.Grid().layer, behind);
       this->DescribeFaces(boundary, whole.hasHanging());
     });
+  this->HasAll = all;
 }
 
 /// A node may be in several parts, a cell is in one.
@@ -234,6 +236,15 @@ void GatheredSurface::Assemble(const std::vector<vtkSmartPointer<vtkUnstructured
     }
   }
   this->Grid = grid;
+}
+
+/// `layer`: of a piece. `behind`: by which the ids of images are above those of their nodes.
+void GatheredSurface::MarkLayer(morph::ShellLayer layer, Index behind)
+{
+  layer.nodes =
+    std::lower_bound(this->NodeIds.begin(), this->NodeIds.end(), behind) - this->NodeIds.begin();
+  this->Shell.layer = layer;
+  GridMesh::MarkLayer(layer, layer.nodes, this->Grid);
 }
 
 /// `divided`: nodes hang on edges of the faces.

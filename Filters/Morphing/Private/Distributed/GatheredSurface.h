@@ -27,8 +27,8 @@ namespace morph::filters
 {
 class RankMesh;
 
-/// The cells with an outer face and the two-dimensional cells of all processes as one grid, the
-/// same on each process; see WholeSurface.
+/// The cells with an outer face and the two-dimensional cells of all processes, or all cells, as
+/// one grid, the same on each process; see WholeSurface.
 class GatheredSurface
 {
 public:
@@ -46,6 +46,7 @@ public:
   std::vector<int> RankOfCell;            ///< of Grid
   std::vector<morph::Index> NumberOfBody; ///< in the order of their lowest cells; by the mesh's one
   std::size_t Bytes = 0;                  ///< that this process received
+  bool HasAll = false;                    ///< cells of the whole mesh
 
   /// The node of Grid with a global id, or -1.
   morph::Index NodeOf(std::int64_t id) const
@@ -54,13 +55,14 @@ public:
     return found != this->NodeIds.end() && *found == id ? found - this->NodeIds.begin() : -1;
   }
 
-  /// Gathers the surface of the mesh that `piece` is a part of. Throws morph::Error on all
-  /// processes. Collective.
-  void Gather(const RankMesh& mesh, vtkUnstructuredGrid* piece);
+  /// Gathers the surface of the mesh that `piece` is a part of, or `all` of its cells. Throws
+  /// morph::Error on all processes. Collective.
+  void Gather(const RankMesh& mesh, vtkUnstructuredGrid* piece, bool all);
 
 private:
   void NumberBodies(const morph::distributed::DistributedMesh& whole);
   void Assemble(const std::vector<vtkSmartPointer<vtkUnstructuredGrid>>& parts);
+  void MarkLayer(morph::ShellLayer layer, morph::Index behind);
   void DescribeFaces(const morph::WholeBoundary& boundary, bool divided);
 };
 

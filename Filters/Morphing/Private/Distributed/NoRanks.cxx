@@ -27,6 +27,11 @@ MergedBlocks RankBlocks::Make(vtkDataObjectTree*, MergedBlocks::Options)
   refuse();
 }
 
+ShellGrid::Solid RankBlocks::Thicken(vtkUnstructuredGrid*)
+{
+  refuse();
+}
+
 std::unique_ptr<KeptMesh> OnRanks::MakeMesh()
 {
   refuse();

@@ -28,23 +28,6 @@
 
 namespace morph::filters
 {
-namespace
-{
-std::vector<std::int64_t> globalIds(vtkDataSetAttributes* data)
-{
-  std::vector<std::int64_t> ids;
-  if (vtkDataArray* array = data->GetGlobalIds())
-  {
-    ids.resize(array->GetNumberOfTuples());
-    for (std::size_t i = 0; i < ids.size(); ++i)
-    {
-      ids[i] = static_cast<std::int64_t>(array->GetComponent(static_cast<vtkIdType>(i), 0));
-    }
-  }
-  return ids;
-}
-}
-
 void renumber(vtkDataSetAttributes* data, const char* name, vtkIdType count,
   const std::function<vtkIdType(vtkIdType)>& number)
 {
@@ -86,12 +69,13 @@ bool RankMesh::Take(
   vtkUnstructuredGrid* grid, int layers, GridMesh::UnknownCells unknown, morph::Monitor& monitor)
 {
   const morph::distributed::Ranks& ranks = this->Processes;
-  std::vector<std::int64_t> nodeIds = globalIds(grid->GetPointData());
-  std::vector<std::int64_t> cellIds = globalIds(grid->GetCellData());
+  std::vector<std::int64_t> nodeIds = SharedCells::Numbers(grid->GetPointData()->GetGlobalIds());
+  std::vector<std::int64_t> cellIds = SharedCells::Numbers(grid->GetCellData()->GetGlobalIds());
   std::vector<std::uint8_t> ghosts = SharedCells::Ghosts(grid);
   const bool same = this->Distributed && this->Layers >= layers && nodeIds == this->NodeIds &&
                     cellIds == this->CellIds && ghosts == this->Ghosts &&
                     GridMesh::SameCells(grid, this->Copy) && GridMesh::SamePoints(grid, this->Copy);
+  this->Front = GridMesh::PointsOfFront(grid);
   if (ranks.sum(morph::Index(!same)) == 0)
   {
     return false;
@@ -117,6 +101,13 @@ bool RankMesh::Take(
   morph::distributed::requireCellIds(ranks, piece);
   auto whole =
     std::make_shared<morph::distributed::DistributedMesh>(ranks, std::move(piece), layers, monitor);
+  const morph::Index others = whole->mesh().numberOfNodes() - this->Copy.numberOfNodes();
+  if (this->Copy.layer.nodes > 0 && ranks.sum(others) > 0) // a layer is one on all processes
+  {
+    throw morph::Error("Edges of the mesh of triangles and quadrilaterals are divided on one side "
+                       "alone, which several MPI ranks cannot morph. Divide both sides alike, or "
+                       "run on one rank.");
+  }
   const morph::Index cells = whole->pieceCells();
   this->Skip.assign(whole->isGhost().begin(), whole->isGhost().begin() + cells);
   const auto dimension = [this](morph::Index c)
@@ -201,7 +192,7 @@ BoundaryMatch::Nodes RankMesh::Nodes() const
 {
   const morph::distributed::DistributedMesh& whole = this->Whole();
   return { whole.mesh(), this->Undeformed->outerNodes(), whole.size(), &whole.nodeIds(),
-    [&whole](morph::Index id) { return whole.nodeOf(id); }, whole.pieceNodes() };
+    [&whole](morph::Index id) { return whole.nodeOf(id); }, this->Front };
 }
 
 void RankMesh::RequireVolumeCells() const

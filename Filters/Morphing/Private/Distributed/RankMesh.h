@@ -62,6 +62,7 @@ private:
   morph::Mesh Copy;
   std::vector<std::int64_t> NodeIds, CellIds; ///< as they came, or empty
   std::vector<std::uint8_t> Ghosts;
+  morph::Index Front = 0; ///< see GridMesh::PointsOfFront()
   int Layers = 0, Dimension = 0;
   std::shared_ptr<morph::distributed::DistributedMesh> Distributed;
   std::vector<std::uint8_t> Skip;

@@ -43,7 +43,8 @@ namespace
 class GatheredBoundary : public WholeSurface
 {
 public:
-  void Take(vtkUnstructuredGrid* piece, morph::Monitor& monitor) override;
+  void Take(vtkUnstructuredGrid* piece, morph::Monitor& monitor,
+    const std::function<bool()>& needsAll) override;
   double Size() const override { return this->Whole().size(); }
   const RankMesh& Pieces() const override { return this->Own; }
   std::vector<Index> Places() const override;
@@ -76,20 +77,25 @@ std::unique_ptr<WholeSurface> WholeSurface::Make()
   return std::make_unique<GatheredBoundary>();
 }
 
-void GatheredBoundary::Take(vtkUnstructuredGrid* piece, morph::Monitor& monitor)
+void GatheredBoundary::Take(
+  vtkUnstructuredGrid* piece, morph::Monitor& monitor, const std::function<bool()>& needsAll)
 {
   const bool isNew = this->Own.Take(piece, 1, GridMesh::UnknownCells::Refuse, monitor);
   const bool same =
     !isNew && this->Surface.Grid && this->Piece == piece && this->PieceTime == piece->GetMTime();
-  if (this->Own.Ranks().sum(Index(!same)) == 0)
+  if (this->Own.Ranks().sum(Index(!same)) > 0)
   {
-    return;
+    this->Own.RequireVolumeCells();
+    this->Surface.Gather(this->Own, piece, false);
+    this->Piece = piece;
+    this->PieceTime = piece->GetMTime();
   }
-  this->Surface.Grid = nullptr;
-  this->Own.RequireVolumeCells();
-  this->Surface.Gather(this->Own, piece);
-  this->Piece = piece;
-  this->PieceTime = piece->GetMTime();
+  bool all = this->Surface.HasAll;
+  this->Together([&] { all = all || (needsAll && needsAll()); });
+  if (all && !this->Surface.HasAll)
+  {
+    this->Surface.Gather(this->Own, piece, true);
+  }
 }
 
 std::vector<Index> GatheredBoundary::Places() const

@@ -29,7 +29,7 @@ class RankMesh;
 /// It has the cells with an outer face and the two-dimensional cells; nodes and cells in the order
 /// of their global ids. Where the serial filter has this order too, surfaces and curves have the
 /// same numbers. Memory and messages of each process grow with the whole boundary, not with the
-/// mesh: see GatheredSurface::Bytes.
+/// mesh, unless all of it is asked for: see GatheredSurface::Bytes.
 class WholeSurface
 {
 public:
@@ -37,10 +37,12 @@ public:
   static std::unique_ptr<WholeSurface> Make();
   virtual ~WholeSurface() = default;
 
-  /// Gathers the boundary, unless the pieces are those that it was gathered from. Throws
+  /// Gathers the boundary, unless the pieces are those that it was gathered from. Then gathers the
+  /// whole mesh if `needsAll`, called as Together() calls, says so of the boundary. Throws
   /// morph::Error on all processes for a mesh that cannot be read or has no volume cells.
   /// Collective, as all functions that say so.
-  virtual void Take(vtkUnstructuredGrid* piece, morph::Monitor& monitor) = 0;
+  virtual void Take(vtkUnstructuredGrid* piece, morph::Monitor& monitor,
+    const std::function<bool()>& needsAll = nullptr) = 0;
 
   const GatheredSurface& Boundary() const { return this->Surface; }
   /// The diagonal of the whole mesh's bounding box.

@@ -247,7 +247,7 @@ void GridMorpher::Transpose(vtkUnstructuredGrid* rest, vtkDataObject* boundary, 
     });
   BoundaryMatch::Followers followers;
   const morph::BoundaryTargets match = this->Match(displaced, 1, options, monitor, &followers);
-  morph::requirePlane(match);
+  morph::requirePlane(match, all);
   const morph::Points prescribed =
     this->Session.transpose(match.ids, std::move(nodes), options, monitor);
   this->NoteEffort();

@@ -102,10 +102,14 @@ std::vector<Index> unknownPoints(
 }
 
 /// The points that the nodes of this process follow. `isFree`: of the points, or empty.
-BoundaryMatch::Followers followersOf(const BoundaryMatch::Gathered& gathered,
+BoundaryMatch::Followers followersOf(BoundaryMatch::Gathered& gathered,
   const std::vector<std::uint8_t>& isFree, const morph::BoundaryTargets& match,
-  const morph::Communicator& processes)
+  const morph::ShellLayer& layer, const morph::Communicator& processes)
 {
+  if (layer.nodes > 0)
+  {
+    morph::nameImages(layer, gathered.Points);
+  }
   BoundaryMatch::Followers result;
   result.Points = match.points;
   result.Own = gathered.Own;
@@ -287,7 +291,7 @@ morph::BoundaryTargets Match(vtkPointSet* boundary, const Nodes& nodes, const Op
   }
   if (followers)
   {
-    *followers = followersOf(gathered, isFree, result, processes);
+    *followers = followersOf(gathered, isFree, result, nodes.Rest.layer, processes);
   }
   morph::countStaying(
     nodes.Rest, nodes.Outer, [&](Index node) { return processes.owns(node); }, result);

@@ -37,7 +37,7 @@ morph::BoundaryTargets ModeSolver::Match(
   vtkPointSet* boundary, const BoundaryMatch::Options& options) const
 {
   morph::BoundaryTargets match = this->Kept->Match(boundary, options);
-  morph::requirePlane(match);
+  morph::requirePlane(match, this->Rest().all());
   return match;
 }
 

@@ -2,6 +2,7 @@
 #include "Private/Pipeline/Input.h"
 
 #include "Mesh/CellShape.h"
+#include "Private/Blocks/BlockCells.h"
 #include "Private/Blocks/Blocks.h"
 #include "Private/Blocks/Leaves.h"
 #include "Private/Data/DataCheck.h"
@@ -229,27 +230,27 @@ Mesh TakeMesh(vtkDataObject* input, Blocks& blocks, int coincidentPoints, Use us
   }
   // Faces are measured as they are. A process may have only faces of another one's solid.
   const bool isShell = use != Use::ToMeasure && ShellGrid::IsShell(mesh.Data);
-  if (Ranks::Count(isShell) > 0 && Ranks::Count(hasCells && !isShell) == 0)
+  const bool isOther = hasCells && !isShell && BlockCells::Dimension(data) > 1;
+  ShellGrid& shell = blocks.Shell();
+  if (Ranks::Count(isShell) == 0 || Ranks::Count(isOther || problem) > 0)
   {
-    if (ranks > 1)
-    {
-      throw morph::Error(
-        "The mesh has triangles and quadrilaterals alone, and is distributed over " +
-        std::to_string(ranks) +
-        " MPI ranks. Plane meshes and shells are morphed on one: bring it there.");
-    }
+    shell.Thicken(nullptr); // forgets an earlier one
+  }
+  else if (ranks > 1)
+  {
+    const bool isKept = Ranks::Count(!shell.IsKept(mesh.Data)) == 0;
+    mesh.Data = isKept ? shell.Kept() : shell.ThickenBy(RankBlocks::Thicken, mesh.Data);
+  }
+  else
+  {
     try
     {
-      mesh.Data = blocks.Thicken(mesh.Data);
+      mesh.Data = shell.Thicken(mesh.Data);
     }
     catch (...)
     {
       problem = std::current_exception();
     }
-  }
-  else
-  {
-    blocks.Thicken(nullptr); // forgets an earlier one
   }
   mesh.IsDistributed = ranks > 1;
   mesh.IsElsewhere = ranks > 0 && !hasCells;

@@ -2,7 +2,9 @@
 #include "Private/RankBlocks/RankBlocks.h"
 
 #include "Distributed/DistributedMesh.h"
+#include "Distributed/RankCommunicator.h"
 #include "Distributed/SharedPlaces.h"
+#include "Mesh/ShellLayer.h"
 #include "Private/Blocks/BlockCells.h"
 #include "Private/Blocks/BlockWarnings.h"
 #include "Private/Blocks/Leaves.h"
@@ -137,6 +139,26 @@ void setIds(
 }
 }
 
+namespace
+{
+/// Gives a piece without nodes one of another process, so that all have a part of the layer.
+void takeSomeNode(const Ranks& ranks, morph::distributed::Piece& piece)
+{
+  morph::Points& points = piece.mesh.points;
+  std::vector<double> node; // its id and position
+  if (points.rows() > 0)
+  {
+    node = { static_cast<double>(piece.nodeIds[0]), points(0, 0), points(0, 1), points(0, 2) };
+  }
+  node = ranks.gather(node);
+  if (points.rows() == 0)
+  {
+    points = Eigen::Map<const Eigen::RowVector3d>(node.data() + 1);
+    piece.nodeIds = { static_cast<std::int64_t>(node[0]) };
+  }
+}
+}
+
 MergedBlocks Make(vtkDataObjectTree* tree, MergedBlocks::Options options)
 {
   const Ranks ranks = GlobalRanks();
@@ -190,5 +212,28 @@ MergedBlocks Make(vtkDataObjectTree* tree, MergedBlocks::Options options)
     merged.Warnings = std::move(warnings);
   }
   return merged;
+}
+
+ShellGrid::Solid Thicken(vtkUnstructuredGrid* piece)
+{
+  constexpr int Layers = 2; // of other processes' cells: the most that a method asks for
+  const Ranks ranks = GlobalRanks();
+  morph::distributed::Piece own;
+  ranks.together(
+    [&] { own.mesh = BlockCells::Read(piece, "The input", GridMesh::UnknownCells::Refuse); });
+  own.isGhost = SharedCells::Ghosts(piece);
+  own.nodeIds = SharedCells::Numbers(piece->GetPointData()->GetGlobalIds());
+  own.cellIds = SharedCells::Numbers(piece->GetCellData()->GetGlobalIds());
+  morph::distributed::requireNodeIds(ranks, own);
+  morph::distributed::requireCellIds(ranks, own);
+  takeSomeNode(ranks, own);
+  morph::Monitor serial;
+  const morph::distributed::DistributedMesh whole(ranks, std::move(own), Layers, serial);
+  const morph::distributed::RankCommunicator processes(whole);
+  ShellGrid::Solid solid;
+  ranks.together([&] { solid.Mesh = morph::thicken(whole.mesh(), processes); });
+  solid.FrontIds = whole.nodeIds();
+  solid.NextId = ranks.maximum(*std::max_element(solid.FrontIds.begin(), solid.FrontIds.end())) + 1;
+  return solid;
 }
 }

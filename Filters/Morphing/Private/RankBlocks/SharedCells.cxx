@@ -5,6 +5,7 @@
 #include "Private/Blocks/BlockCells.h"
 
 #include <vtkCellData.h>
+#include <vtkDataArray.h>
 #include <vtkDataSetAttributes.h>
 #include <vtkIdList.h>
 #include <vtkNew.h>
@@ -70,6 +71,16 @@ std::vector<std::uint8_t> Ghosts(vtkUnstructuredGrid* grid)
       [](unsigned char type) { return type & vtkDataSetAttributes::DUPLICATECELL; });
   }
   return isGhost;
+}
+
+std::vector<std::int64_t> Numbers(vtkDataArray* array)
+{
+  std::vector<std::int64_t> values;
+  for (vtkIdType i = 0; array && i < array->GetNumberOfTuples(); ++i)
+  {
+    values.push_back(static_cast<std::int64_t>(array->GetComponent(i, 0)));
+  }
+  return values;
 }
 
 void MarkGhosts(const Ranks& ranks, const std::vector<std::int64_t>& ids,

@@ -7,13 +7,17 @@
 #include <cstdint>
 #include <vector>
 
+class vtkDataArray;
 class vtkUnstructuredGrid;
 
-/// Cells of pieces on several MPI processes. All functions but one are collective.
+/// Cells of pieces on several MPI processes. All functions but two are collective.
 namespace morph::filters::SharedCells
 {
 /// #cells: nonzero for copies of other processes' cells. Not collective.
 std::vector<std::uint8_t> Ghosts(vtkUnstructuredGrid* grid);
+
+/// The values of an array of whole numbers; none of null. Not collective.
+std::vector<std::int64_t> Numbers(vtkDataArray* array);
 
 /// Makes ghosts of cells that another process has, too: of those with the same nodes the lowest
 /// process keeps its one. `ids`, `isShared`: of the grid's nodes; see SharedPlaces.
