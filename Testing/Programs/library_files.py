@@ -364,7 +364,8 @@ class Exodus(Files):
             self.morph(path, out, "--displacement-array", "displ_", "--validity", "None", path)
             self.assertEqual(self.dump(out), self.dump(path))
             baked = self.folder / "baked.exo"
-            result = run("bake", "--displacement-array", "displ_", "--validity", "None", path, baked)
+            result = run("bake", "--displacement-array", "displ_", "--validity", "None", path,
+                         baked)
             self.assertEqual(result.returncode, 0, result.stderr)
             self.assertEqual(baked.read_bytes(), out.read_bytes())
             written, count = self.still(out), len(model.order)
