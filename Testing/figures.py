@@ -110,8 +110,9 @@ class Figures(unittest.TestCase):
         self.assertEqual(len(found), len(data))
         self.check_table(found, data, lambda cells: (cells[0].lower(),),
                          [("release",), "download_MB", "disk_MB"])
-        self.assertIn(f"on a bare Debian 12 {data[0]['download_MB']} MB of downloads and "
-                      f"{int(data[0]['disk_MB']) / 1000:.1f} GB of disk", prose("README.md"))
+        self.assertIn(f"The packages are {data[0]['download_MB']} MB to download and "
+                      f"{int(data[0]['disk_MB']) / 1000:.1f} GB on the disk of a bare Debian 12",
+                      prose("README.md"))
 
     def test_minima_by_method(self):
         data = {(r["model"], r["kind"], r["method"]): r for r in rows(STUDY / "results.csv")
