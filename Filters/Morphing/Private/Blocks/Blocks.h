@@ -29,11 +29,12 @@ namespace morph::filters
 /// the result to the blocks. With data that are not composite all three do nothing. Thicken() makes
 /// a solid of a plane mesh, and Scatter() a plane mesh of the result.
 ///
-/// The blocks with cells of the highest dimension are the mesh. So are shells and beams that hang on
-/// it by some of their points, unless blocks are kept apart or on several MPI processes. Its nodes
-/// are numbered by their global ids where all blocks have them, else in the order of the blocks; so
-/// are its cells. Cells of two blocks with the same nodes are one, such as ghost cells and zones.
-/// Other blocks with points at nodes, such as side sets, move with these. The rest passes unchanged.
+/// The blocks with cells of the highest dimension are the mesh. So are shells and beams that hang
+/// on it by some of their points, unless blocks are kept apart or on several MPI processes. Its
+/// nodes are numbered by their global ids where all blocks have them, else in the order of the
+/// blocks; so are its cells. Cells of two blocks with the same nodes are one, such as ghost cells
+/// and zones. Other blocks with points at nodes, such as side sets, move with these. The rest
+/// passes unchanged.
 class Blocks
 {
 public:
