@@ -48,11 +48,11 @@ std::vector<Index> nodesOnLinearEdges(const Mesh& mesh, const BoundaryFaces& fac
   return result;
 }
 
-Parting partingNodes(const Mesh& mesh, const BoundaryFaces& faces, const Points& rest,
-  const Points& moved, double size)
+Parting partingNodes(const std::vector<Index>& onLinearEdges, const BoundaryFaces& faces,
+  const Points& rest, const Points& moved, double size)
 {
   Parting result;
-  for (const Index k : nodesOnLinearEdges(mesh, faces))
+  for (const Index k : onLinearEdges)
   {
     const Index node = faces.nodes[k];
     const Index* ends = faces.between.begin(k);

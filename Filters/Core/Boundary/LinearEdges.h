@@ -18,7 +18,8 @@ struct Parting
   std::vector<Index> nodes; ///< ids, ascending
   double largest = 0;       ///< distance
 };
-/// `rest`, `moved`: #nodes x 3. Distances up to 1e-6 of `size` do not count.
-Parting partingNodes(const Mesh& mesh, const BoundaryFaces& faces, const Points& rest,
-  const Points& moved, double size);
+/// `onLinearEdges`: see above; `rest`, `moved`: #nodes x 3. Distances up to 1e-6 of `size` do not
+/// count.
+Parting partingNodes(const std::vector<Index>& onLinearEdges, const BoundaryFaces& faces,
+  const Points& rest, const Points& moved, double size);
 }

@@ -28,8 +28,8 @@ namespace morph
 /// normal at a node, too. Cost: passes over the mesh.
 ///
 /// `processes`: that have parts of the shell, each with copies of the cells around its nodes. The
-/// layer is that of the whole shell then, at all nodes here. Each process has some nodes, perhaps of
-/// no cell. Collective.
+/// layer is that of the whole shell then, at all nodes here. Each process has some nodes, perhaps
+/// of no cell. Collective.
 Mesh thicken(const Mesh& shell, const Communicator& processes = Communicator::alone());
 
 /// Whether nodes of a plane layer, at `points`, leave its plane by more than 1e-6 of its size.

@@ -342,8 +342,8 @@ StepResult Session::morphStep(const Mesh& from, const BoundaryTargets& boundary,
   }
   keepInPlane(rest, partition.free, result.moved, processes); // after smoothing and repairs
   this->attached_.apply(result.moved);
-  const Parting parting =
-    partingNodes(rest, this->mesh_->outerFaces(), rest.points, result.moved, this->mesh_->size());
+  const Parting parting = partingNodes(this->mesh_->onLinearEdges(), this->mesh_->outerFaces(),
+    rest.points, result.moved, this->mesh_->size());
   warnOfParting(
     { processes.gatherNodes(this->counting(parting.nodes)), processes.maximum(parting.largest) },
     monitor);

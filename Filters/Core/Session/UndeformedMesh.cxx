@@ -204,6 +204,15 @@ const InvertedBefore& UndeformedMesh::before(Monitor& monitor) const
   return *this->before_;
 }
 
+const std::vector<Index>& UndeformedMesh::onLinearEdges() const
+{
+  if (!this->onLinearEdges_)
+  {
+    this->onLinearEdges_ = nodesOnLinearEdges(*this->mesh_, this->outer_);
+  }
+  return *this->onLinearEdges_;
+}
+
 const WholeBoundary& UndeformedMesh::boundary() const
 {
   if (!this->boundary_)

@@ -86,6 +86,8 @@ public:
 
   /// Copies of other processes' cells count here. Cost of the first call: a measure of the mesh.
   const InvertedBefore& before(Monitor& monitor) const;
+  /// nodesOnLinearEdges() of outerFaces(). Cost of the first call: as that.
+  const std::vector<Index>& onLinearEdges() const;
   /// The outer faces of all processes. Collective, as is the first call's cost: see WholeBoundary.
   const WholeBoundary& boundary() const;
 
@@ -105,6 +107,7 @@ private:
   std::vector<Index> repeated_, touching_, unmapped_;
   ///@{ once it was asked for
   mutable std::optional<InvertedBefore> before_;
+  mutable std::optional<std::vector<Index>> onLinearEdges_;
   mutable std::optional<WholeBoundary> boundary_;
   ///@}
 };
