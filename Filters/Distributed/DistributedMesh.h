@@ -24,8 +24,8 @@ namespace morph::distributed
 double diagonal(const Ranks& ranks, const Eigen::AlignedBox3d& box);
 
 /// A mesh whose cells are distributed over ranks. Each rank has its piece and, behind it, copies of
-/// the other ranks' cells of the highest dimension around the piece's nodes (ghosts). Each node that
-/// a cell uses has one owner, the lowest rank that uses it.
+/// the other ranks' cells of the highest dimension around the piece's nodes (ghosts). Each node
+/// that a cell uses has one owner, the lowest rank that uses it.
 ///
 /// Local numbers: the piece's nodes and cells come first, in the piece's order. A ghost cell of the
 /// piece itself is a vertex here, which no method reads.
