@@ -5,7 +5,7 @@ set -euo pipefail
 usage() {
   cat <<END
 Usage: install-packages.sh [--use | --demo] [--numpy] [--solvers] [--benchmark] [--developer]
-                           [--site] [--portable] [--package] [--other-debian]
+                           [--site] [--portable] [--package] [--other-debian] [--list]
 Installs the Debian packages that MeshMorphing is built and tested with, as root or through sudo.
 Does nothing where they are all installed. Exits with 77 where the registry does not answer.
   --use         only what it takes to build and to use it: compiler, ParaView, libraries
@@ -19,6 +19,7 @@ Does nothing where they are all installed. Exits with 77 where the registry does
   --portable    also compilers for other systems, see portable.sh
   --package     also what package.sh and its test need (build-essential, debhelper, lintian)
   --other-debian  also what other-debian.sh needs (mmdebstrap)
+  --list        only names the packages
 Knows Debian 12, 13 and unstable.
 END
 }
@@ -58,6 +59,7 @@ case "$release" in
 esac
 
 basis=("${demo[@]}" "${numpy[@]}" "${tests[@]}")
+list=
 for option in "$@"; do
   case "$option" in
     -h | --help) usage; exit 0 ;;
@@ -72,10 +74,15 @@ for option in "$@"; do
       qemu-user emscripten) ;;
     --package) packages+=(build-essential debhelper lintian) ;;
     --other-debian) packages+=(mmdebstrap uidmap) ;;
+    --list) list=yes ;;
     *) usage >&2; exit 2 ;;
   esac
 done
 packages+=(${basis[@]+"${basis[@]}"})
+if [ -n "$list" ]; then
+  printf '%s\n' "${packages[@]}"
+  exit 0
+fi
 
 if ! command -v apt-get > /dev/null; then
   echo "install-packages.sh: no apt-get here. Install what these Debian packages hold:" \

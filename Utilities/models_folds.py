@@ -1,17 +1,17 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""At which of the paper's 20 steps the models' surfaces fold where Morph Boundary moves them after
-their exact vertices and curves.
+"""How many faces of the models' surfaces fold where Morph Boundary moves them after their exact
+vertices and curves.
 
-    pvpython Utilities/models_folds.py                  # the small meshes, in Data/Models/small
-    pvpython Utilities/models_folds.py --size paper     # of the paper's size: Gmsh, 15 minutes
+    pvpython Utilities/models_folds.py    # 15 minutes, most of it Gmsh's
 
-Prints a table: for each mesh, from the mesh at S_0 at each step (absolute) and from that of the
-step before (relative), by weighted residual, as in the paper, and by smoothing, the first step at
-which a boundary face is folded, and how many are at S_F. A face is folded where one of its corners
-turns against that corner on the exact surfaces."""
+Writes Documentation/Study/folds.csv: for the small meshes and those of the paper's size, the faces
+that are folded at S_F, from the mesh at S_0 (absolute) or in 20 steps, each from the mesh of the
+one before (relative). A face is folded if one of its corners turns against that corner on the exact
+surfaces."""
 
 import argparse
+import csv
 import sys
 from pathlib import Path
 
@@ -24,11 +24,17 @@ ROOT = Path(__file__).resolve().parent.parent
 sys.path[:0] = [str(ROOT / "Data"), str(ROOT / "Utilities")]
 from built_plugin import add_plugin, load_plugin  # noqa: E402  (needs the path above)
 from demo_picture import producer  # noqa: E402
+from study_paper import STEPS  # noqa: E402
+from study_pieces import commit  # noqa: E402
 import Models  # noqa: E402
 
-STEPS = 20
+DATA = ROOT / "Documentation" / "Study" / "folds.csv"
 METHODS = ("Weighted residual", "Smoothing")
-STEPPINGS = ("absolute", "relative")
+#: Weighted residual is the paper's method, and the paper has both steppings.
+SERIES = ((METHODS[0], "absolute"), (METHODS[0], "relative"), (METHODS[1], "absolute"),
+          ("Mesh smoothing", "absolute"))
+FIELDS = ("size", "model", "kind", "nodes", "cells", "boundary_faces", "method", "stepping",
+          "folded", "commit")
 
 
 def output(proxy, port=0):
@@ -95,64 +101,41 @@ class MovedSurfaces:
             simple.Delete(proxy)
 
 
-def fold_counts(mesh, method, stepping):
-    """(STEPS + 1,): how many faces are folded at each step."""
+def folds(mesh, method, stepping):
+    """How many faces are folded at S_F."""
     surfaces = MovedSurfaces(mesh, method)
-    counts = []
-    for step in range(STEPS + 1):
+    for step in range(1, STEPS + 1) if stepping == "relative" else [STEPS]:
         surfaces.move_to(step / STEPS, relative=stepping == "relative")
-        counts.append(len(surfaces.folded(step / STEPS)))
+    count = len(surfaces.folded(1))
     surfaces.remove()
-    return np.array(counts)
+    return count
 
 
-def first_fold(counts):
-    """The first step with a folded face, or None."""
-    steps = np.flatnonzero(counts)
-    return int(steps[0]) if len(steps) else None
-
-
-def table_head(size):
-    titles = [f"{method}, {stepping}" for method in METHODS for stepping in STEPPINGS]
-    return (f"| {size} mesh | boundary faces | {' | '.join(titles).lower()} |\n"
-            f"|---|---|{'---|' * len(titles)}")
-
-
-def table_row(mesh, kind):
-    cells = []
-    for method in METHODS:
-        for stepping in STEPPINGS:
-            counts = fold_counts(mesh, method, stepping)
-            first = first_fold(counts)
-            cells.append("none" if first is None else f"step {first}; {counts[-1]:,} at S_F")
-    return f"| {mesh.model.name} {kind} | {len(mesh.faces):,} | {' | '.join(cells)} |"
-
-
-def parse_arguments():
-    parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
-    parser.add_argument("models", nargs="*", metavar="MODEL", help="default: all four")
-    parser.add_argument("--size", choices=("small", "paper"), default="small",
-                        help="default: %(default)s")
-    add_plugin(parser)
-    arguments = parser.parse_args()
-    known = Models.NAMES + Models.VARIANTS
-    unknown = [name for name in arguments.models if name not in known]
-    if unknown:
-        parser.error(f"no model {', '.join(unknown)}: choose from {', '.join(known)}")
-    return arguments
+def rows(mesh, size, kind):
+    """Yields a row of the data file for each series."""
+    about = {"size": size, "model": mesh.model.name, "kind": kind, "nodes": len(mesh.points),
+             "cells": len(mesh.cells), "boundary_faces": len(mesh.faces), "commit": commit()}
+    for method, stepping in SERIES:
+        yield {**about, "method": method, "stepping": stepping,
+               "folded": folds(mesh, method, stepping)}
 
 
 def main():
-    arguments = parse_arguments()
-    load_plugin(arguments.plugin)
+    parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
+    add_plugin(parser)
+    load_plugin(parser.parse_args().plugin)
     # The filter warns of folded faces at each step.
     vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_ERROR)
-    print(table_head(arguments.size))
-    for name in arguments.models or Models.NAMES:
-        model = Models.get(name)
-        for kind in ("hex", "tet"):
-            mesh = model.read_small(kind) if arguments.size == "small" else model.make(kind)
-            print(table_row(mesh, kind), flush=True)
+    with open(DATA, "w", encoding="utf-8", newline="") as file:
+        table = csv.DictWriter(file, FIELDS, lineterminator="\n")
+        table.writeheader()
+        for size in ("small", "paper"):
+            for name in Models.NAMES:
+                model = Models.get(name)
+                for kind in ("hex", "tet"):
+                    mesh = model.read_small(kind) if size == "small" else model.make(kind)
+                    table.writerows(rows(mesh, size, kind))
+                    file.flush()
 
 
 if __name__ == "__main__":

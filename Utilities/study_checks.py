@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Experiments that support the reading of the study's results in Documentation/Study.md. Each
-takes a few seconds.
+"""Experiments that support the reading of the study's results in Documentation/Study.md. They take
+some minutes, most of it Gmsh's.
 
-    pvpython Utilities/study_checks.py
+    pvpython Utilities/study_checks.py > Documentation/Study/checks.txt
 
 Prints what each explanation predicts and what is measured: why LBWARP is the same in relative and
 absolute steps, where and when FEMWARP inverts cells on the canister and on the pipe, what a mere
@@ -28,6 +28,7 @@ from built_plugin import add_plugin, load_plugin  # noqa: E402
 from study_boundary import Boundaries, exact_positions, quality_limit, times  # noqa: E402
 from study_mesh import study_mesh  # noqa: E402
 from study_paper import STEPS  # noqa: E402
+from study_pieces import commit  # noqa: E402
 from study_series import SeriesRun  # noqa: E402
 
 
@@ -198,6 +199,7 @@ def main():
     add_plugin(parser)
     load_plugin(parser.parse_args().plugin)
     vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_ERROR)
+    print(f"Sources: {commit()}\n")
     check_steppings()
     check_canister()
     check_pipe()

@@ -55,6 +55,14 @@ const std::vector<Command> Commands = {
     { "--output", "--criteria", "--report", "--require-valid", "--progress", "--quiet", "--target",
       "--steps", "--results" },
     Moving },
+  { "bake", Arguments::Task::Morph, "make the displacements in a file its coordinates",
+    "--displacement-array <name> [options] <grid> <output>",
+    "bake --displacement-array disp_ box.exo deformed.exo\n"
+    "bake --displacement-array disp_ --time-step 3 box.exo third.exo\n"
+    "bake --displacement-array U solved.vtu deformed.vtu",
+    { "--output", "--criteria", "--report", "--require-valid", "--progress", "--quiet",
+      "--displacement-array", "--time-step" },
+    Blending },
   { "list", Arguments::Task::ListSurfaces, "print name, faces, area and center of each surface",
     "<grid>", "list part.vtu\nlist part.inp\nlist case", { "--list-surfaces" }, {} },
   { "check", Arguments::Task::Check, "measure the quality of a grid, without a morph",
@@ -194,7 +202,8 @@ void takeDesigns(const std::vector<std::string>& files, Arguments& result)
   result.grid = files.front();
 }
 
-void takeFiles(std::vector<std::string> files, Arguments& result)
+/// `bakes`: the grid is its own boundary.
+void takeFiles(std::vector<std::string> files, bool bakes, Arguments& result)
 {
   using Task = Arguments::Task;
   if (result.task == Task::WriteDesigns)
@@ -207,7 +216,7 @@ void takeFiles(std::vector<std::string> files, Arguments& result)
   {
     files.push_back(result.output);
   }
-  const bool morphs = result.task == Task::Morph;
+  const bool morphs = result.task == Task::Morph && !bakes;
   const bool reads = morphs && files.size() == 3;
   if (!reads && files.size() != (hasOutput ? 2u : 1u))
   {
@@ -219,9 +228,9 @@ void takeFiles(std::vector<std::string> files, Arguments& result)
                      (files.size() == 1 ? " is given." : " are given."));
   }
   result.grid = files.front();
-  result.boundary = reads ? files[1] : "";
+  result.boundary = reads ? files[1] : bakes ? result.grid : "";
   result.output = hasOutput ? files.back() : "";
-  if (morphs)
+  if (result.task == Task::Morph)
   {
     checkMotion(result);
   }
@@ -632,9 +641,18 @@ Arguments parseArguments(int argc, char* argv[])
       return result;
     }
   }
-  if (command && command->name == std::string("fit") && result.target.empty())
+  const std::string name = command ? command->name : "";
+  if (name == "fit" && result.target.empty())
   {
     throw UsageError("fit needs --target.");
+  }
+  if (name == "bake")
+  {
+    if (std::none_of(given.begin(), given.end(),
+          [](const Option* option) { return option->name == "--displacement-array"; }))
+    {
+      throw UsageError("bake needs --displacement-array.");
+    }
   }
   if (result.task == Arguments::Task::Morph &&
       !(result.shapes.empty() && result.table.empty() && result.rotations.empty()))
@@ -645,7 +663,7 @@ Arguments parseArguments(int argc, char* argv[])
   requireEffect(given, isCommand ? *command
                                  : *std::find_if(Commands.begin(), Commands.end(),
                                      [&](const Command& one) { return one.task == result.task; }));
-  takeFiles(files, result);
+  takeFiles(files, name == "bake", result);
   return result;
 }
 }

@@ -244,7 +244,10 @@ bool GivenProperties::spell(const std::vector<std::string>& listed)
     const auto isSame = [&](const std::string& other)
     { return vtksys::SystemTools::LowerCase(other) == vtksys::SystemTools::LowerCase(name); };
     const auto found = std::find_if(listed.begin(), listed.end(), isSame);
-    if (found != listed.end() && std::none_of(found + 1, listed.end(), isSame))
+    // A set of the file is listed as a surface and as a zone.
+    const auto isAnother = [&](const std::string& other)
+    { return isSame(other) && other != *found; };
+    if (found != listed.end() && std::none_of(found + 1, listed.end(), isAnother))
     {
       name = *found;
       isChanged = true;

@@ -1,12 +1,15 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The ring of keep_layers.py, whose wall turns by 30 degrees, by OpenFOAM's mesh motion.
+"""The ring of keep_layers.py, whose wall turns by 30 degrees, by FEMWARP and by OpenFOAM's mesh
+motion.
 
-Run: pvpython openfoam_ring.py
-Prints, for each solver and diffusivity, the largest lean of the wall-normal lines in degrees, the
-relative height of the first cells, and the number of inverted cells. The turn has equal steps,
-since the terms that set displacementSBRStress apart come from the step before. A solver may fail on
-a mesh that it has inverted. Needs OpenFOAM's blockMesh and moveDynamicMesh.
+Run: MESHMORPHING_PLUGIN=<path of MeshMorphing.so> pvpython openfoam_ring.py
+Writes results/ring.csv: for each method the largest lean of the wall-normal lines in degrees, the
+least relative height of the first cells, and the number of inverted cells. The turn has equal
+steps, since the terms that set displacementSBRStress apart come from the step before. The file has
+no row for a solver that fails on a mesh that it has inverted. Needs OpenFOAM's blockMesh and
+moveDynamicMesh.
 """
+import csv
 import os
 import pathlib
 import re
@@ -16,8 +19,10 @@ import tempfile
 
 import numpy as np
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "ParaView"))
+HERE = pathlib.Path(__file__).resolve().parent
+sys.path[:0] = [str(HERE.parent / "ParaView"), str(HERE.parent.parent / "Utilities")]
 import keep_layers as ring  # (needs the path above)
+from study_pieces import commit
 
 # Solver, diffusivity and equal steps of the turn.
 SETTINGS = (("displacementLaplacian", "uniform", 1), ("displacementLaplacian", "inverseVolume", 1),
@@ -130,20 +135,28 @@ def moved(solver, diffusivity, steps, rest):
     return after[nearest].reshape(rest.shape)
 
 
-def main():
+def results():
+    """Yields (name, points at rest, moved points)."""
     rest = ring.ring_points()
-    print("| solver | diffusivity | lean | first height | inverted |")
+    for name, points in ring.morphed(rest):
+        yield name, rest, points
     for solver, diffusivity, steps in SETTINGS:
+        name = f"{solver}, {diffusivity}, {'1 step' if steps == 1 else f'{steps} steps'}"
         try:
-            result = moved(solver, diffusivity, steps, rest)
+            yield name, rest, moved(solver, diffusivity, steps, rest)
         except RuntimeError as error:
             step = ["0", *re.findall(r"\nTime = (\d+)", str(error))][-1]
-            print(f"| {solver}, {steps} steps | {diffusivity} | fails at step {step} | | |",
-                  flush=True)
-            continue
-        lean, height = ring.figures(rest, result)
-        print(f"| {solver}, {steps} steps | {diffusivity} | {lean:.2f} | {height:.4f} "
-              f"| {inverted(result)} |", flush=True)
+            print(f"{name}: fails at step {step}")
+
+
+def main():
+    with open(HERE / "results" / "ring.csv", "w", encoding="utf-8", newline="") as file:
+        table = csv.writer(file, lineterminator="\n")
+        table.writerow(["method", "lean", "first_height", "inverted", "commit"])
+        for name, rest, points in results():
+            lean, height = ring.figures(rest, points)
+            table.writerow([name, f"{lean:.2f}", f"{height:.5g}", inverted(points), commit()])
+            file.flush()
 
 
 if __name__ == "__main__":

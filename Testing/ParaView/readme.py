@@ -41,9 +41,12 @@ class Readme(unittest.TestCase):
                                     capture_output=True, text=True, timeout=120)
             self.assertEqual((result.returncode, result.stderr), (0, ""), result.stdout)
             saved = simple.LegacyVTKReader(FileNames=[os.path.join(folder, "wider.vtk")])
-            minimum, inverted = map(float, result.stdout.split())
-            self.assertGreater(minimum, 0.5)
-            self.assertEqual(inverted, 0)
+            said = re.search(r"^It prints .*?: `(.*)\.\.\. 0`\.$",
+                             README.read_text(encoding="utf-8"), re.MULTILINE)[1]
+            self.assertRegex(result.stdout, rf"^{re.escape(said)}\d* 0\n$")
+            tutorial = README.parent / "Documentation/Tutorial.md"
+            self.assertIn(f"*Valid, minimum {float(result.stdout.split()[0]):.3f}*",
+                          tutorial.read_text(encoding="utf-8"))
             self.check_radius(saved)
 
             command = re.search(r"^    build/paraview/(bin/morph-mesh.*)$",

@@ -98,6 +98,14 @@ class DeckForms(solver_files.SolverFiles):
             map(str, range(2, 18))) + "\n18, 19, 20\n" + self.TOP % "Top", {"Top": self.LID})
         self.assertIn("Elements of the type 'C3D15V' are left out", said)
 
+    def test_parameters_of_abaqus_matter_where_nodes_have_them(self):
+        parameters = "*PARAMETER\nthickness = 0.5\nhigh = 1.\n"
+        text = self.CUBE + self.BRICK + self.TOP % "Top"
+        self.check("m.inp", parameters + text, {"Top": self.LID})
+        path = self.folder / "m.inp"
+        path.write_text(parameters + text.replace("1., 1., 1.", "1., 1., <high>"))
+        self.refuse("line 12: '<high>' is no number", "list", path)
+
     def test_byte_order_marks(self):
         mark, node = b"\xef\xbb\xbf", "%8d%16.3f%16.3f%16.3f\n"
         dyna = ("*KEYWORD\n*NODE\n" + "".join(node % (i + 1, i & 1, i >> 1 & 1, i >> 2)
@@ -152,17 +160,18 @@ class DeckForms(solver_files.SolverFiles):
         path.write_text(grids + "CHEXA,1,1,1,2,,3,5,6,8,7,9\n")
         self.refuse("line 11: CHEXA 1 lacks its corner 3", "list", path)
 
-    def dyna(self, rest="", width=8, head="*KEYWORD", keyword=""):
+    def dyna(self, rest="", width=8, head="*KEYWORD", keyword="", real=16):
         number = lambda *values: "".join(f"{v:{width}d}" for v in values)
         return (f"{head}\n*NODE{keyword}\n" + "".join(
-            number(i + 1) + f"{i & 1:16.3f}{i >> 1 & 1:16.3f}{i >> 2:16.3f}{0:8d}\n"
+            number(i + 1) + f"{i & 1:{real}.3f}{i >> 1 & 1:{real}.3f}{i >> 2:{real}.3f}{0:8d}\n"
             for i in range(8)) + f"   \n*ELEMENT_SOLID{keyword}\n" +
             number(1, 7, 1, 2, 4, 3, 5, 6, 8, 7) + "\n" + rest)
 
-    def test_fields_of_ten_columns_of_ls_dyna(self):
+    def test_fields_of_other_widths_of_ls_dyna(self):
         top = "*SET_NODE_LIST_TITLE\nTop\n         1\n         5         6         7         8\n"
         for options in ({}, {"head": "*KEYWORD I10=Y", "width": 10},
-                        {"keyword": " %", "width": 10}):
+                        {"keyword": " %", "width": 10}, {"keyword": "+", "width": 20, "real": 20},
+                        {"keyword": " +", "width": 20, "real": 20}):
             self.check("m.k", self.dyna(top, **options), {"Top": self.LID})
 
     def test_titles_of_ls_dyna(self):

@@ -363,6 +363,10 @@ class Exodus(Files):
             out = self.folder / "out.exo"
             self.morph(path, out, "--displacement-array", "displ_", "--validity", "None", path)
             self.assertEqual(self.dump(out), self.dump(path))
+            baked = self.folder / "baked.exo"
+            result = run("bake", "--displacement-array", "displ_", "--validity", "None", path, baked)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            self.assertEqual(baked.read_bytes(), out.read_bytes())
             written, count = self.still(out), len(model.order)
             for i, node in enumerate(model.order):
                 for axis in range(3):

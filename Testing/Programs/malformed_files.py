@@ -22,6 +22,8 @@ import tempfile
 import time
 from pathlib import Path
 
+import ansys_files
+import deck_forms
 import exodus_models
 import gmsh_models
 import mutations
@@ -31,7 +33,7 @@ PROGRAM = os.environ["MORPH_MESH"]
 SAMPLES = os.environ["SAMPLE_FILES"]
 SECONDS = 10  # of computing: a run that takes longer hangs
 WALL_SECONDS = 300  # by the clock: others may use the machine
-OWN = ".bdf", ".inp", ".msh", ".su2"  # solvers' files that no library of others reads
+OWN = ".bdf", ".cdb", ".inp", ".k", ".msh", ".su2"  # solvers' files that no library of others reads
 DEATHS = 0.03  # of the cases, at most; 10 of 600 were measured with ParaView 5.11
 MEGABYTES = 4096  # of address space that a run may grow by: a small file must not need it
 
@@ -78,6 +80,12 @@ def write_solver_samples(folder):
                          ("solver22.msh", gmsh_models.gmsh(model, rng, version="2.2")),
                          ("solver41.msh", gmsh_models.gmsh(model, rng, version="4.1"))):
         (folder / name).write_bytes(models.text_of(pieces))
+    ansys, elements = ansys_files.Ansys, ((1, ansys_files.Ansys.BRICK), (3, ansys_files.Ansys.LID))
+    component = "CMBLOCK,WALL,NODE,2\n(8i10)\n         5        -8\n"
+    for name, write in (("solver.cdb", ansys.cdb), ("solver_unblocked.cdb", ansys.unblocked)):
+        (folder / name).write_text(write(ansys, ansys.CORNERS, elements, rest=component))
+    (folder / "solver.k").write_text(deck_forms.DeckForms.dyna(
+        deck_forms, "*SET_NODE_LIST_TITLE\nwall\n1\n5,6,7,8\n*ELEMENT_SHELL\n1,8,5,6,8,7\n"))
     for version in ("2.2", "4.1"):
         (folder / f"solver_binary{version[0]}.msh").write_bytes(
             gmsh_models.gmsh_binary(model, version)[0])
@@ -92,7 +100,7 @@ def write_solver_samples(folder):
 
 
 #: The names of what moves in these files; "wall" in the others.
-WALLS = {".inp": "Wall", ".bdf": "PID 2"}
+WALLS = {".cdb": "WALL", ".inp": "Wall", ".bdf": "PID 2"}
 
 
 def finite_mesh(path):

@@ -636,7 +636,10 @@ class MorphMesh(unittest.TestCase):
         self.assertIn("minimum scaled Jacobian", shown.stdout)
         self.assertIn("Skewness", shown.stdout)
         self.fails(2, "fit needs --target", "fit", *options, flat)
-        for command in ("move", "fit", "list", "check", "repair", "extract", "shapes"):
+        self.fails(2, "bake needs --displacement-array", "bake", BORE, flat)
+        self.fails(2, "2 files are needed (grid, output), 3 are given", "bake",
+                   "--displacement-array", "U", BORE, BORE, flat)
+        for command in ("move", "fit", "bake", "list", "check", "repair", "extract", "shapes"):
             page = run(command, "-h").stdout
             self.assertEqual(page.count("\n  morph-mesh " + command), 3, page)
             self.assertLess(len(page.splitlines()), 50)

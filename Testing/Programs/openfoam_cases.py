@@ -258,6 +258,24 @@ class Cases(solver_files.SolverFiles):
         self.assertRegex(listed.stdout, "(?m)^fluid/top +25 ")
 
 
+    def test_the_commands_of_the_page(self):
+        page = Path(__file__).parents[2] / "Documentation/SolverFiles.md"
+        commands = re.findall(r"^ {4}((?:cp|morph-mesh) .*\bcase\b.*)$",
+                              page.read_text(encoding="utf-8"), re.MULTILINE)
+        self.assertEqual(len(commands), 5)
+        blocks = BLOCKS.replace("top {", "wall {")
+        self.make("checkMesh", blocks=blocks)
+        openfoam("blockMesh", self.case)
+        programs = f"{Path(solver_files.PROGRAM).parent}:{os.environ['PATH']}"
+        for number, command in enumerate(commands):
+            if number == 1:
+                self.make("splitMeshRegions", "-cellZones", "-overwrite", blocks=blocks)
+            with self.subTest(command):
+                done = subprocess.run(["bash", "-c", command], cwd=self.folder, capture_output=True,
+                                      text=True, env={**os.environ, "PATH": programs}, timeout=120)
+                self.assertEqual((done.returncode, done.stderr), (0, ""), done.stdout)
+
+
 solver_files.forget_tests_of_superclass(Cases)
 
 

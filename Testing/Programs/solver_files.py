@@ -209,8 +209,12 @@ class SolverFiles(unittest.TestCase):
                 for name, faces in zip(names, (model.wall, model.inlet, model.outlet)):
                     self.assertEqual(int(rows[name]), len(faces), name)
                 out = self.folder / ("out" + extension)
+                folded = self.folder / ("folded" + extension)
                 self.morph(path, out, "--move", names[1], "--translate", "0,0,-0.1", "--fix",
                            names[2])
+                self.morph(path, folded, "--move", names[1].upper(), "--translate", "0,0,-0.1",
+                           "--fix", names[2].upper())
+                self.assertEqual(folded.read_bytes(), out.read_bytes())
                 self.refuse(f"Nothing'.*{names[1]}", "--move", "Nothing", "--translate", "1,0,0",
                             path, out)
 
@@ -287,6 +291,17 @@ class SolverFiles(unittest.TestCase):
         self.assertEqual(re.sub(r"\b(\d)\.0?(?=,)", r"\1.0", new[2]),
                          re.sub(r"\b(\d)\.0?(?=,)", r"\1.0", old[2]))
 
+    def test_lines_of_an_instance_end_in_commas(self):
+        """Or have nothing else: what is left out is 0."""
+        path, out = self.assembly(), self.folder / "out.inp"
+        text = path.read_text()
+        rows = run("list", path).stdout
+        path.write_text(text.replace("5., 0., 1.\n", "5., , 1.,\n").replace(" 90.\n", " 90.,\n"))
+        self.assertEqual(run("list", path).stdout, rows)
+        path.write_text(text.replace("5., 0., 1.\n", ",\n"))
+        self.assertRegex(run("list", path).stdout, r"(?m)^Lid +1 +1 +5\.5, -3\.5, 1$")
+        self.check_by_reading(path, out, "--move", "Wall", "--translate", "0.25,0,0.5")
+
     def test_instances_of_one_part_share_its_nodes(self):
         path, out = self.assembly("Block"), self.folder / "out.inp"
         one, both = (("--move", name, "--translate", "0,0,0.5") for name in ("Lid", "Lids"))
@@ -352,6 +367,21 @@ class SolverFiles(unittest.TestCase):
                               ("GRID,1,5,0.,0.,0.\n", "coordinate system 5, which no CORD1R")):
             path.write_text("BEGIN BULK\n" + text)
             self.refuse(message, "--list-surfaces", path)
+
+    def test_a_system_of_nodes_goes_along_with_them(self):
+        """The upper cube's top is given in the system of three nodes of the lower one."""
+        grids = "".join(f"GRID,{i + 1},,{x}.,{y}.,{z}.\n" for i, (x, y, z) in enumerate(
+            self.CORNERS)) + "".join(f"GRID,{i + 9},4,{i & 1}.,{i >> 1}.,2.\n" for i in range(4))
+        path, out, table = (self.folder / name for name in ("m.bdf", "out.bdf", "line.csv"))
+        path.write_text(f"BEGIN BULK\nCORD1R,4,1,5,2\n{grids}CHEXA,1,7,1,2,4,3,5,6,+\n+,8,7\n"
+                        "CHEXA,2,7,5,6,8,7,9,10,+\n+,12,11\nENDDATA\n")
+        for motion in (("--translate", "0.25,0.5,1"), ("--rotate", "0,0,90")):
+            self.check_by_reading(path, out, "--move", "PID 7", *motion, delta=1e-12)
+            self.assertEqual(out.read_text().splitlines()[10:], path.read_text().splitlines()[10:])
+        self.check_by_reading(path, out, "--move", "Surface 0", "--rotate", "20,0,5", delta=1e-5)
+        table.write_text("id,dx,dy,dz\n1,-1,0,0\n")
+        self.refuse("puts the nodes of the coordinate system 4 on a line", "--displacements", table,
+                    "--validity", "none", path, out)
 
     CORNERS = [(i & 1, i >> 1 & 1, i >> 2) for i in range(8)]
 
@@ -692,6 +722,8 @@ class SolverFiles(unittest.TestCase):
             ("m.inp", "*INCLUDE, INPUT=none.inp\n", "none.inp: there is no such file"),
             ("m.inp", "*INCLUDE, INPUT=m.inp\n", "20 levels deep"),
             ("m.inp", "*STEP\n", "has no .NODE"),
+            ("m.inp", "*PART, NAME=P\n" + nodes + "*END PART\n*INSTANCE, NAME=I, PART=P\n\n"
+             "0., 0., 0., 0., 0., 1., 90.\n", "line 14: .INSTANCE has up to 3 numbers on its"),
             ("m.bdf", grids.replace("GRID,2,,", "GRID,2,5,") + tetra, "coordinate system 5, which"),
             ("m.bdf", "BEGIN BULK\nGRDSET,,9\n" + grids + tetra, "coordinate system 9, which"),
             ("m.bdf", grids.replace("1.,0.,0.", "1.,x,0.") + tetra, "line 3: 'x' is no number"),
@@ -705,6 +737,7 @@ class SolverFiles(unittest.TestCase):
             ("m.k", dyna.replace("4,4,4,4", ""), "line 8: element 1 has 3 nodes"),
             ("m.k", dyna + "1,8,1,2,3,4,4,4,4,4\n", "more than one element of one kind .* 1"),
             ("m.k", "*PARAMETER\nR X, 1.\n" + dyna, "line 1: it has .PARAMETER"),
+            ("m.k", "*PART_MOVE\n7,1.,0.,0.\n" + dyna, "line 1: it has .PART_MOVE: parts that are"),
             ("m.k", "*INCLUDE_TRANSFORM\na.k\n" + dyna, "line 1: it has .INCLUDE_TRANSFORM"),
             ("m.k", "*INCLUDE\nm.k\n", "20 levels deep"), ("m.k", "*KEYWORD\n", "no .NODE"),
             ("m.su2", su2.replace("3\nNPOIN", "4\nNPOIN", 1), "line 1: .*two or three dimens"),

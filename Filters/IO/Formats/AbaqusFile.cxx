@@ -73,6 +73,7 @@ private:
   void parse(std::size_t part, int depth);
   void takeKeyword(std::size_t part, Span span, const AbaqusKeyword& keyword, int depth);
   void takeData(std::size_t part, Span span);
+  void takePoints(std::size_t part, Span span);
   void takeNode(std::size_t part);
   void takeElement(std::size_t part);
   void takeSet(std::size_t part);
@@ -122,7 +123,7 @@ private:
 void refuseKeyword(const AbaqusKeyword& keyword, std::string& reason)
 {
   static const std::set<std::string> generated = { "NGEN", "NFILL", "NCOPY", "NMAP", "ELGEN",
-    "ELCOPY", "ELMOVE", "PARAMETER", "SUBMODEL", "IMPORT" };
+    "ELCOPY", "ELMOVE", "SUBMODEL", "IMPORT" };
   if (generated.count(keyword.name) > 0)
   {
     reason = "it has *" + keyword.name +
@@ -541,15 +542,38 @@ void AbaqusFile::takeData(std::size_t part, Span span)
       break;
     case Block::System:
     case Block::Instance:
-      for (const Span& field : this->fields_)
-      {
-        std::vector<double>& to = this->block_ == Block::System ? this->numbers_ : this->placement_;
-        to.push_back(field.size() == 0 ? 0 : this->numberAt(part, field));
-      }
+      this->takePoints(part, span);
       break;
     case Block::Other:
       break;
   }
+}
+
+/// A line of *SYSTEM or *INSTANCE. What is left out is 0, but for the second point of *SYSTEM.
+void AbaqusFile::takePoints(std::size_t part, Span span)
+{
+  const bool isSystem = this->block_ == Block::System;
+  const std::size_t first = isSystem ? 6 : 3, second = isSystem ? 3 : 7;
+  std::vector<double>& numbers = isSystem ? this->numbers_ : this->placement_;
+  while (!this->fields_.empty() && this->fields_.back().size() == 0) // a comma at the end
+  {
+    this->fields_.pop_back();
+  }
+  const std::size_t most = numbers.empty() ? first : numbers.size() == first ? second : 0;
+  if (this->fields_.size() > most)
+  {
+    this->failAt(part, span.begin,
+      std::string(isSystem ? "*SYSTEM" : "*INSTANCE") + " has up to " + std::to_string(first) +
+        " numbers on its first line and " + std::to_string(second) +
+        " on its second. Write the zeros of the first, too.");
+  }
+  const bool isPoint = isSystem && this->fields_.size() <= 3;
+  const std::size_t whole = numbers.size() + (isPoint ? 3 : most);
+  for (const Span& field : this->fields_)
+  {
+    numbers.push_back(field.size() == 0 ? 0 : this->numberAt(part, field));
+  }
+  numbers.resize(whole, 0);
 }
 
 void AbaqusFile::takeNode(std::size_t part)

@@ -21,6 +21,10 @@ struct CoordinateFrame
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity(); ///< its columns: unit vectors
 
+  bool operator==(const CoordinateFrame& other) const
+  {
+    return this->kind == other.kind && this->origin == other.origin && this->axes == other.axes;
+  }
   Eigen::Vector3d toBasic(const Eigen::Vector3d& local) const;
   /// The coordinates of a position. Those that may stay as `old` within `precision`, a length,
   /// do, and angles are as near to `old` as whole turns allow.

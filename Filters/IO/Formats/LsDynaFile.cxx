@@ -205,7 +205,8 @@ void LsDynaFile::takeKeyword(std::size_t part, Span span)
   static const std::map<std::string, std::string> refused = {
     { "INCLUDE_", "files that are included by another keyword than *INCLUDE" },
     { "NODE_", "nodes that are transformed, or defined otherwise than by *NODE" },
-    { "DEFINE_TRANSFORMATION", "parts that are transformed" }, { "PARAMETER", "parameters" }
+    { "DEFINE_TRANSFORMATION", "parts that are transformed" },
+    { "PART_MOVE", "parts that are transformed" }, { "PARAMETER", "parameters" }
   };
   // The lines that an option of a keyword adds to each element.
   static const std::map<std::string, int> options = { { "_ORTHO", 2 }, { "_DOF", 1 },
@@ -215,13 +216,13 @@ void LsDynaFile::takeKeyword(std::size_t part, Span span)
   this->isLong_ = this->isLong_ || name.find("LONG=Y") != std::string::npos;
   this->isWide_ = this->isWide_ || name.find("I10=Y") != std::string::npos;
   this->isWideBlock_ = this->isWide_ || name.find('%') != std::string::npos;
-  name = name.substr(0, name.find_first_of(" ,%"));
   this->isLongBlock_ = this->isLong_;
   if (!name.empty() && (name.back() == '+' || name.back() == '-'))
   {
     this->isLongBlock_ = name.back() == '+';
     name.pop_back();
   }
+  name = name.substr(0, name.find_first_of(" ,%"));
   for (const auto& [start, what] : refused)
   {
     if (name.rfind(start, 0) == 0)

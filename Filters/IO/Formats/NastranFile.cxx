@@ -126,6 +126,7 @@ private:
   void takeSystem(std::size_t part, const NastranCard& card);
   Index integerIn(std::size_t part, const NastranCard& card, std::size_t field) const;
   std::size_t frameOf(Index system, int depth);
+  std::deque<CoordinateFrame> framesAt(const std::vector<double>& coordinates) const override;
   Eigen::Vector3d positionOf(std::size_t node, int depth);
   void finish();
 
@@ -331,6 +332,22 @@ void NastranFile::takeSystem(std::size_t part, const NastranCard& card)
   this->systems_[this->integerIn(part, card, 0)] = system;
 }
 
+/// Of three points: the second is on the third axis, the last one in the plane of the first and
+/// third. Nothing where they are on a line.
+std::optional<CoordinateFrame> frameBy(CoordinateFrame::Kind kind, const Eigen::Matrix3d& points)
+{
+  const auto axes = axesOf(points.col(0), points.col(1), points.col(2));
+  if (!axes)
+  {
+    return {};
+  }
+  CoordinateFrame frame;
+  frame.kind = kind;
+  frame.origin = points.col(0);
+  frame.axes << axes->col(1), axes->col(2), axes->col(0);
+  return frame;
+}
+
 /// The frame of a coordinate system. `depth`: of systems that need each other.
 std::size_t NastranFile::frameOf(Index id, int depth)
 {
@@ -372,19 +389,56 @@ std::size_t NastranFile::frameOf(Index id, int depth)
     }
     points.col(k) = this->positionOf(static_cast<std::size_t>(node), depth + 1);
   }
-  // The second point is on the third axis, the last one in the plane of the first and third.
-  const auto axes = axesOf(points.col(0), points.col(1), points.col(2));
-  if (!axes)
+  const auto frame = frameBy(system.kind, points);
+  if (!frame)
   {
     this->failAt(system.part, system.at, "the three points of " + name + " are on a line.");
   }
-  CoordinateFrame frame;
-  frame.kind = system.kind;
-  frame.origin = points.col(0);
-  frame.axes << axes->col(1), axes->col(2), axes->col(0);
   system.frame = this->frames_.size();
-  this->frames_.push_back(frame);
+  this->frames_.push_back(*frame);
   return system.frame;
+}
+
+std::deque<CoordinateFrame> NastranFile::framesAt(const std::vector<double>& coordinates) const
+{
+  // A frame follows those that it needs.
+  std::map<std::size_t, std::pair<Index, const System*>> used;
+  for (const auto& [id, system] : this->systems_)
+  {
+    if (system.frame > 0)
+    {
+      used[system.frame] = { id, &system };
+    }
+  }
+  std::deque<CoordinateFrame> frames = this->frames_;
+  for (const auto& [number, one] : used)
+  {
+    const auto& [id, system] = one;
+    const auto reference = this->systems_.find(system->reference);
+    Eigen::Matrix3d points;
+    for (Index k = 0; k < 3; ++k)
+    {
+      if (system->isByNodes)
+      {
+        const Index node = this->nodes_.find(system->nodes[static_cast<std::size_t>(k)]);
+        points.col(k) = Eigen::Map<const Eigen::Vector3d>(coordinates.data() + 3 * node);
+      }
+      else
+      {
+        const std::size_t outer = system->reference == 0 ? 0 : reference->second.frame;
+        points.col(k) = frames[outer].toBasic(system->points.col(k));
+      }
+    }
+    const auto frame = frameBy(system->kind, points);
+    if (!frame)
+    {
+      throw Error("Cannot write the moved nodes of " + this->path() +
+                  ": the motion puts the nodes of the coordinate system " + std::to_string(id) +
+                  " on a line. Define it by points (CORD2R, CORD2C or CORD2S).");
+    }
+    frames[number] = *frame;
+  }
+  return frames;
 }
 
 /// Of a node, in the basic system.

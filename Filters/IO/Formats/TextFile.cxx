@@ -124,6 +124,11 @@ long long TextFile::integerAt(std::size_t part, Span span) const
   return *value;
 }
 
+std::deque<CoordinateFrame> TextFile::framesAt(const std::vector<double>&) const
+{
+  return this->frames_;
+}
+
 std::vector<double> TextFile::atPlaces(const std::vector<double>& coordinates,
   const std::string& out, std::vector<std::uint8_t>& isKept, double& largestRounding) const
 {
@@ -137,18 +142,19 @@ std::vector<double> TextFile::atPlaces(const std::vector<double>& coordinates,
     size = std::max(size, std::abs(x));
   }
   const double rounding = 16 * std::numeric_limits<double>::epsilon() * size;
+  const std::deque<CoordinateFrame> frames = this->framesAt(coordinates);
   std::map<std::pair<std::size_t, std::uint64_t>, std::size_t> moved; // by place
   std::vector<Index> apart;
   for (std::size_t node = 0; node < this->places_.size(); ++node)
   {
     const NodePlace& place = this->places_[node];
     std::uint8_t* kept = isKept.data() + 3 * node;
-    const bool isStill = kept[0] && kept[1] && kept[2];
+    const CoordinateFrame& frame = frames[place.frame];
+    const bool isStill = kept[0] && kept[1] && kept[2] && frame == this->frames_[place.frame];
     if (isStill || (place.frame == 0 && !this->sharesPlaces_))
     {
       continue;
     }
-    const CoordinateFrame& frame = this->frames_[place.frame];
     const Eigen::Map<const Eigen::Vector3d> basic(coordinates.data() + 3 * node);
     Eigen::Map<Eigen::Vector3d> local(result.data() + 3 * node);
     Eigen::Vector3d before;

@@ -54,6 +54,9 @@ protected:
   /// "FILE, line 7", for messages.
   std::string where(std::size_t part, std::size_t at) const;
   [[noreturn]] void failAt(std::size_t part, std::size_t at, const std::string& reason) const;
+  /// The coordinate systems once the nodes are at `coordinates`, those of mesh(). Some are defined
+  /// by nodes, and go along with them. Throws Error where one no longer exists.
+  virtual std::deque<CoordinateFrame> framesAt(const std::vector<double>& coordinates) const;
 
   std::deque<Part> parts_;        ///< they stay where they are; the first is the file itself
   std::vector<NodePlace> places_; ///< of each node
