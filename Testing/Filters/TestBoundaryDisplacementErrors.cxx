@@ -8,6 +8,7 @@
 #include <vtkBox.h>
 #include <vtkCallbackCommand.h>
 #include <vtkCellType.h>
+#include <vtkDataArraySelection.h>
 #include <vtkDoubleArray.h>
 #include <vtkImageData.h>
 #include <vtkMatrix4x4.h>
