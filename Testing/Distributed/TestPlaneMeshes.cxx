@@ -190,6 +190,26 @@ TEST(RankPlaneMorphMesh, AMoebiusStripAcrossRanksIsOneError)
   }
 }
 
+TEST(RankPlaneMorphMesh, APolygonOnOneRankIsOneError)
+{
+  const Ranks ranks = pieces::world();
+  morph::Mesh piece;
+  piece.points.resize(5, 3);
+  piece.points << 0, 0, 0, 1, 0, 0, 1, 1, 0, 0.5, 2, 0, 0, 1, 0;
+  piece.points.col(0).array() += ranks.rank();
+  ranks.rank() == 0 ? meshes::add(piece, VTK_POLYGON, { 0, 1, 2, 3, 4 })
+                    : meshes::add(piece, VTK_QUAD, { 0, 1, 2, 4 });
+  const auto grid = grids::make(piece);
+  auto filter = grids::of<vtkFEMWarpMorph>(grid);
+  filter->SetBoundaryData(grids::cloud(piece.points));
+  const grids::Run run(filter);
+  EXPECT_EQ(ranks.sum(static_cast<Index>(run.Errors.size())), 1);
+  for (const std::string& error : run.Errors)
+  {
+    EXPECT_NE(error.find("has a polygon, cell 0"), std::string::npos) << error;
+  }
+}
+
 TEST(RankPlaneMorphMesh, AllNodesOfAShellGoToATarget)
 {
   const Ranks ranks = pieces::world();

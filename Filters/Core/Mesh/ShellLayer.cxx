@@ -374,13 +374,17 @@ private:
 
 Mesh thicken(const Mesh& shell, const Communicator& processes)
 {
-  validate(shell); // as cells are read by their types
   Mesh mesh;
   Layer layer(shell, processes, mesh);
-  for (Index c = 0; c < shell.numberOfCells(); ++c)
-  {
-    layer.add(c);
-  }
+  processes.together(
+    [&]
+    {
+      validate(shell); // as cells are read by their types
+      for (Index c = 0; c < shell.numberOfCells(); ++c)
+      {
+        layer.add(c);
+      }
+    });
   mesh.layer = layerOf(mesh, shell.points, processes);
   const Index count = shell.numberOfNodes(), middles = static_cast<Index>(layer.middles().size());
   const std::vector<std::int8_t> windings = windingsOf(mesh, shell.points, processes);
@@ -406,12 +410,16 @@ Mesh thicken(const Mesh& shell, const Communicator& processes)
         cancelled.push_back(node);
       }
     }
-    if (!cancelled.empty())
-    {
-      throw Error("The shell turns back on itself, so that it has no normal at node ids " +
-                  listIds(processes.idsOf(cancelled)) +
-                  ". Separate its sheets there, or widen the fold.");
-    }
+    processes.together(
+      [&]
+      {
+        if (!cancelled.empty())
+        {
+          throw Error("The shell turns back on itself, so that it has no normal at node ids " +
+                      listIds(processes.idsOf(cancelled)) +
+                      ". Separate its sheets there, or widen the fold.");
+        }
+      });
     across = normalized(std::move(across));
   }
   across *= mesh.layer.thickness;

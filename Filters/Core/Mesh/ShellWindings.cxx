@@ -271,7 +271,8 @@ std::vector<std::int8_t> windingsOf(
   const Mesh& shell, const Points& points, const Communicator& processes)
 {
   const Relations relations = relationsOf(shell, points, processes);
-  Parts parts = partsOf(shell, points, relations.beside, processes);
+  Parts parts;
+  processes.together([&] { parts = partsOf(shell, points, relations.beside, processes); });
   const auto count = static_cast<Index>(parts.areas.size());
   const Index first = processes.sumBefore(count), all = processes.sum(count);
   std::vector<double> areas(all, 0);
