@@ -514,12 +514,13 @@ class SolverFiles(unittest.TestCase):
         box.write_text('SetFactory("OpenCASCADE"); Box(1) = {0, 0, 0, 1, 1, 1};\n'
                        'Physical Volume("body") = {1}; Physical Surface("wall") = {1};\n'
                        "Mesh.MeshSizeMax = 0.5;\n")
-        for extension, wall in ((".inp", "wall"), (".key", "PID 2000001"), (".bdf", "PID 1"),
-                                (".su2", "wall")):
-            with self.subTest(extension=extension):
+        for extension, wall, order in ((".inp", "wall", "1"), (".key", "PID 2000001", "1"),
+                                       (".key", "PID 2000001", "2"), (".bdf", "PID 1", "1"),
+                                       (".su2", "wall", "1")):
+            with self.subTest(extension=extension, order=order):
                 path, out = self.folder / ("box" + extension), self.folder / ("out" + extension)
-                subprocess.run(["gmsh", "-3", box, "-o", path], check=True, capture_output=True,
-                               timeout=120)
+                subprocess.run(["gmsh", "-3", "-order", order, box, "-o", path], check=True,
+                               capture_output=True, timeout=120)
                 said = self.morph(path, out, "--move", wall, "--translate", "0,0,0")
                 self.assertIn("\n0 coordinates of %s changed, all else kept" % out, said)
                 self.assertEqual(out.read_bytes(), path.read_bytes())

@@ -318,7 +318,7 @@ void LsDynaFile::takeCard(std::size_t part, Span span)
   }
 }
 
-/// On one line, or with its nodes on a second one.
+/// On one line, or with its nodes on a second one. Gmsh puts nine of ten nodes on the first.
 void LsDynaFile::takeElement(std::size_t part, Span span)
 {
   if (this->skip_ > 0)
@@ -328,16 +328,19 @@ void LsDynaFile::takeElement(std::size_t part, Span span)
   }
   // What follows the two nodes of a beam or spring is its orientation.
   const bool isLine = this->block_ == Block::Beam || this->block_ == Block::Discrete;
-  std::vector<Index>& numbers = this->integersOf(part, span, 8, isLine ? 4 : 10);
-  if (!this->isOpen_)
+  const bool isFirst = !this->isOpen_;
+  std::vector<Index>& numbers =
+    this->integersOf(part, span, 8, isLine ? 4 : 10, this->block_ == Block::Solid && isFirst);
+  if (isFirst)
   {
     this->elements_.push_back({ numbers[0], numbers[1], {}, part, span.begin, this->block_ });
     numbers.erase(numbers.begin(), numbers.begin() + 2);
   }
   numbers.erase(std::find(numbers.begin(), numbers.end(), 0), numbers.end());
-  this->isOpen_ = !this->isOpen_ && numbers.empty();
+  std::vector<Index>& nodes = this->elements_.back().nodes;
+  nodes.insert(nodes.end(), numbers.begin(), numbers.end());
+  this->isOpen_ = isFirst && (nodes.empty() || nodes.size() == 9);
   this->skip_ = this->isOpen_ ? 0 : this->extraLines_;
-  this->elements_.back().nodes = numbers;
 }
 
 void LsDynaFile::takeSet(std::size_t part, Span span)
