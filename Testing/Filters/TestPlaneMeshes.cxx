@@ -370,17 +370,22 @@ TEST(PlaneMeshes, ABoundaryThatLeavesThePlaneTakesTheMeshAlong)
            Turn.transpose();
   };
   auto grid = plate();
-  auto filter = grids::of<vtkMorphMesh>(grid);
-  filter->SetMovingToEverything();
-  filter->SetDisplacement(vtkMorphMesh::DISPLACEMENT_ARRAY);
-  filter->SetDisplacementArray("Motion");
   const Points rest = grids::points(grid);
   grids::addVectors(grid, "Motion", grids::mapped(rest, roll) - rest);
-  grids::update(filter);
-  const Points moved = grids::points(filter->GetOutput());
-  EXPECT_LT((moved - grids::mapped(rest, roll)).cwiseAbs().maxCoeff(), 0.1);
-  EXPECT_LT((moved - grids::mapped(rest, roll)).topRows(Around).cwiseAbs().maxCoeff(), 1e-14);
-  EXPECT_EQ(filter->GetInvertedCells(), 0);
+  for (const int steps : { 1, 3 })
+  {
+    auto filter = grids::of<vtkMorphMesh>(grid);
+    filter->SetMovingToEverything();
+    filter->SetDisplacement(vtkMorphMesh::DISPLACEMENT_ARRAY);
+    filter->SetDisplacementArray("Motion");
+    filter->SetSteppingToRelative();
+    filter->SetNumberOfSteps(steps);
+    filter->UpdateTimeStep(steps);
+    const Points moved = grids::points(filter->GetOutput());
+    EXPECT_LT((moved - grids::mapped(rest, roll)).cwiseAbs().maxCoeff(), 0.1);
+    EXPECT_LT((moved - grids::mapped(rest, roll)).topRows(Around).cwiseAbs().maxCoeff(), 1e-14);
+    EXPECT_EQ(filter->GetInvertedCells(), 0);
+  }
 }
 
 namespace

@@ -233,8 +233,8 @@ StepResult Session::morphStep(const Mesh& from, const BoundaryTargets& boundary,
   const AffineHandle* handle, const Options& options, Monitor& monitor)
 {
   const Communicator& processes = this->all();
-  const bool isFlat = processes.all(boundary.leaving.empty() || from.layer.isCurved());
-  if (!isFlat || leavesPlane(this->mesh_->mesh(), from.points, processes))
+  if (!from.layer.isCurved() && (!processes.all(boundary.leaving.empty()) ||
+                                  leavesPlane(this->mesh_->mesh(), from.points, processes)))
   {
     return this->morphStep(bent(from, processes), boundary, handle, options, monitor);
   }
