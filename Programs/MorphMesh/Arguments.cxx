@@ -646,13 +646,9 @@ Arguments parseArguments(int argc, char* argv[])
   {
     throw UsageError("fit needs --target.");
   }
-  if (name == "bake")
+  if (name == "bake" && !result.properties.has("DisplacementArray"))
   {
-    if (std::none_of(given.begin(), given.end(),
-          [](const Option* option) { return option->name == "--displacement-array"; }))
-    {
-      throw UsageError("bake needs --displacement-array.");
-    }
+    throw UsageError("bake needs --displacement-array.");
   }
   if (result.task == Arguments::Task::Morph &&
       !(result.shapes.empty() && result.table.empty() && result.rotations.empty()))

@@ -15,6 +15,8 @@
 #include <vtkNew.h>
 #include <vtkPointData.h>
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 
 namespace rank_grids
@@ -126,6 +128,17 @@ void abortOnLastRank(const morph::distributed::Ranks& ranks, vtkAlgorithm* filte
   if (ranks.rank() == ranks.count() - 1)
   {
     filter->AddObserver(vtkCommand::ProgressEvent, stop);
+  }
+}
+
+void expectOneError(
+  const morph::distributed::Ranks& ranks, vtkAlgorithm* filter, const std::string& telling)
+{
+  const grids::Run run(filter);
+  EXPECT_EQ(ranks.sum(static_cast<morph::Index>(run.Errors.size())), 1);
+  for (const std::string& error : run.Errors)
+  {
+    EXPECT_NE(error.find(telling), std::string::npos) << error;
   }
 }
 

@@ -10,6 +10,7 @@
 #include <vtkUnstructuredGrid.h>
 
 #include <functional>
+#include <string>
 #include <vector>
 
 /// Grids for the tests of filters on MPI ranks.
@@ -34,6 +35,10 @@ void alone(const std::function<void()>& work);
 
 /// Aborts the filter on the last rank alone, as soon as it reports progress there.
 void abortOnLastRank(const morph::distributed::Ranks& ranks, vtkAlgorithm* filter);
+
+/// Expects that the filter reports one error, on one of the ranks, that has this text.
+void expectOneError(
+  const morph::distributed::Ranks& ranks, vtkAlgorithm* filter, const std::string& telling);
 
 /// The largest distance, on any rank, of this rank's points from those of the whole mesh with the
 /// same ids.

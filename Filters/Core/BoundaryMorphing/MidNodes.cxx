@@ -1,21 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "BoundaryMorphing/MidNodes.h"
 
-#include "Geometry/AffineFit.h"
-
 namespace morph
 {
-Eigen::VectorXd weightsBetween(const BoundaryFaces& faces, Index node, const Points& rest)
-{
-  const std::vector<Index> corners(faces.between.begin(node), faces.between.end(node));
-  if (corners.empty())
-  {
-    return {};
-  }
-  const Eigen::RowVector3d place = rest.row(faces.nodes[node]);
-  return AffineLeastSquares(rest(corners, allColumns), place).weights(place);
-}
-
 void carryMidNodes(const BoundaryFaces& faces, const Classification& geometry,
   const ProjectionTarget* target, const Points& normals, const Points& before,
   BoundaryMotion& motion)

@@ -2,10 +2,9 @@
 #include "BoundaryMover/BoundaryModel.h"
 
 #include "Boundary/FaceAreas.h"
-#include "Boundary/LinearEdges.h"
+#include "Boundary/NodesBetween.h"
 #include "Mesh/FaceTable.h"
 #include "Mesh/FacesOfCells.h"
-#include "Mesh/HangingNodes.h"
 #include "Support/Lists.h"
 
 #include <Eigen/Geometry>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "BoundaryMover/SlideRounds.h"
 
-#include "BoundaryMorphing/MidNodes.h"
+#include "Boundary/NodesBetween.h"
 #include "Morpher/PolyhedralMorpher.h"
 #include "Support/Error.h"
 #include "Support/ProgressRange.h"

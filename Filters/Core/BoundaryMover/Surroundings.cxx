@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "BoundaryMover/Surroundings.h"
 
+#include "Boundary/NodesBetween.h"
 #include "BoundaryMorphing/CurveMorph.h"
-#include "BoundaryMorphing/MidNodes.h"
 #include "BoundaryMorphing/SurfaceSmoothing.h"
 #include "Mesh/ShellLayer.h"
 #include "Support/Error.h"

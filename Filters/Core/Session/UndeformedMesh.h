@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Boundary/LinearEdges.h"
+#include "Boundary/NodesBetween.h"
 #include "Boundary/WholeBoundary.h"
 #include "Mesh/HangingNodes.h"
 #include "Mesh/Mesh.h"
@@ -129,7 +129,7 @@ std::vector<Index> droppedTargets(
   const BoundaryTargets& boundary, const HangingNodes& hanging, const Points& moved, double size);
 /// A warning of these, or nothing. `ids`: of the whole mesh, ascending.
 std::string noteOfDropped(const std::vector<Index>& ids);
-/// Warns of nodes that part from linear cells; see LinearEdges.h. Ids as above.
+/// Warns of nodes that part from linear cells; see NodesBetween.h. Ids as above.
 void warnOfParting(const Parting& parting, Monitor& monitor);
 /// Warns of nodes of shells, beams or links that hang on nothing; see AttachedNodes.h. Ids as
 /// above.

@@ -68,7 +68,7 @@ public:
   /// Warns, and returns the merged blocks.
   vtkDataObject* Tell(morph::Monitor& monitor) const;
   ///@}
-  /// What Gather() has returned or, if it is a plane mesh, the solid to morph; see ShellGrid.
+  /// Makes a solid of what Gather() has returned if that is a plane mesh.
   ShellGrid& Shell() { return this->Plane; }
 
   /// The blocks of the last input; null where it was not composite.

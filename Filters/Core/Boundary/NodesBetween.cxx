@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Boundary/LinearEdges.h"
+#include "Boundary/NodesBetween.h"
 
+#include "Geometry/AffineFit.h"
 #include "Mesh/CellShape.h"
 #include "Mesh/FaceTable.h"
 #include "Mesh/Polyhedra.h"
@@ -12,6 +13,17 @@
 
 namespace morph
 {
+Eigen::VectorXd weightsBetween(const BoundaryFaces& faces, Index node, const Points& rest)
+{
+  const std::vector<Index> corners(faces.between.begin(node), faces.between.end(node));
+  if (corners.empty())
+  {
+    return {};
+  }
+  const Eigen::RowVector3d place = rest.row(faces.nodes[node]);
+  return AffineLeastSquares(rest(corners, allColumns), place).weights(place);
+}
+
 std::vector<Index> nodesOnLinearEdges(const Mesh& mesh, const BoundaryFaces& faces)
 {
   std::map<std::pair<Index, Index>, Index> middle; // of edges
@@ -55,12 +67,8 @@ Parting partingNodes(const std::vector<Index>& onLinearEdges, const BoundaryFace
   for (const Index k : onLinearEdges)
   {
     const Index node = faces.nodes[k];
-    const Index* ends = faces.between.begin(k);
-    const Eigen::RowVector3d edge = rest.row(ends[1]) - rest.row(ends[0]);
-    const double place = edge.dot(rest.row(node) - rest.row(ends[0])) / edge.squaredNorm();
-    const Points shift = moved(std::vector<Index>{ ends[0], ends[1], node }, allColumns) -
-                         rest(std::vector<Index>{ ends[0], ends[1], node }, allColumns);
-    const double gap = (shift.row(2) - (1 - place) * shift.row(0) - place * shift.row(1)).norm();
+    const auto shift = [&](Index n) { return Eigen::RowVector3d(moved.row(n) - rest.row(n)); };
+    const double gap = (shift(node) - meanBetween(faces, k, rest, shift)).norm();
     if (gap > 1e-6 * size)
     {
       result.nodes.push_back(node);
