@@ -36,6 +36,8 @@ const Surroundings::Result& BoundaryMover::move(const BoundaryModel& model, cons
       {
         this->inner_.constrain(model, options.inner, chosen, places);
       }
+      this->touching_.find(model);
+      this->movesOtherSides_ = this->touching_.addOtherSides(model, options.rest, chosen, places);
       this->periodic_.find(model, options.periodic);
       this->periodic_.addImages(model, chosen, places);
       result =

@@ -49,6 +49,8 @@ public:
   const InnerNodes& inner() const { return this->inner_; }
   const SlideRounds& rounds() const { return this->rounds_; }
   const Contact& contact() const { return this->contact_; } ///< of options.contact
+  /// Whether the other sides of baffles go along in the last move().
+  bool movesOtherSides() const { return this->movesOtherSides_; }
   Surroundings& surroundings() { return this->surroundings_; }
   const Surroundings& surroundings() const { return this->surroundings_; }
 
@@ -59,6 +61,7 @@ private:
   Contact contact_;
   PeriodicSides periodic_;
   TouchingNodes touching_;
+  bool movesOtherSides_ = false;
   Surroundings::Result result_;
 };
 }
