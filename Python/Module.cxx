@@ -2,7 +2,7 @@
 // The extension module meshmorphing._core: arrays in, arrays out. Shapes, types and coordinates are
 // checked in Python (Python/_arrays.py), ids here and in the core.
 #include "Boundary/Classification.h"
-#include "Boundary/FaceAreas.h"
+#include "Boundary/FaceQuality.h"
 #include "LinearMethods/FemWarp.h"
 #include "LinearMethods/LogBarrierWarp.h"
 #include "LinearMethods/RadialBasis.h"

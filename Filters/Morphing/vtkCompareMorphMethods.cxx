@@ -15,7 +15,7 @@
 #include "Private/Pipeline/Ranks.h"
 #include "Quality/ScaledJacobian.h"
 #include "Support/Error.h"
-#include "Support/ProgressRange.h"
+#include "Support/Monitor.h"
 #include "vtkFEMWarpMorph.h"
 #include "vtkInversionFreeMorph.h"
 #include "vtkLBWarpMorph.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause What boundaries forbid by themselves, and how soon the
 // inversion-free morph and its sub-steps give up then.
-#include "Geometry/CommonPoint.h"
+#include "Geometry/ExactPredicates.h"
 #include "LinearMethods/FemWarp.h"
 #include "Mesh/Topology.h"
 #include "Meshes.h"

@@ -7,7 +7,7 @@
 #include "Mesh/Topology.h"
 #include "Morpher/IncrementalMorph.h"
 #include "Quality/MovableQuality.h"
-#include "Support/ProgressRange.h"
+#include "Support/Monitor.h"
 #include "Untangling/InversionFree.h"
 #include "Untangling/QualityRaising.h"
 #include "Untangling/Smoothing.h"

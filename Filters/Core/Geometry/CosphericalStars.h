@@ -2,7 +2,7 @@
 #pragma once
 
 #include "Geometry/Delaunay.h"
-#include "Support/Adjacency.h"
+#include "Support/Lists.h"
 #include "Support/Monitor.h"
 
 namespace morph

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "LinearMethods/DirichletSystem.h"
 
-#include "Mesh/UnknownOrdering.h"
-#include "Solvers/GeneralSolver.h"
-#include "Solvers/SpdSolver.h"
+#include "Mesh/NodePartition.h"
+#include "Solvers/MultigridSolver.h"
 #include "Support/Error.h"
 #include "Support/Lists.h"
 #include "Support/Parallel.h"

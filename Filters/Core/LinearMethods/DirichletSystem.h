@@ -9,7 +9,6 @@
 #include "Solvers/CsrMatrix.h"
 #include "Solvers/LinearSolver.h"
 #include "Solvers/MultiVector.h"
-#include "Solvers/RightHandSide.h"
 #include "Solvers/RowComponents.h"
 #include "Support/Communicator.h"
 #include "Support/Monitor.h"

@@ -4,7 +4,7 @@
 #include "Mesh/OwnCells.h"
 #include "Quality/ScaledJacobian.h"
 #include "Support/Error.h"
-#include "Support/ProgressRange.h"
+#include "Support/Monitor.h"
 
 #include <algorithm>
 

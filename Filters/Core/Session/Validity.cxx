@@ -12,7 +12,7 @@
 #include "Session/AfterMotion.h"
 #include "Support/Error.h"
 #include "Support/Lists.h"
-#include "Support/ProgressRange.h"
+#include "Support/Monitor.h"
 #include "Untangling/BoundaryCheck.h"
 #include "Untangling/InversionFree.h"
 

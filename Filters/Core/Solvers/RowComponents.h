@@ -3,7 +3,6 @@
 
 #include "Solvers/CsrMatrix.h"
 #include "Solvers/MultiVector.h"
-#include "Solvers/RightHandSide.h"
 #include "Support/Monitor.h"
 #include "Support/Parallel.h"
 

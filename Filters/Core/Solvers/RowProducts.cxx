@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solvers/RowProducts.h"
 
-#include "Solvers/RowSum.h"
-
 #include <type_traits>
 
 namespace morph
