@@ -340,7 +340,11 @@ StepResult Session::morphStep(const Mesh& from, const BoundaryTargets& boundary,
   auto evaluating = part(0.3, 0.5);
   const Stopwatch watch;
   StepResult result;
-  const EvaluateReport report = this->evaluate(boundary.targets, handle, result.moved, evaluating);
+  const LinearMorpher* byModes = this->preparedModes(handle, evaluating);
+  const EvaluateReport report =
+    byModes
+      ? this->modes_.evaluate(*byModes, handle->motion, boundary.targets, result.moved, evaluating)
+      : this->method_->evaluate(boundary.targets, result.moved, evaluating);
   placeImages(from, result.moved, processes); // of a sum of modes
   if (validity.isInversionFree && onPieces)
   {
@@ -432,20 +436,15 @@ StepResult Session::morphStep(const Mesh& from, const BoundaryTargets& boundary,
   return result;
 }
 
-EvaluateReport Session::evaluate(
-  const Points& targets, const AffineHandle* handle, Points& moved, Monitor& monitor)
+const LinearMorpher* Session::preparedModes(const AffineHandle* handle, Monitor& monitor)
 {
   const auto* linear = dynamic_cast<const LinearMorpher*>(this->method_.get());
-  if (!handle || !linear)
-  {
-    return this->method_->evaluate(targets, moved, monitor);
-  }
   // Always, not from the second motion on: a result must not depend on what ran before.
-  if (!this->all().all(this->modes_.isPreparedFor(*linear, handle->fields)))
+  if (handle && linear && !this->all().all(this->modes_.isPreparedFor(*linear, handle->fields)))
   {
     this->modes_.prepare(*linear, handle->fields, monitor);
   }
-  return this->modes_.evaluate(*linear, handle->motion, targets, moved, monitor);
+  return handle ? linear : nullptr;
 }
 
 const NodePartition& Session::partitionOf(const std::vector<Index>& prescribed)

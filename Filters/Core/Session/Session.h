@@ -200,9 +200,9 @@ private:
   std::pair<int, Series::Step> lastUntil(int number) const;
   StepResult morphStep(const Mesh& from, const BoundaryTargets& boundary,
     const AffineHandle* handle, const Options& options, Monitor& monitor);
-  /// Moves the mesh by the prepared method, by its modes where a handle has some.
-  EvaluateReport evaluate(
-    const Points& targets, const AffineHandle* handle, Points& moved, Monitor& monitor);
+  /// Prepares modes_ for the handle, and returns the method that they are of; null without a handle,
+  /// or for a method that has none.
+  const LinearMorpher* preparedModes(const AffineHandle* handle, Monitor& monitor);
   /// The partition with these prescribed nodes, kept while they stay.
   const NodePartition& partitionOf(const std::vector<Index>& prescribed);
   /// Prepares the method for the mesh, with its own points or others, and for partition_, unless it

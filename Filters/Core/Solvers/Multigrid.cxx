@@ -2,7 +2,6 @@
 #include "Solvers/Multigrid.h"
 
 #include "Solvers/CsrMatrix.h"
-#include "Solvers/RowProducts.h"
 #include "Support/Error.h"
 #include "Support/Parallel.h"
 
@@ -16,55 +15,6 @@
 
 namespace morph
 {
-struct GaussSeidel::Sweep
-{
-  static MORPH_SIMD_INLINE void run(Index first, Index last, const Place* place,
-    const CsrRows<float>& A, const float* rhs, float* x)
-  {
-    for (Index i = first; i < last; ++i)
-    {
-      const Place& own = place[i];
-      const SimdFloat4 before = rowSum<SimdFloat4>(own.first, own.diagonal, A.column, A.value, x);
-      store(own.inverse * (load(rhs + SimdWidth * i) - before), x + SimdWidth * i);
-    }
-  }
-};
-
-/// The sweep has solved (D* + L) x = rhs, so rhs - A x = (D* - D - U - F) x.
-struct GaussSeidel::Residual
-{
-  static MORPH_SIMD_INLINE void run(Index first, Index last, const Place* place,
-    const CsrRows<float>& A, const float* x, float* residual)
-  {
-    for (Index i = first; i < last; ++i)
-    {
-      const Place& own = place[i];
-      const SimdFloat4 rest =
-        rowSum<SimdFloat4>(own.diagonal + 1, A.start[i + 1], A.column, A.value, x) +
-        rowSum<SimdFloat4>(A.start[i], own.first, A.column, A.value, x);
-      store(own.added * load(x + SimdWidth * i) - rest, residual + SimdWidth * i);
-    }
-  }
-};
-
-struct GaussSeidel::SweepBack
-{
-  static MORPH_SIMD_INLINE void run(Index first, Index last, const Place* place,
-    const CsrRows<float>& A, const float* rhs, const float* x, float* to)
-  {
-    for (Index i = last; i-- > first;)
-    {
-      const Place& own = place[i];
-      const SimdFloat4 rest =
-        rowSum<SimdFloat4>(A.start[i], own.diagonal + 1, A.column, A.value, x) +
-        rowSum<SimdFloat4>(own.last, A.start[i + 1], A.column, A.value, x) +
-        rowSum<SimdFloat4>(own.diagonal + 1, own.last, A.column, A.value, to);
-      store(load(x + SimdWidth * i) + own.inverse * (load(rhs + SimdWidth * i) - rest),
-        to + SimdWidth * i);
-    }
-  }
-};
-
 Index GaussSeidel::blockSize() const
 {
   constexpr Index Blocks = 16;
@@ -116,34 +66,58 @@ void GaussSeidel::prepareTransposed(
   parallel(A.rows, monitor, [&](Index i) { this->locate(A, i); });
 }
 
-template <typename Body, typename... Arguments>
-void GaussSeidel::forBlocks(Monitor& monitor, const CsrRows<float>& A, Arguments... arguments) const
+template <typename Body>
+void GaussSeidel::forBlocks(Index rows, Monitor& monitor, const Body& body) const
 {
   const Index size = this->blockSize();
-  const Place* place = this->places_.data();
-  parallel((A.rows + size - 1) / size, 1, monitor,
-    [&](Index block)
-    {
-      const Index first = block * size, last = std::min(first + size, A.rows);
-      dispatched<Body>(first, last, place, A, arguments...);
-    });
+  parallel((rows + size - 1) / size, 1, monitor,
+    [&](Index block) { body(block * size, std::min((block + 1) * size, rows)); });
 }
 
 void GaussSeidel::sweep(const CsrRows<float>& A, const Row* rhs, Row* x, Monitor& monitor) const
 {
-  this->forBlocks<Sweep>(monitor, A, rhs->data(), x->data());
+  this->forBlocks(A.rows, monitor,
+    [&](Index first, Index last)
+    {
+      for (Index i = first; i < last; ++i)
+      {
+        const Place& own = this->places_[i];
+        x[i] = own.inverse * (rhs[i] - rowSum(A, own.first, own.diagonal, x));
+      }
+    });
 }
 
 void GaussSeidel::residual(
   const CsrRows<float>& A, const Row* x, Row* residual, Monitor& monitor) const
 {
-  this->forBlocks<Residual>(monitor, A, x->data(), residual->data());
+  // The sweep has solved (D* + L) x = rhs, so rhs - A x = (D* - D - U - F) x.
+  this->forBlocks(A.rows, monitor,
+    [&](Index first, Index last)
+    {
+      for (Index i = first; i < last; ++i)
+      {
+        const Place& own = this->places_[i];
+        residual[i] = own.added * x[i] - (rowSum(A, own.diagonal + 1, A.start[i + 1], x) +
+                                           rowSum(A, A.start[i], own.first, x));
+      }
+    });
 }
 
 void GaussSeidel::sweepBack(
   const CsrRows<float>& A, const Row* rhs, const Row* x, Row* to, Monitor& monitor) const
 {
-  this->forBlocks<SweepBack>(monitor, A, rhs->data(), x->data(), to->data());
+  this->forBlocks(A.rows, monitor,
+    [&](Index first, Index last)
+    {
+      for (Index i = last; i-- > first;)
+      {
+        const Place& own = this->places_[i];
+        const Row rest = rowSum(A, A.start[i], own.diagonal + 1, x) +
+                         rowSum(A, own.last, A.start[i + 1], x) +
+                         rowSum(A, own.diagonal + 1, own.last, to);
+        to[i] = x[i] + own.inverse * (rhs[i] - rest);
+      }
+    });
 }
 
 namespace
@@ -347,16 +321,12 @@ void Multigrid::cycle(
   level.smoother.sweep(A, rhs, work, monitor);
   Row* residual = x;
   level.smoother.residual(A, work, residual, monitor);
-  monitor.parallelFor(level.R.rows(), Grain / 8,
-    [&](Index first, Index last)
-    { rowProducts(CsrRows<float>(level.R), residual, first, last, below.rhs.data() + first); });
+  const CsrRows<float> R = level.R, P = level.P;
+  parallel(R.rows, Grain / 8, monitor,
+    [&](Index i) { below.rhs[i] = rowSum(R, R.start[i], R.start[i + 1], residual); });
   this->cycle(k + 1, below.rhs.data(), below.x.data(), workspace, monitor);
-  monitor.parallelFor(level.rows, Grain,
-    [&](Index first, Index last)
-    {
-      forRowProducts(CsrRows<float>(level.P), below.x.data(), first, last,
-        [&](Index i, const Row& product) { work[i] += product; });
-    });
+  parallel(level.rows, monitor,
+    [&](Index i) { work[i] += rowSum(P, P.start[i], P.start[i + 1], below.x.data()); });
   level.smoother.sweepBack(A, rhs, work, x, monitor);
 }
 

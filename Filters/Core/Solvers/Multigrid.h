@@ -47,12 +47,9 @@ private:
     int first, diagonal, last; ///< of the row's entries in its block: [first, last)
     float added, inverse;      ///< D* - D and 1 / D*
   };
-  struct Sweep;
-  struct Residual;
-  struct SweepBack;
-  /// Calls Body for each block.
-  template <typename Body, typename... Arguments>
-  void forBlocks(Monitor& monitor, const CsrRows<float>& A, Arguments... arguments) const;
+  /// Calls body(first, last) for each block of rows.
+  template <typename Body>
+  void forBlocks(Index rows, Monitor& monitor, const Body& body) const;
   /// Finds the entries of a row, whose block it is in.
   void locate(const CsrRows<float>& A, Index row);
   Index blockSize() const;

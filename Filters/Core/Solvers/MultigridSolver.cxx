@@ -2,7 +2,6 @@
 #include "Solvers/MultigridSolver.h"
 
 #include "Solvers/ConjugateGradients.h"
-#include "Solvers/RowProducts.h"
 #include "Support/Error.h"
 #include "Support/Parallel.h"
 #include "Support/ReproducibleSum.h"
@@ -31,17 +30,13 @@ void MultigridSolver::prepare(LinearEquations&& equations, Monitor& monitor)
 
 void MultigridSolver::product(const Points& from, Points& to, Monitor& monitor) const
 {
-  constexpr Index Grain = 4096;
   const auto kept = this->parts_->workspace();
   MultiVector& rows = kept->residual;
   parallel(from.rows(), monitor, [&](Index i) { rows[i] = toRow(from.row(i)); });
   to.resize(from.rows(), 3);
-  monitor.parallelFor(from.rows(), Grain,
-    [&](Index first, Index last)
-    {
-      forRowProducts(CsrRows<double>(this->matrix()), rows.data(), first, last,
-        [&](Index i, const MultiVectorRow& product) { to.row(i) = product.head<3>(); });
-    });
+  const CsrRows<double> A = this->matrix();
+  parallel(A.rows, monitor,
+    [&](Index i) { to.row(i) = rowSum(A, A.start[i], A.start[i + 1], rows.data()).head<3>(); });
 }
 
 void MultigridSolver::precondition(const Points& from, Points& to, Monitor& monitor) const
@@ -83,17 +78,12 @@ std::shared_ptr<MultigridSolver::Workspace> MultigridSolver::Parts::workspace() 
 Sums MultigridSolver::Parts::residual(
   const RightHandSide& b, const MultiVector& x, MultiVector& r, Monitor& monitor) const
 {
-  return this->components.sums(this->A.rows(), monitor,
-    [&](Index first, Index last, int)
+  const CsrRows<double> rows = this->A;
+  return this->components.sums(rows.rows, monitor,
+    [&](Index i, int)
     {
-      MultiVectorRow norm2 = MultiVectorRow::Zero();
-      forRowProducts(CsrRows<double>(this->A), x.data(), first, last,
-        [&](Index i, const MultiVectorRow& product)
-        {
-          r[i] = b[i] - product;
-          norm2 += r[i].cwiseAbs2();
-        });
-      return norm2;
+      r[i] = b[i] - rowSum(rows, rows.start[i], rows.start[i + 1], x.data());
+      return MultiVectorRow(r[i].cwiseAbs2());
     });
 }
 
@@ -148,7 +138,7 @@ struct SpdSolver::Iteration
       return Row(
         this->work.residual32[i].cast<double>().cwiseProduct(this->work.step[i].cast<double>()));
     };
-    return this->unit * this->components().sumsOfRows(this->rows(), this->monitor, product);
+    return this->unit * this->components().sums(this->rows(), this->monitor, product);
   }
   void turn(const Sums& beta)
   {
@@ -161,22 +151,19 @@ struct SpdSolver::Iteration
   }
   Sums apply()
   {
+    const CsrRows<double> A = this->parts.A;
+    const Eigen::Vector4f* p = this->work.direction.data();
     return this->components().sums(this->rows(), this->monitor,
-      [&](Index first, Index last, int)
+      [&](Index i, int)
       {
-        Row sum = Row::Zero();
-        forRowProducts(CsrRows<double>(this->parts.A), this->work.direction.data(), first, last,
-          [&](Index i, const Row& product)
-          {
-            this->work.image[i] = product;
-            sum += product.cwiseProduct(this->work.direction[i].cast<double>());
-          });
-        return sum;
+        const Row product = rowSum(A, A.start[i], A.start[i + 1], p);
+        this->work.image[i] = product;
+        return Row(product.cwiseProduct(p[i].cast<double>()));
       });
   }
   Sums step(const Sums& alpha)
   {
-    return this->components().sumsOfRows(this->rows(), this->monitor,
+    return this->components().sums(this->rows(), this->monitor,
       [&](Index i, int component)
       {
         const Row factor = rowOf(alpha, component);
@@ -196,10 +183,10 @@ SolveReport SpdSolver::solve(const RightHandSide& b, MultiVector& x, double tole
   const auto kept = parts.workspace();
   Workspace& work = *kept;
   Iteration iteration = { parts, b, x, work, monitor };
-  const Sums bNorm2 = parts.components.sumsOfRows(
+  const Sums bNorm2 = parts.components.sums(
     b.rows(), monitor, [&](Index i, int) { return MultiVectorRow(b[i].cwiseAbs2()); });
-  Sums norm2 =
-    keepBetterGuess(parts.components, b, bNorm2, iteration.residual(), x, work.residual, monitor);
+  const Sums residual2 = parts.residual(b, x, work.residual, monitor);
+  Sums norm2 = keepBetterGuess(parts.components, b, bNorm2, residual2, x, work.residual, monitor);
   const SolverGoal goal = solverGoal(bNorm2, norm2, tolerance, maxIterations);
   SolveReport report;
   report.iterations = conjugateGradients(iteration, norm2, goal, monitor);
@@ -260,7 +247,7 @@ struct GeneralSolver::Iteration
   template <typename Body>
   Sums sums(const Body& body) const
   {
-    return this->parts.components.sumsOfRows(this->rows(), this->monitor, body);
+    return this->parts.components.sums(this->rows(), this->monitor, body);
   }
 
   /// Sets the units to the size of the residual.
@@ -272,15 +259,12 @@ struct GeneralSolver::Iteration
   /// Sets the step to B y, and result to A B y, for y in any units.
   void multiply(const FloatMultiVector& y, MultiVector& result)
   {
-    constexpr Index Grain = 4096;
+    const CsrRows<double> A = this->parts.A;
+    const Eigen::Vector4f* step = this->work.step.data();
     this->parts.multigrid.apply(
       y.data(), this->work.step.data(), this->work.multigrid, this->monitor);
-    this->monitor.parallelFor(this->rows(), Grain,
-      [&](Index first, Index last)
-      {
-        rowProducts(CsrRows<double>(this->parts.A), this->work.step.data(), first, last,
-          result.data() + first);
-      });
+    parallel(A.rows, this->monitor,
+      [&](Index i) { result[i] = rowSum(A, A.start[i], A.start[i + 1], step); });
   }
   /// Does x += factor step, r -= factor image; returns |r|^2.
   Sums advance(const Sums& factor, const MultiVector& image)
@@ -379,7 +363,7 @@ SolveReport GeneralSolver::solve(const RightHandSide& b, MultiVector& x, double 
   Workspace& work = *kept;
   const auto squares = [&](const auto& vectors)
   {
-    return parts.components.sumsOfRows(
+    return parts.components.sums(
       b.rows(), monitor, [&](Index i, int) { return MultiVectorRow(vectors[i].cwiseAbs2()); });
   };
   const auto residual = [&] { return parts.residual(b, x, work.residual, monitor); };

@@ -44,11 +44,17 @@ public:
 
   /// Calls body(first, last) on disjoint ranges that cover [0, n), perhaps in several threads.
   /// Every range but the last has at least `grain` elements. Results must not depend on the ranges.
-  virtual void parallelFor(
-    Index n, Index grain, const std::function<void(Index first, Index last)>& body);
+  void parallelFor(Index n, Index grain, const std::function<void(Index first, Index last)>& body);
+  /// The most threads that share a loop.
+  virtual int threads() const { return 1; }
 
   /// Throws Error of kind Cancelled if cancelled().
   void check();
+
+protected:
+  /// parallelFor() for n > 0 elements by more than one thread.
+  virtual void share(
+    Index n, Index grain, const std::function<void(Index first, Index last)>& body);
 };
 
 /// Maps the progress of a part, 0 to 1, to the range `first` to `last` of the whole. Reported
@@ -73,7 +79,10 @@ public:
   }
   bool cancelled() override { return this->whole_.cancelled(); }
   void warn(const std::string& message) override { this->whole_.warn(message); }
-  void parallelFor(
+  int threads() const override { return this->whole_.threads(); }
+
+protected:
+  void share(
     Index n, Index grain, const std::function<void(Index first, Index last)>& body) override
   {
     this->whole_.parallelFor(n, grain, body);
