@@ -207,6 +207,46 @@ class SolverFilesAndCommands(InFolder):
                         done.stdout)
 
 
+class ProjectCommands(unittest.TestCase):
+    """Commands of Install.md and Study.md, in a folder that looks like the project's."""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
+        (self.folder / "build").mkdir()
+        (self.folder / "build/paraview").symlink_to(howto_pictures.build_folder(PLUGIN))
+        (self.folder / "Utilities").symlink_to(ROOT / "Utilities")
+
+    def run_line(self, page, start, then=""):
+        """Runs the line of the page that begins so, and more."""
+        text = (ROOT / "Documentation" / page).read_text(encoding="utf-8")
+        line = re.search(rf"^ {{4}}({re.escape(start)}.*)$", text, re.MULTILINE)[1]
+        done = subprocess.run(["bash", "-ec", f"{line}\n{then}"], cwd=self.folder,
+                              env={**os.environ, "HOME": str(self.folder)}, capture_output=True,
+                              text=True, timeout=120, check=False)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        return done.stdout
+
+    def test_paraview_loads_the_plugin_by_its_folder(self):
+        Path(self.folder, "task.py").write_text(
+            "from paraview.simple import *\nprint(MorphMesh.__name__)\n", encoding="utf-8")
+        self.assertEqual(self.run_line("Install.md", "export PV_PLUGIN_PATH", "pvpython task.py"),
+                         "MorphMesh\n")
+
+    def test_the_plugin_is_installed_alone(self):
+        self.run_line("Install.md", "cmake --install build/paraview --component plugin")
+        found = [path.name for path in (self.folder / ".local").rglob("*.*")
+                 if path.suffix in (".so", ".h")]
+        self.assertEqual(found, ["MeshMorphing.so"])
+
+    def test_the_study_s_report(self):
+        shutil.copytree(ROOT / "Documentation/Study", self.folder / "study-output")
+        self.run_line("Study.md", "pvpython Utilities/study.py --report")
+        self.assertEqual((self.folder / "study-output/Results.md").read_text(encoding="utf-8"),
+                         (ROOT / "Documentation/Study/Results.md").read_text(encoding="utf-8"))
+
+
 class HowTos(unittest.TestCase):
     """The pages of HowTo, each run as it stands: it raises if a mesh is not valid."""
 
