@@ -382,8 +382,7 @@ class Figures(unittest.TestCase):
     def test_gallery(self):
         self.check_table(table("Gallery.md", "## In figures"), rows(STUDY / "gallery.csv"),
                          lambda cells: tuple(cells[:2]),
-                         [("script", "method"), "cells", "minimum_before", "minimum_after",
-                          "seconds"])
+                         [("script", "method"), "cells", "minimum_before", "minimum_after"])
 
     def test_data_files_say_where_their_rows_come_from(self):
         """The commit of the sources, and the machine where a column has a time."""
