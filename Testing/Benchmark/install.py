@@ -1,18 +1,15 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
 """What the packages of install-packages.sh --use take on this Debian, without those that its
-smallest system has, as the index of apt has them; and what Utilities/build.sh takes.
+smallest system has, as the index of apt has them.
 
-    Testing/Benchmark/install.py            # after apt-get update
-    Testing/Benchmark/install.py --build    # once more with the minutes, without ccache
+    Testing/Benchmark/install.py    # after apt-get update
 
-Writes this release's row of results/install.csv: megabytes to download, and on the disk; processor
-minutes of the build over two cores."""
+Writes this release's row of results/install.csv: megabytes to download, and on the disk."""
 
 import csv
 import os
 import re
-import resource
 import subprocess
 import sys
 import tempfile
@@ -21,10 +18,9 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent.parent
 DATA = ROOT / "Testing/Benchmark/results/install.csv"
 sys.path.insert(0, str(ROOT / "Utilities"))
-from study_pieces import ORIGIN, origin  # noqa: E402  (needs the path above)
+from study_pieces import commit  # noqa: E402  (needs the path above)
 
-FIELDS = ("release", "download_MB", "disk_MB", "build_minutes", *ORIGIN)
-CORES = 2
+FIELDS = ("release", "download_MB", "disk_MB", "commit")
 
 
 def apt(program, folder, *arguments):
@@ -57,23 +53,11 @@ def packages_row():
     return {"download_MB": round(all_[0] - less[0]), "disk_MB": round(all_[1] - less[1])}
 
 
-def build_minutes():
-    """Of the sources as git has them. Processor time is the same beside other work."""
-    with tempfile.TemporaryDirectory() as folder:
-        subprocess.run(["git", "clone", "--quiet", "--shared", ROOT, folder], check=True)
-        subprocess.run(["Utilities/build.sh", "-j", str(CORES)], cwd=folder, check=True,
-                       env={**os.environ, "CCACHE_DISABLE": "1"})
-    used = resource.getrusage(resource.RUSAGE_CHILDREN)
-    return round((used.ru_utime + used.ru_stime) / 60 / CORES, 1)
-
-
 def main():
     text = Path("/etc/os-release").read_text(encoding="utf-8")
     system = dict(re.findall(r'^(\w+)="?(.*?)"?$', text, re.MULTILINE))
     release = system["ID"] + " " + system.get("VERSION_ID", "unstable")
-    row = {"release": release, **packages_row(), **dict(zip(ORIGIN, origin()))}
-    if sys.argv[1:] == ["--build"]:
-        row["build_minutes"] = build_minutes()
+    row = {"release": release, "commit": commit(), **packages_row()}
     with open(DATA, encoding="utf-8") as file:
         others = [other for other in csv.DictReader(file) if other["release"] != release]
     with open(DATA, "w", encoding="utf-8", newline="") as file:
