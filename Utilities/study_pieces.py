@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What lets the study run in pieces: the machine and the state of the sources that a row comes from,
-and an end of the time that a piece has."""
+"""What lets the study run in pieces: the machine and the state of the sources that a row comes
+from, and an end of the time that a piece has."""
 
 import os
 import re

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Writes results/boxes.csv, what benchmark-boxes measures of FEMWARP on 35 random boxes.
 
-    python3 Testing/Benchmark/boxes.py [PROGRAM]     # default: build/paraview/bin/benchmark-boxes"""
+    python3 Testing/Benchmark/boxes.py [PROGRAM]    # default: build/paraview/bin/benchmark-boxes"""
 import csv
 import subprocess
 import sys

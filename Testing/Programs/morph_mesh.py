@@ -553,8 +553,8 @@ class MorphMesh(unittest.TestCase):
         self.fails(2, "--center has no effect", *move, "--center", "1,0,0", *files)
         self.fails(2, "--move needs a value", "--move", "--radius", "0.1", *files)
         for scale in ("0", "1,0,1"):
-            self.fails(2, "--scale 0 makes what moves flat", "--move", "Surface 1", "--scale", scale,
-                       "--validity", "report", *files)
+            self.fails(2, "--scale 0 makes what moves flat", "--move", "Surface 1", "--scale",
+                       scale, "--validity", "report", *files)
         self.assertFalse(files[1].exists())
 
     def test_files_that_are_no_mesh_are_told_apart(self):
