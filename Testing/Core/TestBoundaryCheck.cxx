@@ -4,9 +4,9 @@
 #include "LinearMethods/FemWarp.h"
 #include "Mesh/Topology.h"
 #include "Meshes.h"
-#include "Morpher/IncrementalMorph.h"
 #include "Motions.h"
 #include "Quality/ScaledJacobian.h"
+#include "Session/IncrementalMorph.h"
 #include "Untangling/BoundaryCheck.h"
 #include "Untangling/InversionFree.h"
 

@@ -5,8 +5,8 @@
 #include "Motions.h"
 
 #include "Mesh/Topology.h"
-#include "Morpher/IncrementalMorph.h"
 #include "Quality/MovableQuality.h"
+#include "Session/IncrementalMorph.h"
 #include "Support/Monitor.h"
 #include "Untangling/InversionFree.h"
 #include "Untangling/QualityRaising.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Morpher/IncrementalMorph.h"
+#include "Session/IncrementalMorph.h"
 
 #include "Mesh/OwnCells.h"
 #include "Quality/ScaledJacobian.h"
