@@ -4,7 +4,6 @@
 #include "Mesh/CellShape.h"
 #include "Mesh/FaceTable.h"
 #include "Mesh/Polyhedra.h"
-#include "Support/Buckets.h"
 #include "Support/Lists.h"
 
 #include <algorithm>
