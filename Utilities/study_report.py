@@ -19,10 +19,10 @@ STYLES = dict(zip(METHODS, (("#7f7f7f", "v"), ("#e69f00", "s"), ("#0072b2", "o")
                             ("#009e73", "^"), ("#cc79a7", "x"), ("#000000", "P"),
                             ("#d55e00", "*"))))
 
-LEGEND = ("Quality: minimum scaled Jacobian at S_F, and t*. In parentheses: inverted cells of the "
-          "method's own + those that the boundary takes with it, at a folded face or a corner. t* "
-          "is the t of the last step up to which no cell of the method's own is inverted; >= where "
-          "the series did not end by one.")
+LEGEND = ("The minimum scaled Jacobian at S_F. In parentheses: inverted cells of the method's own + "
+          "those that the boundary inverts, at a folded face or a corner. t* is the t of the last "
+          "step up to which no cell of the method's own is inverted, if a series ended by one. "
+          "results.csv has all steps, also with the paper's surfaces.")
 
 SECONDS = ("## Seconds per step\n\n"
            "Relative: the first of 20 steps, prepare and evaluate, since each step prepares again. "
@@ -72,18 +72,20 @@ def _panel_series(surfaces):
 def _quality_table(records, model, surfaces, steps, picture):
     figure = f" (the paper's Figure {paper.FIGURES[model]})" if model in paper.FIGURES else ""
     rows = []
-    for method in _methods(records, model, surfaces):
+    for method in _methods(records, model, surfaces) if surfaces == "exact" else []:
         rows.append([method] + [_quality_cell(records.steps(Series(model, *key, method)), steps)
                                 for key in _panel_series(surfaces)])
     head = ["method"] + [f"{kind} {stepping}" for kind, stepping in paper.PANELS]
     return ([f"## {model.capitalize()}, {surfaces} surfaces{figure}", "",
-             f"![Minimum scaled Jacobian, step by step]({picture})", ""] + _table(head, rows))
+             f"![Minimum scaled Jacobian, step by step]({picture})", ""]
+            + (_table(head, rows) if rows else []))
 
 
 def _quality_cell(steps, to_final):
     if len(steps) <= to_final:
         return "not run" if not steps else f"ended at step {len(steps) - 1}"
-    return f"{_minimum(steps[to_final])}; t* {_survived(steps)}"
+    survived = "" if all(step.valid for step in steps) else f"; t* {_survived(steps)}"
+    return _minimum(steps[to_final]) + survived
 
 
 def _minimum(step):
@@ -95,8 +97,7 @@ def _minimum(step):
 def _survived(steps):
     """t*, as a text."""
     last = last_valid(steps)
-    open_end = ">= " if all(step.valid for step in steps) else ""
-    return "none" if last is None else f"{open_end}{last:.2f}"
+    return "none" if last is None else f"{last:.2f}"
 
 
 def _draw_quality(path, records, model, surfaces, steps):
