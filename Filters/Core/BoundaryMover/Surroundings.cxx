@@ -328,8 +328,8 @@ std::vector<Index> Surroundings::ableToSlide(const BoundaryModel& model,
   }
   if (off.tellp() > 0)
   {
-    monitor.warn("What moves pulls surfaces off their own shape, which follow it: " + off.str() +
-                 ". If that is not meant, set `FixedSurfaces` to " + names.str() +
+    monitor.warn("Surfaces beside what moves leave their own shape: " + off.str() +
+                 ". If you do not want that, set `FixedSurfaces` to " + names.str() +
                  ", or set `Surroundings` to Stay.");
   }
   return able;

@@ -38,7 +38,7 @@ public:
   struct Round
   {
     double change = 0; ///< the largest move of a node, in the unit of the points
-    double force = 0;  ///< what is left of the pull, in parts of that before the first round
+    double force = 0;  ///< what is left of the pull, relative to that before the first round
   };
 
   /// The sliding nodes that have rows on this process.

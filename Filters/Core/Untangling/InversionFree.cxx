@@ -387,7 +387,7 @@ TargetConstruction InversionFree::findStart(const Points& boundary, const Movabl
     return TargetConstruction::Stretched;
   }
   keepBetter(atRest);
-  // Where it is the better start, the undeformed shapes are worth nothing.
+  // If it is the better start, the undeformed cell shapes are no useful target.
   return this->own_->isWhole() &&
              keepBetter(graphLaplaceMesh(this->own_->mesh(), this->partition(), atRest, monitor))
            ? TargetConstruction::IdealSkew
