@@ -4,7 +4,6 @@
 #include "Boundary/GivenSurfaces.h"
 #include "Boundary/SheetSurfaces.h"
 #include "Mesh/CellShape.h"
-#include "Support/Buckets.h"
 #include "Support/Error.h"
 #include "Support/Lists.h"
 #include "Support/Parallel.h"

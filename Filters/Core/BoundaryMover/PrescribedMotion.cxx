@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "BoundaryMover/PrescribedMotion.h"
 
-#include "Boundary/FaceAreas.h"
+#include "Boundary/FaceQuality.h"
 #include "BoundaryMover/Dimension.h"
 #include "BoundaryMover/Patches.h"
 #include "BoundaryMover/SurfaceShape.h"

@@ -4,7 +4,7 @@
 #include "Boundary/NodesBetween.h"
 #include "Morpher/PolyhedralMorpher.h"
 #include "Support/Error.h"
-#include "Support/ProgressRange.h"
+#include "Support/Monitor.h"
 
 #include <algorithm>
 #include <functional>

@@ -4,9 +4,9 @@
 #include "Mesh/CellShape.h"
 #include "Mesh/DividedFaces.h"
 #include "Mesh/FaceTable.h"
-#include "Mesh/FacesOfCells.h"
 #include "Mesh/HigherOrderNodes.h"
 #include "Mesh/Polyhedra.h"
+#include "Mesh/Topology.h"
 #include "Support/Lists.h"
 #include "Support/Parallel.h"
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Quality/ValidRange.h"
 
+#include "Quality/Bernstein.h"
 #include "Quality/CellMap.h"
 #include "Quality/Certificate.h"
 #include "Quality/MeasuredPlaces.h"
 #include "Quality/PolyhedronQuality.h"
-#include "Quality/PolynomialRoot.h"
 #include "Support/Parallel.h"
 
 #include <Eigen/Cholesky>

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Geometry/CommonPoint.h"
+#include "Geometry/ExactPredicates.h"
 
+#include <CGAL/Box_intersection_d/Box_with_info_d.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/QP_functions.h>
 #include <CGAL/QP_models.h>
 #include <CGAL/boost_mp.h>
+#include <CGAL/box_intersection_d.h>
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -11,6 +14,39 @@
 
 namespace morph
 {
+int orientationSign(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c,
+  const Eigen::Vector3d& d)
+{
+  using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+  const auto point = [](const Eigen::Vector3d& x) { return Kernel::Point_3(x[0], x[1], x[2]); };
+  return CGAL::orientation(point(a), point(b), point(c), point(d));
+}
+
+std::vector<std::array<Index, 2>> overlappingBoxes(const std::vector<Eigen::AlignedBox3d>& boxes,
+  const std::vector<std::uint8_t>& isChosen, const std::function<bool(Index, Index)>& isWanted)
+{
+  using Box = CGAL::Box_intersection_d::Box_with_info_d<double, 3, Index>;
+  std::vector<Box> chosen, others;
+  for (std::size_t i = 0; i < boxes.size(); ++i)
+  {
+    Eigen::Vector3d lowest = boxes[i].min(), highest = boxes[i].max();
+    (isChosen[i] ? chosen : others)
+      .emplace_back(lowest.data(), highest.data(), static_cast<Index>(i));
+  }
+  std::vector<std::array<Index, 2>> pairs;
+  const auto take = [&](const Box& a, const Box& b)
+  {
+    if (isWanted(a.info(), b.info()))
+    {
+      pairs.push_back({ std::min(a.info(), b.info()), std::max(a.info(), b.info()) });
+    }
+  };
+  CGAL::box_self_intersection_d(chosen.begin(), chosen.end(), take);
+  CGAL::box_intersection_d(chosen.begin(), chosen.end(), others.begin(), others.end(), take);
+  std::sort(pairs.begin(), pairs.end()); // the order of the search is no part of the result
+  return pairs;
+}
+
 namespace
 {
 constexpr int Projections = 200;

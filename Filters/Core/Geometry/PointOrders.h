@@ -27,4 +27,9 @@ struct FarthestPoints
 /// Source: T. F. Gonzalez, "Clustering to minimize the maximum intercluster distance", Theoretical
 /// Computer Science 38 (1985) 293-306.
 FarthestPoints farthestPoints(const Points& points, Monitor& monitor);
+
+/// Sorts `ids` along a space-filling curve (Morton's, with 2^21 steps a side). Nodes near in the
+/// list are near in space, whatever their numbering. Nodes at one position keep their order in
+/// `ids`. Cost: a sort.
+std::vector<Index> spatialOrder(const Points& points, const std::vector<Index>& ids);
 }

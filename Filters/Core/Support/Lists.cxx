@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Mesh/GatherMap.h"
+#include "Support/Lists.h"
 
 #include "Support/Parallel.h"
 

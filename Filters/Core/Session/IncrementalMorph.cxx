@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Morpher/IncrementalMorph.h"
+#include "Session/IncrementalMorph.h"
 
 #include "Mesh/OwnCells.h"
 #include "Quality/ScaledJacobian.h"
 #include "Support/Error.h"
-#include "Support/ProgressRange.h"
+#include "Support/Monitor.h"
 
 #include <algorithm>
 

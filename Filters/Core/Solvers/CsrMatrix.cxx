@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Solvers/AssembleRows.h"
+#include "Solvers/CsrMatrix.h"
 
 #include "Support/Error.h"
 #include "Support/Parallel.h"
