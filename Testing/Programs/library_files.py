@@ -59,7 +59,7 @@ class Files(unittest.TestCase):
         result = run(*(arguments or MOVE), path, out)
         self.assertEqual(result.returncode, 0, result.stderr)
         for line in result.stderr.splitlines():
-            self.assertRegex(line, "^morph-mesh: warning: (What moves|The motion|Quality)")
+            self.assertRegex(line, "^morph-mesh: warning: (Surfaces beside|The motion|Quality)")
         return result.stdout
 
     def exact(self, path, *arguments):
