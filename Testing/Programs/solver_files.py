@@ -60,7 +60,7 @@ class SolverFiles(unittest.TestCase):
         result = run(*arguments, path, out)
         self.assertEqual(result.returncode, 0, result.stderr)
         for line in result.stderr.splitlines():  # of the motion, not of the file
-            self.assertRegex(line, "^morph-mesh: warning: (What moves|The motion|Quality)")
+            self.assertRegex(line, "^morph-mesh: warning: (Surfaces beside|The motion|Quality)")
         return result.stdout
 
     def refuse(self, message, *arguments):
