@@ -300,7 +300,13 @@ bool GivenProperties::spell(const std::vector<std::string>& listed)
     const std::string meant = found == listed.end() ? didYouMean(name, listed, most) : "";
     if (!meant.empty())
     {
-      throw Failure(one.option + " names '" + name + "', which the mesh does not have." + meant);
+      std::string all;
+      for (std::size_t i = 0; i < listed.size(); ++i)
+      {
+        all += (i == 0 ? "" : ", ") + listed[i];
+      }
+      throw Failure(one.option + " names '" + name +
+                    "', which the mesh does not have; it has " + all + "." + meant);
     }
   }
   return isChanged;

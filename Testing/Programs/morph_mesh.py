@@ -675,7 +675,9 @@ class MorphMesh(unittest.TestCase):
         self.fails(2, "Did you mean --translate?", *options, flat, "--tranlsate", "1,0,0")
         self.fails(2, "no file lst. Did you mean list?", "lst", BORE)
         self.fails(2, "Did you mean FEMWARP?", *options, flat, "--method", "femwrap")
-        self.fails(1, "names 'Surfce 1', which the mesh does not have. Did you mean Surface 1?",
+        self.fails(1, "names 'Surfce 1', which the mesh does not have; it has Surface 0, Surface 1",
+                   "--move", "Surfce 1", "--translate", "0,0,1", BORE, flat)
+        self.fails(1, "Did you mean Surface 1?",
                    "--move", "Surfce 1", "--translate", "0,0,1", BORE, flat)
         self.fails(1, "'Surface 99', which the boundary does not have; it has Surface 0", "--move",
                    "Surface 99", "--translate", "0,0,1", BORE, flat)

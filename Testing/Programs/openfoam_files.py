@@ -74,8 +74,8 @@ class OpenFoam(solver_files.SolverFiles):
             if i in held:
                 self.assertEqual(a[3 * i:3 * i + 3], b[3 * i:3 * i + 3])
         self.assertNotEqual(a, b)
-        self.refuse("The zone 'rotr' is neither .*; it has rotor", "--move", "wall", "--translate",
-                    "1,0,0", "--rigid-zones", "rotr", case, once)
+        self.refuse("'rotr', which the mesh does not have; it has .*rotor.*Did you mean rotor",
+                    "--move", "wall", "--translate", "1,0,0", "--rigid-zones", "rotr", case, once)
         foam.write_zones(mesh, [10 ** 6], [0])
         self.refuse("zone rotor of cellZones has the entry 1000000", "list", case)
 
