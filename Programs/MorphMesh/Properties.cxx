@@ -305,8 +305,8 @@ bool GivenProperties::spell(const std::vector<std::string>& listed)
       {
         all += (i == 0 ? "" : ", ") + listed[i];
       }
-      throw Failure(one.option + " names '" + name +
-                    "', which the mesh does not have; it has " + all + "." + meant);
+      throw Failure(one.option + " names '" + name + "', which the mesh does not have; it has " +
+                    all + "." + meant);
     }
   }
   return isChanged;
