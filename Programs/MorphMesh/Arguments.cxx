@@ -2,6 +2,7 @@
 #include "Arguments.h"
 
 #include <vtkMorphAlgorithm.h>
+#include <vtksys/SystemTools.hxx>
 
 #include <algorithm>
 #include <cerrno>
@@ -384,7 +385,9 @@ std::vector<Option> optionsOf(Arguments& result)
     {
       const std::string value = valueName(property);
       const std::string words =
-        value == "<name>" && !property.words.empty() ? " One of " + wordsOf(property) + "." : "";
+        value == "<name>" && !property.words.empty()
+          ? " One of " + vtksys::SystemTools::Join(property.words, ", ") + "."
+          : "";
       options.push_back({ property.option, value, property.help + words, property.group,
         [&](const std::string& value) { result.properties.add(property, value); } });
     }
@@ -551,12 +554,8 @@ const Command* commandOf(int argc, char* argv[])
 {
   if (argc < 2)
   {
-    std::string names;
-    for (const Command& one : Commands)
-    {
-      names += (names.empty() ? "" : ", ") + std::string(one.name);
-    }
-    throw UsageError("No command and no file is given. The commands are " + names + ".");
+    throw UsageError("No command and no file is given. The commands are " +
+                     vtksys::SystemTools::Join(namesOfAll(Commands), ", ") + ".");
   }
   const std::string first = argv[1];
   const auto found = std::find_if(

@@ -323,11 +323,8 @@ std::string regionOf(const std::string& folder, const std::string& region)
     names.insert(part.region);
   }
   names.erase("");
-  std::string list;
-  for (const std::string& name : names)
-  {
-    list += (list.empty() ? "" : ", ") + name;
-  }
+  const std::string list =
+    vtksys::SystemTools::Join(std::vector<std::string>(names.begin(), names.end()), ", ");
   throw Failure(folder + " has no region '" + region + "' with a mesh of OpenFOAM" +
                 (list.empty() ? "." : ". Its regions are " + list + "."));
 }

@@ -142,8 +142,9 @@ PropertyValue valueOf(const Property& property, const std::string& text)
         [&](const std::string& word) { return plain(word) == plain(text); });
       if (found == property.words.end())
       {
-        throw UsageError(property.option + " is one of " + wordsOf(property) + ", not '" + text +
-                         "'." + didYouMean(text, property.words, 2));
+        throw UsageError(property.option + " is one of " +
+                         vtksys::SystemTools::Join(property.words, ", ") + ", not '" + text + "'." +
+                         didYouMean(text, property.words, 2));
       }
       return { { static_cast<double>(found - property.words.begin()) }, *found };
     }
@@ -165,16 +166,6 @@ std::string didYouMean(
   const auto near = std::min_element(names.begin(), names.end(),
     [&](const std::string& a, const std::string& b) { return apart(a) < apart(b); });
   return near == names.end() || apart(*near) > most ? "" : " Did you mean " + *near + "?";
-}
-
-std::string wordsOf(const Property& property)
-{
-  std::string result;
-  for (const std::string& word : property.words)
-  {
-    result += (result.empty() ? "" : ", ") + word;
-  }
-  return result;
 }
 
 std::string inOptions(const std::string& message)
@@ -300,13 +291,8 @@ bool GivenProperties::spell(const std::vector<std::string>& listed)
     const std::string meant = found == listed.end() ? didYouMean(name, listed, most) : "";
     if (!meant.empty())
     {
-      std::string all;
-      for (std::size_t i = 0; i < listed.size(); ++i)
-      {
-        all += (i == 0 ? "" : ", ") + listed[i];
-      }
       throw Failure(one.option + " names '" + name + "', which the mesh does not have; it has " +
-                    all + "." + meant);
+                    vtksys::SystemTools::Join(listed, ", ") + "." + meant);
     }
   }
   return isChanged;

@@ -57,8 +57,6 @@ std::string inOptions(const std::string& message);
 
 /// How the help calls its value, "<x,y,z>" for instance; empty for a flag.
 std::string valueName(const Property& property);
-/// The words of a choice with commas between them; empty where it is none.
-std::string wordsOf(const Property& property);
 /// " Did you mean X?" of the name that is spelled most like `name`, case aside; empty if more than
 /// `most` letters or any digit differ.
 std::string didYouMean(
