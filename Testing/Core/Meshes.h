@@ -5,6 +5,7 @@
 #include "Mesh/Mesh.h"
 #include "Support/Monitor.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <map>
@@ -86,7 +87,7 @@ Points randomPoints(Index n, std::mt19937& random);
 struct ThreadedMonitor : morph::Monitor
 {
   explicit ThreadedMonitor(int threads = 1);
-  int threads() const override { return this->count; }
+  int threads() const override { return std::max(2, this->count); } // share() cuts each loop
   void progress(double fraction) override;
   bool cancelled() override;
   void warn(const std::string& message) override;
