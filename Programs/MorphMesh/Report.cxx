@@ -155,6 +155,13 @@ void printReport(vtkScaledJacobian* before, const Outcome& outcome, vtkScaledJac
     row("crossing faces", std::string(), std::to_string(outcome.crossing));
   }
   row("worst cell", before->GetWorstCellId(), outcome.worst);
+  if (vtkDataArray* gaps = outcome.grid->GetFieldData()->GetArray("ContactGaps"))
+  {
+    std::cout << std::defaultfloat;
+    row("least gap in contact", gaps->GetComponent(0, 0), gaps->GetComponent(1, 0));
+    row("largest gap in contact", gaps->GetComponent(0, 1), gaps->GetComponent(1, 1));
+    std::cout << std::fixed;
+  }
   if (after)
   {
     printCriteria(before->GetOutput()->GetFieldData(), after->GetOutput()->GetFieldData());
@@ -187,6 +194,16 @@ void writeReport(vtkScaledJacobian* before, const Outcome& outcome, vtkScaledJac
     after ? before : nullptr);
   side("after", outcome.minimum, outcome.mean, outcome.inverted, outcome.collapsed, outcome.worst,
     after);
+  if (vtkDataArray* gaps = outcome.grid->GetFieldData()->GetArray("ContactGaps"))
+  {
+    const auto range = [gaps](vtkIdType time) // the least and the largest
+    {
+      return "[" + json(gaps->GetComponent(time, 0)) + ", " + json(gaps->GetComponent(time, 1)) +
+             "]";
+    };
+    file << "  \"gaps in contact\": {\"before\": " << range(0) << ", \"after\": " << range(1)
+         << "},\n";
+  }
   file << "  \"inverted by the motion\": " << outcome.added
        << ",\n  \"crossing faces\": " << outcome.crossing
        << ",\n  \"part of the motion reached\": " << json(outcome.reached)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Named parts of a boundary move, others follow or slide: the engine of the filters without VTK.
+#include "BoundaryMover/BoundaryMover.h"
 #include "BoundaryMover/FitToTarget.h"
 #include "BoundaryMover/Patches.h"
 #include "BoundaryMover/PrescribedMotion.h"
@@ -63,6 +64,34 @@ TEST(BoundaryMover, ASetOfNodesIsListedFirstWithItsArea)
   EXPECT_NEAR(sizes[0].measure, sizes[0].box.sizes()[0] * sizes[0].box.sizes()[1], 1e-12);
   EXPECT_FALSE(sizes[0].isInner);
   EXPECT_THROW(morph::choosePatches(model, { "BOTTOM" }, {}), morph::Error);
+}
+
+TEST(BoundaryMover, BothSidesOfABaffleMoveUnlessOneIsHeld)
+{
+  morph::Monitor monitor;
+  morph::Mesh mesh = meshes::hexes(4, 3, 3);
+  const Index old = mesh.numberOfNodes(); // a slit in the middle, open at y = 0, gets new ones
+  mesh.points.conservativeResize(2 * old, 3);
+  mesh.points.bottomRows(old) = mesh.points.topRows(old);
+  for (Index& node : mesh.connectivity)
+  {
+    const Index i = node % 5, j = node / 5 % 4, k = node / 20;
+    const Index cell = (&node - mesh.connectivity.data()) / 8;
+    node += i == 2 && j < 3 && k > 0 && k < 3 && cell % 4 >= 2 ? old : 0;
+  }
+  const BoundaryModel model = modelOf(mesh);
+  Choice choice;
+  choice.moving = { 2 + 20 }; // a node of the slit
+  choice.isMovingFace.resize(model.faces.cells.size(), 0);
+  const Points targets = model.points().row(22) + Row(0.1, 0, 0);
+  BoundaryMover mover;
+  const Points both = mover.move(model, choice, targets, {}, nullptr, monitor).moved;
+  EXPECT_TRUE(mover.movesOtherSides());
+  EXPECT_EQ(both.row(22 + old), targets.row(0));
+  choice.held = { 22 + old };
+  const Points one = mover.move(model, choice, targets, {}, nullptr, monitor).moved;
+  EXPECT_EQ(one.row(22), targets.row(0));
+  EXPECT_EQ(one.row(22 + old), model.points().row(22));
 }
 
 TEST(BoundaryMover, OuterSurfacesAreTheSameWhereAnInterfaceIsAskedFor)

@@ -518,6 +518,27 @@ class MorphMesh(unittest.TestCase):
                 self.assertAlmostEqual(report[side][label], printed, delta=5e-5)
         self.assertGreater(report["after"]["Skewness"]["worst"], 0)
 
+    def test_the_report_holds_the_gaps_of_bodies_in_contact(self):
+        corners = [(0, 0), (1, 0), (1, 1), (0, 1)]  # of two cubes, one above the other
+        nodes = [(x, y, z) for z in (0, 1, 1.05, 2.05) for x, y in corners]
+        deck, name = self.folder / "two.inp", self.folder / "report.json"
+        deck.write_text("*NODE\n" + "\n".join(
+            f"{n}, {x}, {y}, {z}" for n, (x, y, z) in enumerate(nodes, 1)) + """
+*ELEMENT, TYPE=C3D8
+1, 1, 2, 3, 4, 5, 6, 7, 8
+2, 9, 10, 11, 12, 13, 14, 15, 16
+*NSET, NSET=TOP
+5, 6, 7, 8
+""")
+        result = run("--move", "TOP", "--translate", "0,0,0.2", "--contact-distance", "0.1",
+                     "--report", name, deck, self.folder / "out.inp")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        gaps = json.loads(name.read_text())["gaps in contact"]
+        for i, label in enumerate(("least gap in contact", "largest gap in contact")):
+            for side, printed in zip(("before", "after"), row(result.stdout, label)):
+                self.assertAlmostEqual(printed, 0.05)
+                self.assertAlmostEqual(gaps[side][i], 0.05)
+
     def test_each_command_takes_its_own_options_alone(self):
         out = self.folder / "out.vtp"
         for command, files in (("list", [BORE]), ("check", [BORE]), ("extract", [BORE, out]),

@@ -3,6 +3,7 @@
 
 #include "BoundaryMover/Patches.h"
 #include "Support/Error.h"
+#include "Support/Lists.h"
 #include "Support/Monitor.h"
 
 #include <algorithm>
@@ -92,35 +93,79 @@ void warnOfUnmet(const BoundaryModel& model, const Choice& choice, const Points&
   }
 }
 
-void TouchingNodes::warnOfParted(
-  const BoundaryModel& model, const Surroundings::Result& result, Monitor& monitor)
+void TouchingNodes::find(const BoundaryModel& model)
 {
-  if (this->version_ != model.motionVersion)
+  if (this->version_ == model.motionVersion)
   {
-    this->version_ = model.motionVersion;
-    this->pairs_.clear();
-    const auto key = [&](Index n)
+    return;
+  }
+  this->version_ = model.motionVersion;
+  this->pairs_.clear();
+  this->sides_.clear();
+  const auto key = [&](Index n)
+  {
+    const auto x = model.points().row(n);
+    return std::make_tuple(x[0], x[1], x[2], model.bodyOfNode[n], n);
+  };
+  std::vector<Index> nodes = model.faces.nodes;
+  std::sort(nodes.begin(), nodes.end(), [&](Index a, Index b) { return key(a) < key(b); });
+  for (std::size_t i = 1; i < nodes.size(); ++i)
+  {
+    const Index a = nodes[i - 1], b = nodes[i];
+    if (model.points().row(a) == model.points().row(b))
     {
-      const auto x = model.points().row(n);
-      return std::make_tuple(x[0], x[1], x[2], model.bodyOfNode[n], n);
-    };
-    std::vector<Index> nodes = model.faces.nodes;
-    const auto body = [&](Index n) { return model.bodyOfNode[n]; };
-    const bool isOne = std::all_of(
-      nodes.begin(), nodes.end(), [&](Index n) { return body(n) == body(nodes.front()); });
-    if (!isOne)
-    {
-      std::sort(nodes.begin(), nodes.end(), [&](Index a, Index b) { return key(a) < key(b); });
+      const bool isOne = model.bodyOfNode[a] == model.bodyOfNode[b];
+      (isOne ? this->sides_ : this->pairs_).push_back({ a, b });
     }
-    for (std::size_t i = 1; !isOne && i < nodes.size(); ++i)
+  }
+}
+
+bool TouchingNodes::addOtherSides(const BoundaryModel& model, const Surroundings::Options& rest,
+  Choice& choice, Points& targets) const
+{
+  if (this->sides_.empty())
+  {
+    return false;
+  }
+  std::vector<Index> left = choice.held;
+  left.insert(left.end(), rest.freeNodes.begin(), rest.freeNodes.end());
+  for (const auto* surfaces : { &rest.sliding, &rest.free })
+  {
+    for (const Index surface : *surfaces)
     {
-      const Index a = nodes[i - 1], b = nodes[i];
-      if (body(a) != body(b) && model.points().row(a) == model.points().row(b))
+      const std::vector<Index>& nodes = model.geometry.surfaces[surface].nodes;
+      left.insert(left.end(), nodes.begin(), nodes.end());
+    }
+  }
+  sortUnique(left);
+  TargetOfNode moving = targetsOf(choice, targets);
+  const std::size_t before = moving.size();
+  for (bool isChanged = true; isChanged;) // several may be at one place
+  {
+    isChanged = false;
+    for (const auto& [a, b] : this->sides_)
+    {
+      for (const auto& [from, to] : { std::pair(a, b), std::pair(b, a) })
       {
-        this->pairs_.push_back({ a, b });
+        const auto found = moving.find(from);
+        const bool goes =
+          found != moving.end() && !std::binary_search(left.begin(), left.end(), to);
+        isChanged |= goes && moving.try_emplace(to, found->second).second;
       }
     }
   }
+  if (moving.size() == before)
+  {
+    return false;
+  }
+  setMoving(moving, choice, targets);
+  markMovingFaces(model.faces, choice);
+  return true;
+}
+
+void TouchingNodes::warnOfParted(
+  const BoundaryModel& model, const Surroundings::Result& result, Monitor& monitor) const
+{
   double most = 0;
   std::vector<Index> parted;
   for (const auto& [a, b] : this->pairs_)
@@ -190,6 +235,8 @@ const Surroundings::Result& BoundaryMover::move(const BoundaryModel& model, cons
       {
         this->inner_.constrain(model, options.inner, chosen, places);
       }
+      this->touching_.find(model);
+      this->movesOtherSides_ = this->touching_.addOtherSides(model, options.rest, chosen, places);
       this->periodic_.find(model, options.periodic);
       this->periodic_.addImages(model, chosen, places);
       result =

@@ -22,19 +22,25 @@ void warnOfUnmet(const BoundaryModel& model, const Choice& choice, const Points&
   const std::vector<Index>& sliding, const Surroundings::Result& result, Surroundings& surroundings,
   Monitor& monitor);
 
-/// The nodes of the boundary at the places of nodes of other bodies, which are not tied to them.
+/// Nodes of the boundary at the places of others: of the other side of a baffle, whose body is the
+/// same, or of other bodies, which are not tied to them.
 class TouchingNodes
 {
 public:
-  /// Warns of those that the motion parts from the others, by more than rounding: their number, the
-  /// surfaces of both and the largest distance. Cost: a sort of the boundary's nodes, unless the
-  /// boundary is the same as before.
+  /// Finds them, unless the boundary is the same as before. Cost: a sort of the boundary's nodes.
+  void find(const BoundaryModel& model);
+  /// Lets the other sides of what moves go along, but for nodes that are held, free or on a surface
+  /// that slides or is free. Returns whether there are some.
+  bool addOtherSides(const BoundaryModel& model, const Surroundings::Options& rest, Choice& choice,
+    Points& targets) const;
+  /// Warns of nodes that the motion parts from those of other bodies, by more than rounding: their
+  /// number, the surfaces of both and the largest distance.
   void warnOfParted(
-    const BoundaryModel& model, const Surroundings::Result& result, Monitor& monitor);
+    const BoundaryModel& model, const Surroundings::Result& result, Monitor& monitor) const;
 
 private:
-  std::int64_t version_ = -1; ///< BoundaryModel::motionVersion
-  std::vector<std::array<Index, 2>> pairs_;
+  std::int64_t version_ = -1;                       ///< BoundaryModel::motionVersion
+  std::vector<std::array<Index, 2>> pairs_, sides_; ///< of two bodies, and of one
 };
 
 /// Moves a part of a boundary, the rest of the boundary with it, and zones and layers inside. What
@@ -74,6 +80,8 @@ public:
   const InnerNodes& inner() const { return this->inner_; }
   const SlideRounds& rounds() const { return this->rounds_; }
   const Contact& contact() const { return this->contact_; } ///< of options.contact
+  /// Whether the other sides of baffles go along in the last move().
+  bool movesOtherSides() const { return this->movesOtherSides_; }
   Surroundings& surroundings() { return this->surroundings_; }
   const Surroundings& surroundings() const { return this->surroundings_; }
 
@@ -84,6 +92,7 @@ private:
   Contact contact_;
   PeriodicSides periodic_;
   TouchingNodes touching_;
+  bool movesOtherSides_ = false;
   Surroundings::Result result_;
 };
 }

@@ -602,7 +602,7 @@ void vtkDisplacementAlgorithm::vtkInternals::Write(const Options& options, vtkPo
     this->ContactReport = contact.report(before, after);
   }
   if (mover.hasInner() || mover.slide.rounds > 0 || mover.contact.distance > 0 ||
-      !mover.periodic.empty())
+      !mover.periodic.empty() || this->Mover.movesOtherSides())
   {
     filters::AffineArrays::Remove(output);
   }
