@@ -83,3 +83,15 @@ TEST(RowSum, MayBeOfAPartOfARow)
     EXPECT_EQ(rowSum(A, last, last, rows.wide.data()), MultiVectorRow(MultiVectorRow::Zero()));
   }
 }
+
+TEST(RowSum, MayBeOfNothing)
+{
+  const CsrMatrix none(3, 0);
+  const CsrRows<double> A = none;
+  const MultiVector x;
+  for (Index i = 0; i < A.rows; ++i)
+  {
+    EXPECT_EQ(
+      rowSum(A, A.start[i], A.start[i + 1], x.data()), MultiVectorRow(MultiVectorRow::Zero()));
+  }
+}

@@ -526,6 +526,7 @@ struct CornerTable
 {
   const int (*corner)[4];
   int size;
+  double factor; ///< of the sine of an angle, in scaledJacobianBound()
 };
 
 CornerTable cornersOf(Shape shape)
@@ -535,15 +536,15 @@ CornerTable cornersOf(Shape shape)
   switch (shape)
   {
     case Shape::Tet:
-      return { TetCorners, 4 };
+      return { TetCorners, 4, std::sqrt(2.) };
     case Shape::Hex:
-      return { HexCornerNodes, 8 };
+      return { HexCornerNodes, 8, 1 };
     case Shape::Wedge:
-      return { WedgeCornerNodes, 6 };
+      return { WedgeCornerNodes, 6, 2 / std::sqrt(3.) };
     case Shape::Pyramid:
-      return { PyramidCornerNodes, 4 };
+      return { PyramidCornerNodes, 4, 2 };
     default:
-      return { nullptr, 0 };
+      return { nullptr, 0, 1 };
   }
 }
 }
@@ -595,11 +596,7 @@ double scaledJacobianBound(Shape shape, const double (*corners)[3], unsigned nod
       }
     }
   }
-  const double factor = shape == Shape::Tet       ? std::sqrt(2.)
-                        : shape == Shape::Wedge   ? 2 / std::sqrt(3.)
-                        : shape == Shape::Pyramid ? 2.
-                                                  : 1.;
-  return factor * sine;
+  return table.factor * sine;
 }
 
 Quality measureQuality(const Mesh& mesh, const ConstPoints& points,
@@ -667,9 +664,8 @@ Quality ofAll(const Quality& mine, const Communicator& processes)
   if (whole.measured == 0)
   {
     whole.minimum = whole.mean = NotMeasured;
-    return whole;
   }
-  whole.worstCell = static_cast<Index>(lowest);
+  whole.worstCell = whole.measured == 0 ? -1 : static_cast<Index>(lowest);
   return whole;
 }
 
@@ -685,15 +681,21 @@ double worstMean(const Quality& mine, double share, const Communicator& processe
   }
   const Index count =
     std::clamp<Index>(static_cast<Index>(std::ceil(share * static_cast<double>(all))), 1, all);
-  const auto keepLowest = [&]
+  const auto end = values.begin() + std::min(count, static_cast<Index>(values.size()));
+  std::partial_sort(values.begin(), end, values.end());
+  const auto upTo = [&](double limit)
+  { return static_cast<Index>(std::upper_bound(values.begin(), end, limit) - values.begin()); };
+  // The last value that counts is above `low`, and not above `high`.
+  double low = processes.minimum(values.empty() ? Infinity : values.front()) - 1;
+  double high = processes.maximum(values.empty() ? -Infinity : *(end - 1));
+  for (int bit = 0; bit < 64; ++bit)
   {
-    const auto end = values.begin() + std::min(count, static_cast<Index>(values.size()));
-    std::partial_sort(values.begin(), end, values.end());
-    values.erase(end, values.end());
-  };
-  keepLowest();
-  values = processes.gather(values);
-  keepLowest();
-  return std::accumulate(values.begin(), values.end(), 0.) / static_cast<double>(count);
+    const double middle = (low + high) / 2;
+    (processes.sum(upTo(middle)) < count ? low : high) = middle;
+  }
+  const Index own = upTo(low);
+  const double sum = processes.sum(std::accumulate(values.begin(), values.begin() + own, 0.));
+  return (sum + static_cast<double>(count - processes.sum(own)) * high) /
+         static_cast<double>(count);
 }
 }

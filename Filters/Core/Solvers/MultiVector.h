@@ -102,7 +102,7 @@ public:
   {
   }
   /// b = -C u, computed when it is read. Rows next to the boundary alone have entries in C, so this
-  /// takes less time than to store b.
+  /// takes less time than to store b. C is compressed.
   RightHandSide(const CsrMatrix& C, const MultiVector& u)
     : vectors_(u)
     , coupling_(C)
