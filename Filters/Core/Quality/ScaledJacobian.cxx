@@ -21,7 +21,6 @@ namespace
 {
 constexpr double NotMeasured = std::numeric_limits<double>::quiet_NaN();
 constexpr double Infinity = std::numeric_limits<double>::infinity();
-constexpr unsigned AllSamples = ~0u;
 constexpr unsigned HexCenter = 1u << 8; // of the samples of a hexahedron, after its corners
 
 // The formulas, for one cell where T is double, or for as many as SimdDouble4 has numbers.
@@ -337,7 +336,7 @@ struct MeasureWaiting
     }
     SimdDouble4 values;
     SimdMask4 collapsed;
-    measure(shape, x, AllSamples, values, collapsed);
+    measure(shape, x, ~0u, values, collapsed);
     store(values, scaledJacobian);
     for (int lane = 0; lane < SimdWidth; ++lane)
     {
