@@ -216,7 +216,7 @@ Points CutMesh::extendTranspose(const ConstPoints& all) const
 NodePartition CutMesh::extend(const NodePartition& partition) const
 {
   const DistributedMesh& pieces = *this->pieces_;
-  std::vector<std::int64_t> isPrescribed(pieces.mesh().numberOfNodes(), 0);
+  std::vector<double> isPrescribed(pieces.mesh().numberOfNodes(), 0);
   const std::vector<Index> prescribed = this->cut_->extend(partition).prescribed;
   for (std::size_t n = 0; n < this->nodes_.size(); ++n)
   {

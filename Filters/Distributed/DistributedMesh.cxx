@@ -535,13 +535,13 @@ void DistributedMesh::findHanging(Builder& builder, Monitor& monitor)
 Index DistributedMesh::join(std::vector<Index>& ofNode) const
 {
   // The label of a component is the lowest id of its nodes.
-  std::vector<std::int64_t> label(ofNode.size(), NoBody);
+  std::vector<double> label(ofNode.size(), NoBody);
   for (std::size_t n = 0; n < ofNode.size(); ++n)
   {
-    label[n] = ofNode[n] < 0 ? NoBody : this->nodeIds_[n];
+    label[n] = static_cast<double>(ofNode[n] < 0 ? NoBody : this->nodeIds_[n]);
   }
   const Index parts = ofNode.empty() ? 0 : 1 + *std::max_element(ofNode.begin(), ofNode.end());
-  std::vector<std::int64_t> lowest(parts, NoBody);
+  std::vector<double> lowest(parts, NoBody);
   for (Index changes = 1; changes > 0; changes = this->ranks_->sum(changes))
   {
     changes = 0;

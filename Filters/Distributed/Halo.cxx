@@ -116,21 +116,12 @@ void Halo::update(const Ranks& ranks, Points& values) const
     [&](Index node, int j, double value) { values(node, j) = value; });
 }
 
-void Halo::update(const Ranks& ranks, std::vector<std::int64_t>& values) const
-{
-  carry(
-    ranks, 1, this->targets_, this->sends_, this->sources_, this->receives_,
-    [&](Index node, int) { return static_cast<double>(values[node]); },
-    [&](Index node, int, double value) { values[node] = static_cast<std::int64_t>(value); });
-}
-
-void Halo::minimum(const Ranks& ranks, std::vector<std::int64_t>& values) const
+void Halo::minimum(const Ranks& ranks, std::vector<double>& values) const
 {
   carry(
     ranks, 1, this->sources_, this->receives_, this->targets_, this->sends_,
-    [&](Index node, int) { return static_cast<double>(values[node]); },
-    [&](Index node, int, double value)
-    { values[node] = std::min(values[node], static_cast<std::int64_t>(value)); });
+    [&](Index node, int) { return values[node]; },
+    [&](Index node, int, double value) { values[node] = std::min(values[node], value); });
   this->update(ranks, values);
 }
 }

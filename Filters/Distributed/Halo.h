@@ -30,11 +30,9 @@ public:
   void update(const Ranks& ranks, std::vector<double>& values) const;
   /// Adds the ghosts' rows to those of their owners, and sets the ghosts' to zero.
   void add(const Ranks& ranks, Points& values) const;
-  /// update() for whole numbers below 2^53.
-  void update(const Ranks& ranks, std::vector<std::int64_t>& values) const;
   /// Sets each owner's value to the minimum over all ranks that have the node, and then the
   /// ghosts' to the owner's.
-  void minimum(const Ranks& ranks, std::vector<std::int64_t>& values) const;
+  void minimum(const Ranks& ranks, std::vector<double>& values) const;
 
 private:
   std::vector<int> targets_, sources_;

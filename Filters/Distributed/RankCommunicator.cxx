@@ -165,7 +165,7 @@ double RankCommunicator::minimum(double value) const
 
 void RankCommunicator::spread(std::vector<Index>& nodes) const
 {
-  std::vector<std::int64_t> unmarked(this->mesh_.mesh().numberOfNodes(), 1);
+  std::vector<double> unmarked(this->mesh_.mesh().numberOfNodes(), 1);
   for (const Index node : nodes)
   {
     unmarked[this->nodes_[node]] = 0;
@@ -271,16 +271,16 @@ void RankCommunicator::completeCells(std::vector<double>& values) const
 std::vector<Index> RankCommunicator::numbersOf(
   const std::vector<Index>& nodes, const std::vector<Index>& others) const
 {
-  std::vector<std::int64_t> numbers(this->mesh_.mesh().numberOfNodes(), -1);
+  std::vector<double> numbers(this->mesh_.mesh().numberOfNodes(), -1);
   Index next = this->mesh_.ranks().sumBefore(static_cast<Index>(nodes.size()));
   for (const Index node : nodes)
   {
-    numbers[node] = next++;
+    numbers[node] = static_cast<double>(next++);
   }
   this->mesh_.halo().update(this->mesh_.ranks(), numbers);
   std::vector<Index> result;
   std::transform(others.begin(), others.end(), std::back_inserter(result),
-    [&](Index node) { return numbers[node]; });
+    [&](Index node) { return static_cast<Index>(numbers[node]); });
   return result;
 }
 

@@ -67,12 +67,6 @@ std::int64_t SharedPlaces::contradiction(
 SharedPlaces::SharedPlaces(const Ranks& ranks, const std::vector<Node>& nodes)
   : ranks_(ranks)
 {
-  this->meetPlaces(nodes);
-}
-
-void SharedPlaces::meetPlaces(const std::vector<Node>& nodes)
-{
-  const Ranks& ranks = this->ranks_;
   Index highest = -1;
   for (const Node& node : nodes)
   {

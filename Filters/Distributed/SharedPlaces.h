@@ -63,7 +63,6 @@ private:
     int rank;
     Index number; ///< in the order of what the rank sent
   };
-  void meetPlaces(const std::vector<Node>& nodes);
   std::string numberPlaces(std::int64_t firstNew, std::int64_t& news);
 
   const Ranks& ranks_;

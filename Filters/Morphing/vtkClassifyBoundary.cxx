@@ -196,7 +196,7 @@ void vtkClassifyBoundary::vtkInternals::ClassifyOnRanks(vtkClassifyBoundary* fil
   filters::WholeSurface& whole = *this->Whole;
   whole.Take(piece, monitor);
   const filters::GatheredSurface& all = whole.Boundary();
-  whole.Together(
+  whole.together(
     [&]
     {
       filters::Surface::WarnOfNone(all.Faces, monitor);

@@ -305,7 +305,7 @@ void vtkMorphBoundary::vtkInternals::MorphOnRanks(vtkUnstructuredGrid* piece,
   {
     surface = whole.Gather(surface);
   }
-  whole.Together(
+  whole.together(
     [&]
     {
       const filters::GatheredSurface& all = whole.Boundary();

@@ -121,4 +121,55 @@ TEST(InnerFaces, ASetOfNodesInsideIsASurfaceUnlessItHasAWholeCell)
   EXPECT_EQ(set([](const auto& x) { return x[0] == 2 && x[1] == 2; }), 0u);
   EXPECT_EQ(set([](const auto& x) { return x[0] == 2 || (x == Eigen::RowVector3d(1, 1, 1)); }), 0u);
 }
+
+TEST(InnerFaces, CellsAtThemTellThemAll)
+{
+  for (const auto& [name, solid] : meshes::all(7, 5, 5))
+  {
+    meshes::ThreadedMonitor monitor;
+    Mesh mesh = solid;
+    const morph::FaceTable table = morph::faceTable(solid, monitor);
+    std::vector<morph::NamedCells> parts = { { "left", {} }, { "right", {} }, { "over", {} } };
+    std::vector<morph::NamedNodes> sets = { { "face", {} }, { "cells", {} } };
+    for (Index c = 0; c < solid.numberOfCells(); ++c)
+    {
+      const double x = solid.points(solid.cell(c)[0], 0), last = solid.points(solid.cell(c)[2], 0);
+      parts[x + last < 5 ? 0 : 1].cells.push_back(c);
+      if (c % 97 == 50) // here and there, across nothing
+      {
+        parts[2].cells.push_back(c);
+        addWall(mesh, { table.corners.begin(table.start[c]), table.corners.end(table.start[c]) });
+      }
+    }
+    for (Index n = 0; n < solid.numberOfNodes(); ++n)
+    {
+      sets[0].isNode.push_back(solid.points(n, 0) == 4);
+      sets[1].isNode.push_back(solid.points(n, 0) >= 5);
+    }
+    const std::vector<std::uint8_t> all(mesh.numberOfCells(), 1);
+    const morph::BoundaryFaces outer = morph::boundaryFaces(mesh, monitor);
+    std::vector<Index> kept = morph::cellsAtInnerFaces(
+      mesh, outer, parts, sets, all, morph::Communicator::alone(), monitor);
+    EXPECT_LT(kept.size(), 0.9 * static_cast<double>(solid.numberOfCells())) << name;
+    kept.insert(kept.end(), outer.cells.begin(), outer.cells.end());
+    Mesh some = mesh; // the other cells become vertices
+    for (Index c = 0; c < solid.numberOfCells(); ++c)
+    {
+      const bool isKept = std::find(kept.begin(), kept.end(), c) != kept.end();
+      some.types[c] = isKept ? some.types[c] : 1;
+    }
+    const auto found = morph::innerSurfaces(some, parts, sets, monitor),
+               wanted = morph::innerSurfaces(mesh, parts, sets, monitor);
+    ASSERT_EQ(found.size(), wanted.size()) << name;
+    EXPECT_FALSE(wanted.empty()) << name;
+    for (std::size_t i = 0; i < wanted.size(); ++i)
+    {
+      EXPECT_EQ(found[i].name, wanted[i].name) << name;
+      EXPECT_EQ(found[i].places, wanted[i].places) << name;
+    }
+    EXPECT_EQ(morph::innerFaces(some, outer, all, monitor).sheets,
+      morph::innerFaces(mesh, outer, all, monitor).sheets)
+      << name;
+  }
+}
 }

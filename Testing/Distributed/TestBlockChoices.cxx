@@ -18,6 +18,7 @@
 #include <vtkNew.h>
 #include <vtkSelection.h>
 #include <vtkSelectionNode.h>
+#include <vtkStringArray.h>
 
 #include <gtest/gtest.h>
 
@@ -90,6 +91,30 @@ void expectPoints(vtkAlgorithm* filter, vtkAlgorithm* serial, vtkAlgorithm* firs
               blocks::pointsByNumber(serial->GetOutputDataObject(0))),
     1e-8);
 }
+}
+
+TEST(RankBlockChoices, SurfacesBetweenBlocksAreListedAndMove)
+{
+  const Tree whole = quarters();
+  const auto configure = [](vtkMorphMesh* filter, vtkDataObjectTree* data)
+  {
+    filter->SetInputDataObject(data);
+    filter->AddSurface("A | C");
+    grids::moveBy(filter, 0.02, -0.03, 0.05);
+    vtkFEMWarpMorph::SafeDownCast(filter->GetMethodFilter())->SetTolerance(1e-12);
+  };
+  vtkNew<vtkMorphMesh> serial;
+  configure(serial, whole);
+  rank_grids::alone([&] { serial->Update(); });
+  onParts(whole,
+    [&](vtkDataObjectTree* data)
+    {
+      vtkNew<vtkMorphMesh> mine;
+      configure(mine, data);
+      expectPoints(mine, serial, mine);
+      EXPECT_GE(mine->GetSurfaceSizes()->LookupValue("C | D"), 0);
+      EXPECT_EQ(mine->GetPrescribedPoints(), serial->GetPrescribedPoints());
+    });
 }
 
 TEST(RankBlockChoices, ZonesAreBlocksThatOtherRanksHave)

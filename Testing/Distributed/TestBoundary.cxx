@@ -3,6 +3,7 @@
 #include "Meshes.h"
 #include "Pieces.h"
 #include "PolyhedralMeshes.h"
+#include "Private/Displace/Zones.h"
 #include "Private/Distributed/WholeSurface.h"
 #include "RankGrids.h"
 #include "RankParts.h"
@@ -606,4 +607,22 @@ TEST(RankBoundary, GathersTheSurfaceAndNotTheVolume)
   }
   EXPECT_LT(large, 1.2 * small);
   EXPECT_LT(large, 400);
+}
+
+TEST(RankBoundary, OfTheInteriorCellsAtInnerSurfacesAloneAreGathered)
+{
+  const Ranks ranks = pieces::world();
+  morph::Monitor monitor;
+  const auto grid = rank_grids::piece(ranks, meshes::hexes(12, 12, 12));
+  grids::markCells(grid, "left", [](const grids::Row& x) { return x[0] < 6; });
+  grids::markCells(grid, "right", [](const grids::Row& x) { return x[0] > 6; });
+  const auto surface = morph::filters::WholeSurface::Make();
+  surface->Take(grid, monitor,
+    [&] {
+      return morph::filters::Zones::List(grid, surface->piece(), nullptr, *surface->processes());
+    });
+  // Those at the boundary, and ten by ten on each side.
+  EXPECT_EQ(surface->Boundary().CellIds.size(), 12 * 12 * 12 - 10 * 10 * 10 + 2 * 10 * 10);
+  ASSERT_EQ(surface->Boundary().Zones.size(), 2u);
+  EXPECT_EQ(surface->Boundary().Zones[0].CellCount, 6 * 12 * 12);
 }

@@ -17,6 +17,7 @@
 
 #include <functional>
 #include <string>
+#include <vector>
 
 namespace
 {
@@ -61,6 +62,22 @@ Configure moves(const char* surface)
   return [surface](vtkMorphMesh* filter) { filter->AddSurface(surface); };
 }
 
+/// Of a list of names, counts and sizes, or counts of cells and nodes, by threes: those that have
+/// no number, which depends on the order of the nodes.
+std::vector<std::string> namesAndCounts(vtkStringArray* list)
+{
+  std::vector<std::string> texts;
+  for (vtkIdType i = 0; i + 1 < list->GetNumberOfValues(); i += 3)
+  {
+    const std::string name = list->GetValue(i);
+    if (name.find("Surface ") != 0 && name.find("Curve ") != 0)
+    {
+      texts.push_back(name + ": " + list->GetValue(i + 1));
+    }
+  }
+  return texts;
+}
+
 vtkSmartPointer<vtkMorphMesh> configured(vtkUnstructuredGrid* grid, const Configure& configure)
 {
   auto filter = grids::of<vtkMorphMesh>(grid);
@@ -86,6 +103,19 @@ TEST(RankInnerSurfaces, MoveStayAndAreListedAsOnOneRank)
                                         filter->AddSurface("plate");
                                         filter->AddFixedZone("block");
                                       })),
+      std::pair("baffle that keeps layers", Configure(
+                                              [](vtkMorphMesh* filter)
+                                              {
+                                                filter->AddSurface("plate");
+                                                filter->SetKeepLayers(1);
+                                              })),
+      std::pair("layers up to an interface", Configure(
+                                               [](vtkMorphMesh* filter)
+                                               {
+                                                 filter->AddSurface("outlet");
+                                                 filter->AddFixedSurface("left | right");
+                                                 filter->SetKeepLayers(3);
+                                               })),
       std::pair("periodic sides", Configure(
                                     [](vtkMorphMesh* filter)
                                     {
@@ -103,8 +133,8 @@ TEST(RankInnerSurfaces, MoveStayAndAreListedAsOnOneRank)
       1e-9);
     EXPECT_EQ(mine->GetPrescribedPoints(), serial->GetPrescribedPoints());
     EXPECT_EQ(mine->GetZonePoints(), serial->GetZonePoints());
-    EXPECT_EQ(mine->GetSurfaceSizes()->LookupValue("8 inner") >= 0,
-      serial->GetSurfaceSizes()->LookupValue("8 inner") >= 0);
+    EXPECT_EQ(namesAndCounts(mine->GetSurfaceSizes()), namesAndCounts(serial->GetSurfaceSizes()));
+    EXPECT_EQ(namesAndCounts(mine->GetZoneSizes()), namesAndCounts(serial->GetZoneSizes()));
   }
 }
 
@@ -139,22 +169,7 @@ TEST(RankInnerSurfaces, WhatCannotMoveIsOneError)
   const Ranks ranks = pieces::world();
   const morph::Mesh mesh = box();
   const auto whole = named(mesh);
-  for (const auto& [configure, part] :
-    { std::pair(moves("line"), "a zone holds or moves the nodes of 'line'"),
-      std::pair(Configure(
-                  [](vtkMorphMesh* filter)
-                  {
-                    filter->AddSurface("plate");
-                    filter->SetKeepLayers(1);
-                  }),
-        ranks.count() > 1 ? "no layers are kept in a mesh with baffles" : "") })
-  {
-    auto filter = configured(rank_grids::part(ranks, whole, mesh, meshes::seed()), configure);
-    const grids::Run run(filter);
-    EXPECT_EQ(ranks.sum(static_cast<Index>(run.Errors.size())), *part != 0);
-    for (const std::string& error : run.Errors)
-    {
-      EXPECT_NE(error.find(part), std::string::npos) << error;
-    }
-  }
+  const auto filter =
+    configured(rank_grids::part(ranks, whole, mesh, meshes::seed()), moves("line"));
+  rank_grids::expectOneError(ranks, filter, "a zone holds or moves the nodes of 'line'");
 }

@@ -185,6 +185,14 @@ void BoundaryModel::findFaces(const std::vector<std::uint8_t>& isNamed, Monitor&
   const ConnectedComponents bodies = connectedComponents(this->mesh);
   this->bodyOfNode = bodyOfNodes(this->mesh, bodies);
   this->faces = boundaryFaces(this->mesh, this->hanging, monitor);
+  this->addInnerFaces(isNamed, cellSigns(this->mesh, bodies), monitor);
+  this->onLinearEdges = nodesOnLinearEdges(this->mesh, this->faces);
+  monitor.check();
+}
+
+void BoundaryModel::addInnerFaces(const std::vector<std::uint8_t>& isNamed,
+  const std::vector<std::int8_t>& ofCell, Monitor& monitor)
+{
   this->inner = innerFaces(this->mesh, this->faces, isNamed, monitor);
   InnerFaces::Places& sheets = this->inner.sheets;
   for (const InnerSurface& surface : this->innerSurfaces)
@@ -214,14 +222,11 @@ void BoundaryModel::findFaces(const std::vector<std::uint8_t>& isNamed, Monitor&
     this->faces = facesAt(this->mesh, places);
     this->hanging.divideEdges(this->faces);
   }
-  this->onLinearEdges = nodesOnLinearEdges(this->mesh, this->faces);
-  const std::vector<std::int8_t> ofCell = cellSigns(this->mesh, bodies);
   this->orientation.clear();
   for (const Index cell : this->faces.cells)
   {
     this->orientation.push_back(ofCell[cell]);
   }
-  monitor.check();
 }
 
 std::vector<Index> BoundaryModel::sheetNumbers() const

@@ -82,6 +82,10 @@ struct BoundaryModel
   /// sets: two-dimensional ones are inner faces where they lie inside. So are the inner
   /// surfaces that are asked for. Cost: that of boundaryFaces() and connectedComponents().
   void findFaces(const std::vector<std::uint8_t>& isNamed, Monitor& monitor);
+  /// The part of findFaces() that is left once `faces` are the outer ones, and `hanging` is known.
+  /// `ofCell`: #cells, cellSigns() of the whole mesh. Cost: that of innerFaces().
+  void addInnerFaces(const std::vector<std::uint8_t>& isNamed,
+    const std::vector<std::int8_t>& ofCell, Monitor& monitor);
   /// See ClassificationOptions::sheets: the same number for faces of the same inner surfaces.
   std::vector<Index> sheetNumbers() const;
   /// Takes the sets, with their nodes on the boundary alone, and the inner surfaces that are asked

@@ -365,13 +365,8 @@ void InnerNodes::moveLayers(const Points& rest, const BoundaryModel& model, cons
 WallLayers InnerNodes::layersOnRanks(
   const BoundaryModel& model, const Choice& choice, const Options& options)
 {
-  if (model.inner.size() > 0)
-  {
-    throw Error("On several MPI ranks no layers are kept in a mesh with baffles or other inner "
-                "surfaces. Run on one rank, or without `KeepLayers`.");
-  }
-  const InnerPieces::Columns found =
-    this->pieces_->findLayers(choice.isMovingFace, options.keepLayers, options.isLayer);
+  const InnerPieces::Columns found = this->pieces_->findLayers(
+    model.faces, choice.isMovingFace, options.keepLayers, options.isLayer);
   if (!this->pieces_->anywhere(!found.nodes.empty() || !found.points.empty()))
   {
     throwNoLayers(options.layersName);

@@ -3,6 +3,7 @@
 
 #include "Mesh/HangingNodes.h"
 #include "Mesh/Mesh.h"
+#include "Mesh/Topology.h"
 #include "Support/Communicator.h"
 
 #include <cstdint>
@@ -54,9 +55,10 @@ public:
     std::vector<std::pair<Index, Index>> nodes;  ///< of the boundary, all processes
     std::vector<std::pair<Index, Index>> points; ///< ownInner()
   };
-  /// findWallLayers(). `isWall`: of the boundary's faces; `isLayer`: of the piece's cells, or empty
-  /// for all.
-  virtual Columns findLayers(const Flags& isWall, Index most, const Flags& isLayer) const = 0;
+  /// findWallLayers(). `faces`: of the boundary, inner ones too; `isWall`: of these; `isLayer`: of
+  /// the piece's cells, or empty for all.
+  virtual Columns findLayers(
+    const BoundaryFaces& faces, const Flags& isWall, Index most, const Flags& isLayer) const = 0;
 
   /// Where nodes and own inner points are that a method prescribes.
   struct Prescribed

@@ -49,14 +49,25 @@ std::map<Corners, int> flatCells(const Mesh& mesh, const std::vector<std::uint8_
   return cells;
 }
 
-InnerFaces innerFaces(const Mesh& mesh, const BoundaryFaces& outer,
-  const std::vector<std::uint8_t>& isMarked, Monitor& monitor)
+namespace
+{
+/// flatCells() that lie on no outer face.
+std::map<Corners, int> flatCellsInside(
+  const Mesh& mesh, const BoundaryFaces& outer, const std::vector<std::uint8_t>& isMarked)
 {
   std::map<Corners, int> cells = flatCells(mesh, isMarked);
   for (std::size_t f = 0; f + 1 < outer.offsets.size() && !cells.empty(); ++f)
   {
     cells.erase(cornersOfCell(mesh, outer, static_cast<Index>(f)));
   }
+  return cells;
+}
+}
+
+InnerFaces innerFaces(const Mesh& mesh, const BoundaryFaces& outer,
+  const std::vector<std::uint8_t>& isMarked, Monitor& monitor)
+{
+  const std::map<Corners, int> cells = flatCellsInside(mesh, outer, isMarked);
   InnerFaces result;
   if (cells.empty())
   {
@@ -250,5 +261,152 @@ std::vector<InnerSurface> innerSurfaces(const Mesh& mesh, const std::vector<Name
     addSet(set, table, cellOf, isInside, result);
   }
   return result;
+}
+
+namespace
+{
+/// For each cell the number of its list of parts, the same on all processes, or 0 if it is in none.
+/// Adds the first cell of each list to `first`.
+std::vector<double> listsOfParts(const Mesh& mesh, const std::vector<NamedCells>& parts,
+  const Communicator& processes, std::vector<Index>& first, Monitor& monitor)
+{
+  const Adjacency partsOf = partsOfCells(parts, mesh.numberOfCells(), monitor);
+  std::map<std::vector<Index>, double> numberOf;
+  std::vector<double> mine; // the lists of this process, each behind its size
+  for (Index c = 0; c < mesh.numberOfCells(); ++c)
+  {
+    const std::vector<Index> list(partsOf.begin(c), partsOf.end(c));
+    if (!list.empty() && numberOf.emplace(list, 0).second)
+    {
+      first.push_back(c);
+      mine.push_back(static_cast<double>(list.size()));
+      mine.insert(mine.end(), list.begin(), list.end());
+    }
+  }
+  numberOf.clear();
+  const std::vector<double> all = processes.gather(mine);
+  for (auto at = all.begin(); at != all.end();)
+  {
+    const auto size = static_cast<std::ptrdiff_t>(*at++);
+    numberOf.emplace(std::vector<Index>(at, at + size), static_cast<double>(numberOf.size() + 1));
+    at += size;
+  }
+  std::vector<double> result(mesh.numberOfCells(), 0);
+  for (Index c = 0; c < mesh.numberOfCells(); ++c)
+  {
+    if (partsOf.begin(c) != partsOf.end(c))
+    {
+      result[c] = numberOf.at({ partsOf.begin(c), partsOf.end(c) });
+    }
+  }
+  processes.completeCells(result);
+  return result;
+}
+
+/// Flags the nodes around which cells are in different lists of parts, but for none.
+void flagWherePartsMeet(
+  const Mesh& mesh, const std::vector<double>& lists, std::vector<std::uint8_t>& isNode)
+{
+  std::vector<double> found(mesh.numberOfNodes(), 0);
+  for (Index c = 0; c < mesh.numberOfCells(); ++c)
+  {
+    for (Index k = 0; k < mesh.cellSize(c) && lists[c] > 0; ++k)
+    {
+      const Index node = mesh.cell(c)[k];
+      isNode[node] |= found[node] > 0 && found[node] != lists[c];
+      found[node] = lists[c];
+    }
+  }
+}
+
+/// The first own cell all of whose faces the set has, or -1.
+Index wholeCell(const Mesh& mesh, const NamedNodes& set, const Communicator& processes)
+{
+  for (Index c = 0; c < mesh.numberOfCells(); ++c)
+  {
+    bool isVolume = false, hasAll = !processes.isCopy(c);
+    const auto see = [&](const Index* nodes, Index size)
+    {
+      isVolume = true;
+      hasAll =
+        hasAll && std::all_of(nodes, nodes + size, [&](Index n) { return set.isNode[n] != 0; });
+    };
+    forEachSide(mesh, c, see);
+    if (isVolume && hasAll)
+    {
+      return c;
+    }
+  }
+  return -1;
+}
+
+/// Whether the set has all corners of a face.
+bool hasFace(const NamedNodes& set, const BoundaryFaces& faces)
+{
+  for (std::size_t f = 0; f + 1 < faces.offsets.size(); ++f)
+  {
+    if (std::all_of(faces.connectivity.begin() + faces.offsets[f],
+          faces.connectivity.begin() + faces.offsets[f + 1],
+          [&](Index n) { return set.isNode[n] != 0; }))
+    {
+      return true;
+    }
+  }
+  return false;
+}
+}
+
+std::vector<Index> cellsAtInnerFaces(const Mesh& mesh, const BoundaryFaces& outer,
+  const std::vector<NamedCells>& parts, const std::vector<NamedNodes>& sets,
+  std::vector<std::uint8_t> isMarked, const Communicator& processes, Monitor& monitor)
+{
+  std::vector<Index> cells;
+  std::vector<std::uint8_t> isNode(mesh.numberOfNodes(), 0);
+  if (parts.size() > 1)
+  {
+    flagWherePartsMeet(mesh, listsOfParts(mesh, parts, processes, cells, monitor), isNode);
+  }
+  for (NamedNodes set : sets)
+  {
+    set.isNode.resize(mesh.numberOfNodes(), 0);
+    const Index whole = wholeCell(mesh, set, processes);
+    if (whole >= 0)
+    {
+      cells.push_back(whole);
+    }
+    if (processes.all(whole < 0 && !hasFace(set, outer)))
+    {
+      std::transform(isNode.begin(), isNode.end(), set.isNode.begin(), isNode.begin(),
+        [](std::uint8_t a, std::uint8_t b) { return a | b; });
+    }
+  }
+  isMarked.resize(mesh.numberOfCells(), 0);
+  for (const auto& [corners, count] : flatCellsInside(mesh, outer, isMarked))
+  {
+    std::for_each(corners.begin(), corners.end(), [&](Index n) { isNode[n] = 1; });
+  }
+  std::vector<Index> nodes;
+  for (Index n = 0; n < mesh.numberOfNodes(); ++n)
+  {
+    if (isNode[n])
+    {
+      nodes.push_back(n);
+    }
+  }
+  processes.spread(nodes);
+  std::for_each(nodes.begin(), nodes.end(), [&](Index n) { isNode[n] = 1; });
+  for (Index c = 0; c < mesh.numberOfCells(); ++c)
+  {
+    bool isAt = false;
+    forEachSide(mesh, c,
+      [&](const Index* corners, Index size)
+      { isAt = isAt || std::any_of(corners, corners + size, [&](Index n) { return isNode[n]; }); });
+    if (isAt && !processes.isCopy(c))
+    {
+      cells.push_back(c);
+    }
+  }
+  sortUnique(cells);
+  return cells;
 }
 }

@@ -3,6 +3,7 @@
 
 #include "Mesh/Mesh.h"
 #include "Mesh/Topology.h"
+#include "Support/Communicator.h"
 #include "Support/Monitor.h"
 
 #include <cstddef>
@@ -74,4 +75,16 @@ struct InnerSurface
 /// and faceTable(), if there are two parts or a set, and a pass over the faces for each set.
 std::vector<InnerSurface> innerSurfaces(const Mesh& mesh, const std::vector<NamedCells>& parts,
   const std::vector<NamedNodes>& sets, Monitor& monitor);
+
+/// Returns cells of this process, ascending. A mesh of these alone, of the two-dimensional cells
+/// and of those behind the `outer` faces has the same innerFaces() and innerSurfaces() as the whole
+/// mesh. They are the volume cells around nodes where parts meet, of sets that may be surfaces, and
+/// of two-dimensional cells inside; and one cell for each way in which parts overlap, and for each
+/// set that has a whole cell. On several processes `mesh` has copies of the cells around its nodes,
+/// and parts and sets have the same names in the same order; of a process's own cells and nodes
+/// each has its own. Flags may end before copies. Collective. Cost: passes over the cells, one for
+/// each set, and messages of 8 bytes for each copy.
+std::vector<Index> cellsAtInnerFaces(const Mesh& mesh, const BoundaryFaces& outer,
+  const std::vector<NamedCells>& parts, const std::vector<NamedNodes>& sets,
+  std::vector<std::uint8_t> isMarked, const Communicator& processes, Monitor& monitor);
 }

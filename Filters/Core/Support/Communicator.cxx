@@ -4,6 +4,7 @@
 #include "Support/ReproducibleSum.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace morph
 {
@@ -84,6 +85,34 @@ std::unique_ptr<CopiedRows> Communicator::rows() const
 std::unique_ptr<Communicator> Communicator::part(const std::vector<Index>&) const
 {
   return std::make_unique<Communicator>();
+}
+
+std::vector<std::string> Communicator::gatherTexts(const std::vector<std::string>& texts) const
+{
+  std::vector<double> characters;
+  for (const std::string& text : texts)
+  {
+    characters.insert(characters.end(), text.begin(), text.end());
+    characters.push_back(0);
+  }
+  std::vector<std::string> result;
+  std::string text;
+  for (const double character : this->gather(characters))
+  {
+    if (character != 0)
+    {
+      text += static_cast<char>(character);
+    }
+    else if (std::find(result.begin(), result.end(), text) == result.end())
+    {
+      result.push_back(std::exchange(text, {}));
+    }
+    else
+    {
+      text.clear();
+    }
+  }
+  return result;
 }
 
 Points Communicator::gather(const Points& rows, const std::vector<Index>& nodes) const

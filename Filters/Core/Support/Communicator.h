@@ -131,6 +131,8 @@ public:
   virtual std::vector<Index> cellsOf(const std::vector<Index>& ids) const { return ids; }
   /// Returns the lists of all processes, one after the other.
   virtual std::vector<double> gather(const std::vector<double>& values) const { return values; }
+  /// The same for texts, each of which is returned once. They have no zero characters.
+  std::vector<std::string> gatherTexts(const std::vector<std::string>& texts) const;
   /// Returns the pieces of cells that methods see, with so many layers of copies around those of
   /// each process; null for one process: see cutCells(). `mesh`: of this process, at any points.
   virtual std::shared_ptr<CellPieces> cut(const Mesh& mesh, int layers, Monitor& monitor) const;

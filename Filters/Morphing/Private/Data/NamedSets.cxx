@@ -73,10 +73,23 @@ std::vector<std::uint8_t> CellsOfNamedSets(vtkPointSet* input)
   return result;
 }
 
-std::vector<morph::NamedNodes> NodeSets(vtkPointSet* input)
+std::vector<morph::NamedCells> PartsOf(const std::vector<ListedZone>& zones)
+{
+  std::vector<morph::NamedCells> parts;
+  for (const ListedZone& zone : zones)
+  {
+    if (zone.CellCount > 0)
+    {
+      parts.push_back({ zone.Name, zone.Cells });
+    }
+  }
+  return parts;
+}
+
+std::vector<morph::NamedNodes> NodeSets(vtkPointSet* input, const morph::Communicator& processes)
 {
   std::vector<morph::NamedNodes> result;
-  for (const std::string& name : NamesOfSets(input))
+  for (const std::string& name : processes.gatherTexts(NamesOfSets(input)))
   {
     const Flags isCell = marks(input->GetCellData(), name.c_str(), input->GetNumberOfCells());
     Flags isNode = marks(input->GetPointData(), name.c_str(), input->GetNumberOfPoints());
@@ -87,7 +100,8 @@ std::vector<morph::NamedNodes> NodeSets(vtkPointSet* input)
       const morph::CellShape* shape = morph::cellShape(static_cast<std::uint8_t>(type));
       hasFaces = hasFaces || (isCell[c] && (!shape || shape->dimension < 3));
     }
-    if (std::find(isNode.begin(), isNode.end(), 1) != isNode.end() && !hasFaces)
+    const bool hasNodes = std::find(isNode.begin(), isNode.end(), 1) != isNode.end();
+    if (processes.all(!hasFaces) && !processes.all(!hasNodes))
     {
       result.push_back({ name, std::move(isNode) });
     }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "BoundaryMover/BoundaryModel.h"
+#include "Support/Communicator.h"
 
 #include <cstdint>
 #include <string>
@@ -14,15 +15,34 @@ namespace morph::filters
 {
 using morph::NamedSet;
 
+/// A zone that can be named: volume cells or, where it is a set of nodes, a number of them.
+struct ListedZone
+{
+  std::string Name;
+  std::vector<morph::Index> Cells;       ///< of this process, ascending
+  morph::Index CellCount = 0, Nodes = 0; ///< of all processes
+
+  bool operator==(const ListedZone& other) const
+  {
+    return this->Name == other.Name && this->Cells == other.Cells &&
+           this->CellCount == other.CellCount && this->Nodes == other.Nodes;
+  }
+};
+
 /// The names that the input's field data `SurfaceNames` (vtkStringArray) lists, each once.
 std::vector<std::string> NamesOfSets(vtkPointSet* input);
 
 /// For each cell of the input whether a set that its field data `SurfaceNames` lists has it.
 std::vector<std::uint8_t> CellsOfNamedSets(vtkPointSet* input);
 
+/// Those that have volume cells.
+std::vector<morph::NamedCells> PartsOf(const std::vector<ListedZone>& zones);
+
 /// The sets of points that the input's field data `SurfaceNames` lists. Those that have volume
-/// cells, too, are among them; those of other cells are not.
-std::vector<morph::NamedNodes> NodeSets(vtkPointSet* input);
+/// cells, too, are among them; those of other cells are not. With the sets of other `processes`, of
+/// which nothing may be marked here. Collective.
+std::vector<morph::NamedNodes> NodeSets(
+  vtkPointSet* input, const morph::Communicator& processes = morph::Communicator::alone());
 
 /// The sets that the input's field data `SurfaceNames` (vtkStringArray) lists, by the point and
 /// cell arrays of their names, which mark by values that are not zero; see morph::boundarySet(). A

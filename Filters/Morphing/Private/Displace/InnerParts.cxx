@@ -29,11 +29,11 @@ std::vector<std::uint8_t> layerCells(vtkUnstructuredGrid* grid, const std::strin
 
 void vtkDisplacementAlgorithm::vtkInternals::ListZones()
 {
-  for (const filters::Zones::Listed& zone : this->Model.Parts())
+  for (const filters::ListedZone& zone : this->Model.Parts())
   {
     this->ZoneList->AddArray(zone.Name.c_str(), false);
     this->ZoneSizes->InsertNextValue(zone.Name);
-    for (const auto count : { static_cast<morph::Index>(zone.Cells.size()), zone.Nodes })
+    for (const morph::Index count : { zone.CellCount, zone.Nodes })
     {
       this->ZoneSizes->InsertNextValue(count > 0 ? std::to_string(count) : "");
     }
@@ -63,7 +63,7 @@ std::vector<filters::Zones::Part> vtkDisplacementAlgorithm::vtkInternals::FindZo
   const filters::MergedBlocks* blocks = this->Blocks.Merged();
   if (this->Whole)
   {
-    return filters::Zones::FindOnRanks(kind, grid, *this->Whole->Volume(), blocks, zones);
+    return filters::Zones::FindOnRanks(kind, grid, *this->Whole, blocks, zones);
   }
   const bool isMesh = this->Model.mesh.numberOfCells() > 0; // or the faces of a shell
   return filters::Zones::Find(

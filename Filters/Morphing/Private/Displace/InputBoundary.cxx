@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Private/Displace/InputBoundary.h"
 
-#include "Mesh/InnerFaces.h"
 #include "Mesh/Mesh.h"
 #include "Private/Data/Arrays.h"
 #include "Private/Data/GridMesh.h"
@@ -127,25 +126,17 @@ std::set<std::string> InputBoundary::Asked(const std::set<std::string>& names) c
 }
 
 void InputBoundary::FindInnerSurfaces(
-  vtkUnstructuredGrid* grid, const MergedBlocks* blocks, bool sameMesh, morph::Monitor& monitor)
+  vtkUnstructuredGrid* grid, std::vector<ListedZone> zones, bool sameMesh, morph::Monitor& monitor)
 {
-  std::vector<Zones::Listed> listed = Zones::List(grid, this->mesh, blocks);
   std::vector<morph::NamedNodes> sets = NodeSets(grid);
-  if (sameMesh && listed == this->Listed && sets == this->Sets)
+  if (sameMesh && zones == this->Listed && sets == this->Sets)
   {
     return;
   }
-  this->Listed = std::move(listed);
+  this->Listed = std::move(zones);
   this->Sets = std::move(sets);
-  std::vector<morph::NamedCells> parts;
-  for (const Zones::Listed& zone : this->Listed)
-  {
-    if (!zone.Cells.empty())
-    {
-      parts.push_back({ zone.Name, zone.Cells });
-    }
-  }
-  this->innerSurfaces = morph::innerSurfaces(this->mesh, parts, this->Sets, monitor);
+  this->innerSurfaces =
+    morph::innerSurfaces(this->mesh, PartsOf(this->Listed), this->Sets, monitor);
 }
 
 void InputBoundary::Update(vtkPointSet* input, const Options& options, morph::Monitor& monitor)
@@ -177,77 +168,56 @@ void InputBoundary::Update(vtkPointSet* input, const Options& options, morph::Mo
   *this = std::move(next);
 }
 
-bool InputBoundary::LieInside(const GatheredSurface& boundary, const std::set<std::string>& names)
+/// Whether these are the outer ones of `faces`.
+bool InputBoundary::HasOuter(const morph::BoundaryFaces& outer) const
 {
-  std::map<morph::Corners, int> flat =
-    morph::flatCells(boundary.Shell, CellsOfNamedSets(boundary.Grid));
-  for (std::size_t f = 0; f < boundary.Faces.cells.size(); ++f)
-  {
-    flat.erase(morph::cornersOfCell(boundary.Shell, boundary.Faces, static_cast<Index>(f)));
-  }
-  std::set<std::string> outer;
-  for (const NamedSet& set : FindNamedSets(boundary.Grid, boundary.Shell, boundary.Faces, 0))
-  {
-    if (!set.faces.empty())
-    {
-      outer.insert(set.name);
-    }
-  }
-  const std::vector<std::string> sets = NamesOfSets(boundary.Grid);
-  const auto mayLieInside = [&](const std::string& name)
-  {
-    return name.find(" | ") != std::string::npos ||
-           (outer.count(name) == 0 && std::find(sets.begin(), sets.end(), name) != sets.end());
-  };
-  return !flat.empty() || std::any_of(names.begin(), names.end(), mayLieInside);
+  const morph::BoundaryFaces& all = this->faces;
+  return all.cells.size() == outer.cells.size() + this->inner.size() &&
+         std::equal(outer.offsets.begin(), outer.offsets.end(), all.offsets.begin()) &&
+         std::equal(outer.connectivity.begin(), outer.connectivity.end(), all.connectivity.begin());
 }
 
-void InputBoundary::TakeFaces(const GatheredSurface& whole)
+/// `part`: of the mesh, without cells that are nothing to its boundary.
+void InputBoundary::TakePart(const GatheredSurface& part)
 {
-  this->inner = {};
-  this->innerSurfaces.clear();
-  this->asked.clear();
-  this->Listed.clear();
-  this->Sets.clear();
-  this->mesh = whole.Shell;
-  this->bodyOfNode = whole.BodyOfNode;
-  this->faces = whole.Faces;
-  this->orientation.clear();
-  for (const Index cell : this->faces.cells)
-  {
-    this->orientation.push_back(whole.Orientation[cell]);
-  }
+  this->mesh = part.Shell;
+  this->bodyOfNode = part.BodyOfNode;
+  this->hanging = {};
+  this->onLinearEdges.clear();
 }
 
 void InputBoundary::TakeGrid(vtkUnstructuredGrid* grid, const Options& options,
   const std::string& key, morph::Monitor& monitor)
 {
-  const GatheredSurface* whole =
-    options.Whole && !options.Whole->HasAll ? options.Whole : nullptr; // of the boundary alone
+  const GatheredSurface* whole = options.Whole;
+  const GatheredSurface* part = whole && !whole->HasAll ? whole : nullptr;
   const bool sameMesh = this->mesh.numberOfCells() > 0 && GridMesh::SameCells(grid, this->mesh) &&
-                        GridMesh::SamePoints(grid, this->mesh);
-  bool sameBoundary = sameMesh && whole && sameFaces(this->faces, whole->Faces);
-  if (!sameBoundary && whole)
+                        GridMesh::SamePoints(grid, this->mesh) &&
+                        (!part || this->HasOuter(part->Faces));
+  if (!sameMesh && part)
   {
-    this->TakeFaces(*whole);
+    this->TakePart(*part);
   }
-  else if (!whole)
+  else if (!sameMesh)
   {
-    if (!sameMesh)
-    {
-      this->mesh = GridMesh::FromGrid(grid);
-      morph::requireVolumeCells(this->mesh);
-    }
-    this->FindInnerSurfaces(grid, options.Blocks, sameMesh, monitor);
-    std::vector<std::uint8_t> isNamed = CellsOfNamedSets(grid);
-    std::set<std::string> asked = this->Asked(options.Names);
-    sameBoundary = sameMesh && this->IsNamed == isNamed && this->asked == asked;
-    this->IsNamed = std::move(isNamed);
-    this->asked = std::move(asked);
-    if (!sameBoundary)
-    {
-      this->findFaces(this->IsNamed, monitor);
-    }
+    this->mesh = GridMesh::FromGrid(grid);
+    morph::requireVolumeCells(this->mesh);
+  }
+  this->FindInnerSurfaces(
+    grid, whole ? whole->Zones : Zones::List(grid, this->mesh, options.Blocks), sameMesh, monitor);
+  std::vector<std::uint8_t> isNamed = CellsOfNamedSets(grid);
+  std::set<std::string> asked = this->Asked(options.Names);
+  const bool sameBoundary = sameMesh && this->IsNamed == isNamed && this->asked == asked;
+  this->IsNamed = std::move(isNamed);
+  this->asked = std::move(asked);
+  if (!sameBoundary && part)
+  {
+    this->faces = part->Faces;
+    this->addInnerFaces(this->IsNamed, part->Orientation, monitor);
+  }
+  else if (!sameBoundary)
+  {
+    this->findFaces(this->IsNamed, monitor);
   }
   if (!sameBoundary || this->GeometryKey != key)
   {
@@ -259,7 +229,7 @@ void InputBoundary::TakeGrid(vtkUnstructuredGrid* grid, const Options& options,
   }
   this->Written = vtkSmartPointer<vtkPolyData>::New();
   this->Polygons = Surface::Write(
-    grid, this->mesh, this->faces, this->Written, whole ? &whole->Orientation : nullptr);
+    grid, this->mesh, this->faces, this->Written, part ? &part->Orientation : nullptr);
   this->Nodes = this->faces.nodes;
   if (this->inner.size() > 0)
   {

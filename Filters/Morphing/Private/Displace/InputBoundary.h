@@ -30,13 +30,9 @@ public:
   {
     std::set<std::string> Names;          ///< that are asked for
     const MergedBlocks* Blocks = nullptr; ///< that the input was merged from, or null
-    /// Of a mesh on several MPI processes, or null: `Blocks` are null then.
+    /// Of a mesh on several MPI processes, or null. Its zones count then.
     const GatheredSurface* Whole = nullptr;
   };
-
-  /// Whether there may be something inside of the mesh that counts for its boundary: named
-  /// two-dimensional cells, or surfaces of these names. The boundary alone cannot tell what.
-  static bool LieInside(const GatheredSurface& boundary, const std::set<std::string>& names);
 
   /// Copies the input, a grid or polygonal data; with Whole, its Grid. An unmodified input costs
   /// nothing. The geometry is reused where a modified input has the same boundary and the same
@@ -53,8 +49,8 @@ public:
   const std::vector<morph::Index>& FaceOfPolygon() const { return this->Polygons; }
   morph::Index FirstPolygon() const;
 
-  /// The parts of the input that can be zones; of a grid on one process.
-  const std::vector<Zones::Listed>& Parts() const { return this->Listed; }
+  /// The parts of the input that can be zones.
+  const std::vector<ListedZone>& Parts() const { return this->Listed; }
 
   /// How often the geometry was found so far.
   int ClassifyCount() const { return this->Classified; }
@@ -64,13 +60,14 @@ private:
     morph::Monitor& monitor);
   void TakeSurface(vtkPolyData* surface, const Geometry::Options& options, const std::string& key,
     morph::Monitor& monitor);
-  void TakeFaces(const GatheredSurface& whole);
-  void FindInnerSurfaces(
-    vtkUnstructuredGrid* grid, const MergedBlocks* blocks, bool sameMesh, morph::Monitor& monitor);
+  bool HasOuter(const morph::BoundaryFaces& outer) const;
+  void TakePart(const GatheredSurface& part);
+  void FindInnerSurfaces(vtkUnstructuredGrid* grid, std::vector<ListedZone> zones, bool sameMesh,
+    morph::Monitor& monitor);
   /// Those of the names that inner surfaces have.
   std::set<std::string> Asked(const std::set<std::string>& names) const;
 
-  std::vector<Zones::Listed> Listed;
+  std::vector<ListedZone> Listed;
   std::vector<morph::NamedNodes> Sets;
   std::vector<std::uint8_t> IsNamed; ///< #cells: those of named sets
   std::string GeometryKey;           ///< empty: nothing is kept

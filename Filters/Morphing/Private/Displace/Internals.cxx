@@ -120,35 +120,6 @@ bool movesAll(const morph::DisplacementOptions& options, bool hasTarget)
            options.Surfaces.empty());
 }
 
-/// The names of surfaces that have a role.
-std::set<std::string> askedNames(const morph::DisplacementOptions& options)
-{
-  std::set<std::string> names;
-  for (const auto* some : { &options.Surfaces, &options.FixedSurfaces, &options.SlidingSurfaces,
-         &options.FreeSurfaces, &options.ContactSurfaces })
-  {
-    names.insert(some->begin(), some->end());
-  }
-  return names;
-}
-
-/// Throws for surfaces between blocks: their cells are gathered without their blocks.
-void requireNoBlocks(const std::set<std::string>& names, const filters::InputBoundary& model)
-{
-  for (const std::string& name : names)
-  {
-    const bool isFound = std::any_of(model.innerSurfaces.begin(), model.innerSurfaces.end(),
-      [&](const morph::InnerSurface& surface) { return surface.name == name; });
-    if (name.find(" | ") != std::string::npos && !isFound)
-    {
-      throw morph::Error(
-        "There is no surface '" + name +
-        "'. On several MPI ranks a surface between blocks has no name: mark the parts by cell "
-        "arrays, 1 in a part and 0 elsewhere, and name these.");
-    }
-  }
-}
-
 void writeGaps(
   const morph::Contact::Gaps& before, const morph::Contact::Gaps& after, vtkFieldData* data)
 {
@@ -311,15 +282,15 @@ void vtkDisplacementAlgorithm::vtkInternals::Classify(
 {
   filters::InputBoundary::Options geometry;
   geometry.Take(options);
-  geometry.Names = askedNames(options);
-  geometry.Blocks = this->Whole ? nullptr : this->Blocks.Merged();
+  for (const auto* names : { &options.Surfaces, &options.FixedSurfaces, &options.SlidingSurfaces,
+         &options.FreeSurfaces, &options.ContactSurfaces })
+  {
+    geometry.Names.insert(names->begin(), names->end());
+  }
+  geometry.Blocks = this->Blocks.Merged();
   geometry.Whole = this->Whole ? &this->Whole->Boundary() : nullptr;
   const int before = this->Model.ClassifyCount();
   this->Model.Update(input, geometry, monitor);
-  if (this->Whole && this->Blocks.Merged())
-  {
-    requireNoBlocks(geometry.Names, this->Model);
-  }
   if (this->Model.ClassifyCount() != before)
   {
     this->Warnings.clear();
@@ -524,7 +495,7 @@ void vtkDisplacementAlgorithm::vtkInternals::Displace(const Options& options, vt
   const filters::WholeSurface* whole = this->Whole.get();
   // What the boundary alone decides is the same on all processes.
   const auto alike = [whole](const std::function<void()>& work)
-  { whole ? whole->Together(work) : work(); };
+  { whole ? whole->together(work) : work(); };
   Moves moves;
   bool hasBoundary = false;
   filters::Zones::Options zones;
@@ -548,9 +519,8 @@ void vtkDisplacementAlgorithm::vtkInternals::Displace(const Options& options, vt
   {
     this->FindInner(options, grid, zones, moves.Mover);
   }
-  const std::unique_ptr<morph::InnerPieces> pieces = whole ? whole->Volume() : nullptr;
   morph::ProgressRange moving(monitor, target ? 0.7 : 0.5, 1);
-  this->Mover.move(this->Model, moves.Choice, moves.Targets, moves.Mover, pieces.get(), moving);
+  this->Mover.move(this->Model, moves.Choice, moves.Targets, moves.Mover, whole, moving);
   alike([&] { this->Write(options, input, target, moves, output, monitor); });
   if (moves.Mover.hasInner())
   {
@@ -671,7 +641,7 @@ void vtkDisplacementAlgorithm::vtkInternals::SelectOnRanks(
         isSelected = filters::Selection::Points(piece, selection, this->Extractor);
       }
     });
-  this->IsSelected = this->Whole->AnyFlags(isSelected);
+  this->IsSelected = this->Whole->nodeFlags(isSelected);
   this->ChosenVersion = -1;
 }
 
@@ -697,10 +667,14 @@ void vtkDisplacementAlgorithm::vtkInternals::DisplaceOnRanks(const Options& opti
   {
     const filters::GatheredSurface& boundary = this->Whole->Boundary();
     const bool isShell = boundary.Shell.layer.nodes > 0;
-    return (isShell && movesAll(options, target) && (target || boundary.Faces.nodes.empty())) ||
-           filters::InputBoundary::LieInside(boundary, askedNames(options));
+    return isShell && movesAll(options, target) && (target || boundary.Faces.nodes.empty());
   };
-  this->Whole->Take(piece, monitor, needsAll);
+  const auto list = [&]
+  {
+    return filters::Zones::List(
+      piece, this->Whole->piece(), this->Blocks.Merged(), *this->Whole->processes());
+  };
+  this->Whole->Take(piece, monitor, list, needsAll);
   const bool byHandles = options.Displacement == DISPLACEMENT_HANDLES;
   if (options.Moving == MOVING_SELECTION ||
       (options.Moving != MOVING_NOTHING && byHandles && options.SelectedHandles))
@@ -729,7 +703,7 @@ void vtkDisplacementAlgorithm::vtkInternals::DisplaceOnRanks(const Options& opti
   vtkPolyData* shell = nullptr;
   if (this->Whole->Boundary().HasAll)
   {
-    this->Whole->Together([&] { shell = this->WholeShell(options, grid, target); });
+    this->Whole->together([&] { shell = this->WholeShell(options, grid, target); });
   }
   Options all = options;
   all.Moving = shell ? MOVING_EVERYTHING : options.Moving;

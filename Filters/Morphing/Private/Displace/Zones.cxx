@@ -3,7 +3,6 @@
 
 #include "Mesh/CellShape.h"
 #include "Private/Blocks/MergedBlocks.h"
-#include "Private/Data/NamedSets.h"
 #include "Private/Displace/Chosen.h"
 #include "Private/Displace/Selection.h"
 #include "Private/Pipeline/Ranks.h"
@@ -17,6 +16,9 @@
 #include <vtkUnstructuredGrid.h>
 
 #include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <map>
 #include <optional>
 #include <utility>
 
@@ -92,34 +94,70 @@ std::string shortName(const std::string& block)
            : block.substr(begin + 1, end - begin - 1);
 }
 
-/// Whether the array has two values, one of them 0.
-bool isMarks(vtkDataArray* array, vtkIdType size)
+/// The array of that name, if it may mark something.
+vtkDataArray* arrayOfMarks(vtkDataSetAttributes* data, const char* name, vtkIdType size)
 {
-  if (!array || array->GetNumberOfComponents() != 1 || array->GetNumberOfTuples() != size ||
-      array->GetName() == std::string(vtkDataSetAttributes::GhostArrayName()))
-  {
-    return false;
-  }
-  double mark = 0;
-  bool anyZero = false;
-  for (vtkIdType i = 0; i < size; ++i)
+  vtkDataArray* array = name ? data->GetArray(name) : nullptr; // null for texts
+  return array && array->GetNumberOfComponents() == 1 && array->GetNumberOfTuples() == size &&
+             name != std::string(vtkDataSetAttributes::GhostArrayName())
+           ? array
+           : nullptr;
+}
+
+/// Whether the arrays of all processes, null for none, have two values, one of them 0.
+bool areMarks(vtkDataArray* array, const morph::Communicator& processes)
+{
+  double least = HUGE_VAL, most = -HUGE_VAL; // but for 0
+  bool hasZero = false, hasNaN = false;
+  for (vtkIdType i = 0; array && i < array->GetNumberOfTuples(); ++i)
   {
     const double value = array->GetComponent(i, 0);
-    const bool isZero = value == 0;
-    anyZero = anyZero || isZero;
-    mark = isZero || mark != 0 ? mark : value;
-    if (!isZero && value != mark) // NaN, too
+    hasZero = hasZero || value == 0;
+    hasNaN = hasNaN || std::isnan(value);
+    least = value != 0 ? std::min(least, value) : least;
+    most = value != 0 ? std::max(most, value) : most;
+  }
+  least = processes.minimum(least);
+  most = processes.maximum(most);
+  return processes.all(!hasNaN) && !processes.all(!hasZero) && least == most;
+}
+
+/// The names of the blocks of all processes, in the order of the blocks.
+std::vector<std::string> namesOfBlocks(
+  vtkUnstructuredGrid* grid, const MergedBlocks* blocks, const morph::Communicator& processes)
+{
+  vtkDataArray* numbers = grid->GetCellData()->GetArray("MorphBlockId");
+  std::vector<std::string> mine;
+  std::map<std::string, double> first; // the number of the first block of a name
+  for (std::size_t b = 0; blocks && b < blocks->All.size(); ++b)
+  {
+    const MergedBlocks::Block& block = blocks->All[b];
+    if (block.IsMesh)
     {
-      return false;
+      mine.push_back(shortName(block.Name));
+      first.emplace(mine.back(),
+        block.Cells.empty() || !numbers ? HUGE_VAL : numbers->GetComponent(block.Cells[0], 0));
     }
   }
-  return anyZero && mark != 0;
+  std::vector<std::pair<double, std::string>> all;
+  for (const std::string& name : processes.gatherTexts(mine))
+  {
+    const auto found = first.find(name);
+    all.emplace_back(processes.minimum(found == first.end() ? HUGE_VAL : found->second), name);
+  }
+  std::stable_sort(
+    all.begin(), all.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<std::string> names;
+  std::transform(all.begin(), all.end(), std::back_inserter(names),
+    [](const auto& block) { return block.second; });
+  return names;
 }
 
 /// The names that may be a zone's, in the order of the list.
-std::vector<std::string> candidates(vtkUnstructuredGrid* grid, const MergedBlocks* blocks)
+std::vector<std::string> candidates(
+  vtkUnstructuredGrid* grid, const MergedBlocks* blocks, const morph::Communicator& processes)
 {
-  std::vector<std::string> names = NamesOfSets(grid);
+  std::vector<std::string> names = processes.gatherTexts(NamesOfSets(grid));
   const auto add = [&](const std::string& name)
   {
     if (std::find(names.begin(), names.end(), name) == names.end())
@@ -127,21 +165,25 @@ std::vector<std::string> candidates(vtkUnstructuredGrid* grid, const MergedBlock
       names.push_back(name);
     }
   };
-  for (std::size_t b = 0; blocks && b < blocks->All.size(); ++b)
+  for (const std::string& name : namesOfBlocks(grid, blocks, processes))
   {
-    if (blocks->All[b].IsMesh)
-    {
-      add(shortName(blocks->All[b].Name));
-    }
+    add(name);
   }
   const auto addMarks = [&](vtkDataSetAttributes* data, vtkIdType size)
   {
+    std::vector<std::string> mine;
     for (int i = 0; i < data->GetNumberOfArrays(); ++i)
     {
-      vtkDataArray* array = data->GetArray(i); // null for texts
-      if (array && array->GetName() && isMarks(array, size))
+      if (arrayOfMarks(data, data->GetArrayName(i), size))
       {
-        add(array->GetName());
+        mine.emplace_back(data->GetArrayName(i));
+      }
+    }
+    for (const std::string& name : processes.gatherTexts(mine))
+    {
+      if (areMarks(arrayOfMarks(data, name.c_str(), size), processes))
+      {
+        add(name);
       }
     }
   };
@@ -154,7 +196,7 @@ std::vector<std::string> candidates(vtkUnstructuredGrid* grid, const MergedBlock
 std::string listed(vtkUnstructuredGrid* grid, const morph::Mesh& mesh, const MergedBlocks* blocks)
 {
   constexpr std::size_t Most = 10;
-  const std::vector<Zones::Listed> zones = Zones::List(grid, mesh, blocks);
+  const std::vector<ListedZone> zones = Zones::List(grid, mesh, blocks);
   std::string names;
   for (std::size_t i = 0; i < std::min(zones.size(), Most); ++i)
   {
@@ -219,26 +261,29 @@ bool isNowhere(const Part& part)
 
 namespace Zones
 {
-std::vector<Listed> List(
-  vtkUnstructuredGrid* grid, const morph::Mesh& mesh, const MergedBlocks* blocks)
+std::vector<ListedZone> List(vtkUnstructuredGrid* grid, const morph::Mesh& mesh,
+  const MergedBlocks* blocks, const morph::Communicator& processes)
 {
-  std::vector<Listed> zones;
-  for (const std::string& name : candidates(grid, blocks))
+  std::vector<ListedZone> zones;
+  for (const std::string& name : candidates(grid, blocks, processes))
   {
-    Listed zone;
+    ListedZone zone;
     zone.Name = name;
     const std::optional<Marked> marked = findNamed(grid, mesh, blocks, name);
     for (std::size_t i = 0; marked && i < marked->Flags.size(); ++i)
     {
       const morph::CellShape* shape = marked->AreNodes ? nullptr : morph::cellShape(mesh.types[i]);
-      const bool isImage = mesh.layer.nodes > 0 && static_cast<Index>(i) >= mesh.layer.nodes;
-      zone.Nodes += marked->AreNodes && marked->Flags[i] && !isImage;
-      if (shape && shape->dimension == 3 && marked->Flags[i])
+      const auto number = static_cast<Index>(i);
+      const bool isImage = mesh.layer.nodes > 0 && number >= mesh.layer.nodes;
+      zone.Nodes += marked->AreNodes && marked->Flags[i] && !isImage && processes.owns(number);
+      if (shape && shape->dimension == 3 && marked->Flags[i] && !processes.isCopy(number))
       {
-        zone.Cells.push_back(static_cast<Index>(i));
+        zone.Cells.push_back(number);
       }
     }
-    if (!zone.Cells.empty() || zone.Nodes > 0)
+    zone.CellCount = processes.sum(static_cast<Index>(zone.Cells.size()));
+    zone.Nodes = processes.sum(zone.Nodes);
+    if (zone.CellCount > 0 || zone.Nodes > 0)
     {
       zones.push_back(zone);
     }

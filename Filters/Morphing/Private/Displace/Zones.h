@@ -2,7 +2,9 @@
 #pragma once
 
 #include "BoundaryMover/InnerNodes.h"
+#include "Private/Data/NamedSets.h"
 #include "Private/Pipeline/NameSet.h"
+#include "Support/Communicator.h"
 
 #include <cstdint>
 #include <string>
@@ -56,23 +58,12 @@ struct Part : morph::Zone
   bool IsKnown = true;  ///< whether this process has an array or a block of the name
 };
 
-/// A zone that can be named: volume cells or, where it is a set of nodes, a number of them.
-struct Listed
-{
-  std::string Name;
-  std::vector<morph::Index> Cells; ///< ascending
-  morph::Index Nodes = 0;
-
-  bool operator==(const Listed& other) const
-  {
-    return this->Name == other.Name && this->Cells == other.Cells && this->Nodes == other.Nodes;
-  }
-};
 /// What can be named, for users to choose from: the sets that the field data SurfaceNames lists,
 /// with volume cells or nodes, the blocks, and other arrays of two values, one of them 0. Each
-/// once, in this order. Cost: a pass over each.
-std::vector<Listed> List(
-  vtkUnstructuredGrid* grid, const morph::Mesh& mesh, const MergedBlocks* blocks);
+/// once, in this order. `processes`: those that have the other pieces of the mesh. Collective.
+/// Cost: a pass over each.
+std::vector<ListedZone> List(vtkUnstructuredGrid* grid, const morph::Mesh& mesh,
+  const MergedBlocks* blocks, const morph::Communicator& processes = morph::Communicator::alone());
 
 /// Finds the zones of that kind, in the order of their names, then those of region and selection.
 /// An array marks by values other than 0. `mesh`: of `grid`; `blocks`: that it was merged from, or

@@ -19,10 +19,12 @@
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
+#include <vtkSignedCharArray.h>
 #include <vtkXMLUnstructuredGridReader.h>
 #include <vtkXMLUnstructuredGridWriter.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <utility>
@@ -35,12 +37,14 @@ using morph::distributed::Ranks;
 
 namespace
 {
-constexpr const char* BodyName = "MorphBodyOfCell";
+constexpr const char *BodyName = "MorphBodyOfCell", *SignName = "MorphSignOfCell";
 
-/// The cells of the piece with an outer face, and its own two-dimensional cells, or all of its own.
-std::vector<Index> cellsOfSurface(const RankMesh& mesh, bool all)
+/// The cells of the piece with an outer face, its own two-dimensional cells and those inside, or
+/// all of its own.
+std::vector<Index> cellsOfSurface(const RankMesh& mesh, std::vector<Index> cells, bool all)
 {
-  std::vector<Index> cells = mesh.Rest()->outerFaces().cells;
+  const std::vector<Index>& outer = mesh.Rest()->outerFaces().cells;
+  cells.insert(cells.end(), outer.begin(), outer.end());
   for (Index c = 0; c < mesh.Whole().pieceCells(); ++c)
   {
     const bool isTaken = all || GridMesh::Dimension(mesh.Grid().types[c]) == 2;
@@ -114,17 +118,22 @@ void GatheredSurface::NumberBodies(const DistributedMesh& whole)
   }
 }
 
-void GatheredSurface::Gather(const RankMesh& mesh, vtkUnstructuredGrid* piece, bool all)
+void GatheredSurface::Gather(
+  const RankMesh& mesh, vtkUnstructuredGrid* piece, std::vector<ListedZone> zones, bool all)
 {
   const DistributedMesh& whole = mesh.Whole();
   this->Grid = nullptr; // in case of an error
   this->NumberBodies(whole);
   const Ranks& ranks = whole.ranks();
+  morph::Monitor silent;
+  const std::vector<Index> inner = morph::cellsAtInnerFaces(whole.mesh(), mesh.Rest()->outerFaces(),
+    PartsOf(zones), NodeSets(piece, mesh.All()), CellsOfNamedSets(piece), mesh.All(), silent);
+  this->HasAll = all || (whole.hasHanging() && ranks.sum(static_cast<Index>(inner.size())) > 0);
   vtkNew<vtkUnstructuredGrid> mine;
   ranks.together(
     [&]
     {
-      const std::vector<Index> cells = cellsOfSurface(mesh, all);
+      const std::vector<Index> cells = cellsOfSurface(mesh, inner, this->HasAll);
       if (cells.empty())
       {
         return;
@@ -139,6 +148,8 @@ void GatheredSurface::Gather(const RankMesh& mesh, vtkUnstructuredGrid* piece, b
           const Index body = whole.bodies().ofCell[cell];
           return body < 0 ? body : this->NumberOfBody[body];
         }));
+      mine->GetCellData()->AddArray(Arrays::MakeOf<vtkSignedCharArray>(
+        SignName, cells, [&](Index cell) { return whole.orientation()[cell]; }));
       mine->GetPointData()->RemoveArray(vtkDataSetAttributes::GhostArrayName());
       mine->GetCellData()->RemoveArray(vtkDataSetAttributes::GhostArrayName());
       mine->GetFieldData()->ShallowCopy(piece->GetFieldData());
@@ -156,19 +167,42 @@ void GatheredSurface::Gather(const RankMesh& mesh, vtkUnstructuredGrid* piece, b
       this->MarkLayer(mesh.Grid().layer, behind);
       this->DescribeFaces(boundary, whole.hasHanging());
     });
-  this->HasAll = all;
+  this->Zones = std::move(zones);
+  this->GatherZones(whole);
+}
+
+/// Replaces the zones' cells by those of Grid.
+void GatheredSurface::GatherZones(const DistributedMesh& whole)
+{
+  std::vector<std::array<std::int64_t, 2>> mine;
+  for (std::size_t zone = 0; zone < this->Zones.size(); ++zone)
+  {
+    for (const Index cell : std::exchange(this->Zones[zone].Cells, {}))
+    {
+      if (std::binary_search(this->CellIds.begin(), this->CellIds.end(), whole.cellId(cell)))
+      {
+        mine.push_back({ whole.cellId(cell), static_cast<Index>(zone) });
+      }
+    }
+  }
+  for (const auto& [id, zone] : whole.ranks().gatherSorted(mine))
+  {
+    this->Zones[zone].Cells.push_back(
+      std::lower_bound(this->CellIds.begin(), this->CellIds.end(), id) - this->CellIds.begin());
+  }
 }
 
 /// A node may be in several parts, a cell is in one.
 void GatheredSurface::Assemble(const std::vector<vtkSmartPointer<vtkUnstructuredGrid>>& parts)
 {
   std::vector<vtkSmartPointer<vtkIdList>> nodeNumbers, cellNumbers, from;
-  std::vector<std::vector<std::int64_t>> nodes, cells, bodies;
+  std::vector<std::vector<std::int64_t>> nodes, cells, bodies, signs;
   for (const auto& part : parts)
   {
     nodes.push_back(take(part->GetPointData(), Surface::IdName));
     cells.push_back(take(part->GetCellData(), CellName));
     bodies.push_back(take(part->GetCellData(), BodyName));
+    signs.push_back(take(part->GetCellData(), SignName));
   }
   this->NodeIds = numberIds(nodes, nodeNumbers);
   this->CellIds = numberIds(cells, cellNumbers);
@@ -227,8 +261,11 @@ void GatheredSurface::Assemble(const std::vector<vtkSmartPointer<vtkUnstructured
   BlockArrays::Merge(ofCells, cellCount, grid->GetCellData());
   this->Shell = GridMesh::FromGrid(grid);
   this->BodyOfNode.assign(this->NodeIds.size(), -1);
+  this->Orientation.clear();
   for (vtkIdType c = 0; c < cellCount; ++c)
   {
+    this->Orientation.push_back(
+      static_cast<std::int8_t>(signs[this->RankOfCell[c]][numberInPart[c]]));
     const std::int64_t body = bodies[this->RankOfCell[c]][numberInPart[c]];
     for (Index k = 0; body >= 0 && k < this->Shell.cellSize(c); ++k)
     {
@@ -258,11 +295,6 @@ void GatheredSurface::DescribeFaces(const morph::WholeBoundary& boundary, bool d
     places.emplace_back(cell - this->CellIds.begin(), boundary.faces().sides[f]);
   }
   this->Faces = morph::facesAt(this->Shell, places);
-  this->Orientation.assign(this->CellIds.size(), 1);
-  for (const Index f : boundary.faces().cells)
-  {
-    this->Orientation[this->Faces.cells[f]] = boundary.orientation()[f];
-  }
   if (divided)
   {
     std::vector<Index> corners;

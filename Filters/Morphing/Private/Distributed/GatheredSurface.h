@@ -3,6 +3,7 @@
 
 #include "Mesh/Mesh.h"
 #include "Mesh/Topology.h"
+#include "Private/Data/NamedSets.h"
 
 #include <vtkIdList.h>
 #include <vtkSmartPointer.h>
@@ -27,8 +28,8 @@ namespace morph::filters
 {
 class RankMesh;
 
-/// The cells with an outer face and the two-dimensional cells of all processes, or all cells, as
-/// one grid, the same on each process; see WholeSurface.
+/// The cells with an outer face, the two-dimensional cells and cellsAtInnerFaces() of all
+/// processes, or all cells, as one grid, the same on each process; see WholeSurface.
 class GatheredSurface
 {
 public:
@@ -45,6 +46,7 @@ public:
   std::vector<int> RankOfNode;            ///< of Grid: the lowest one
   std::vector<int> RankOfCell;            ///< of Grid
   std::vector<morph::Index> NumberOfBody; ///< in the order of their lowest cells; by the mesh's one
+  std::vector<ListedZone> Zones;          ///< of the whole mesh; their cells of Grid
   std::size_t Bytes = 0;                  ///< that this process received
   bool HasAll = false;                    ///< cells of the whole mesh
 
@@ -55,12 +57,15 @@ public:
     return found != this->NodeIds.end() && *found == id ? found - this->NodeIds.begin() : -1;
   }
 
-  /// Gathers the surface of the mesh that `piece` is a part of, or `all` of its cells. Throws
-  /// morph::Error on all processes. Collective.
-  void Gather(const RankMesh& mesh, vtkUnstructuredGrid* piece, bool all);
+  /// Gathers the surface of the mesh that `piece` is a part of, or `all` of its cells, also if
+  /// nodes hang in a mesh with something inside. `zones`: with cells of the piece, the same on all
+  /// processes. Throws morph::Error on all processes. Collective.
+  void Gather(
+    const RankMesh& mesh, vtkUnstructuredGrid* piece, std::vector<ListedZone> zones, bool all);
 
 private:
   void NumberBodies(const morph::distributed::DistributedMesh& whole);
+  void GatherZones(const morph::distributed::DistributedMesh& whole);
   void Assemble(const std::vector<vtkSmartPointer<vtkUnstructuredGrid>>& parts);
   void MarkLayer(morph::ShellLayer layer, morph::Index behind);
   void DescribeFaces(const morph::WholeBoundary& boundary, bool divided);

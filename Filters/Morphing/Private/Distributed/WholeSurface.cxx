@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Private/Distributed/WholeSurface.h"
 
+#include "Boundary/WallLayers.h"
 #include "Distributed/RankCommunicator.h"
 #include "Private/Data/Arrays.h"
 #include "Private/Data/GridMesh.h"
@@ -8,7 +9,6 @@
 #include "Private/Distributed/GatherData.h"
 #include "Private/Distributed/GatheredSurface.h"
 #include "Private/Distributed/RankMesh.h"
-#include "Private/Distributed/WholeVolume.h"
 #include "Private/RankBlocks/GlobalRanks.h"
 #include "Support/Error.h"
 
@@ -25,6 +25,7 @@
 #include <vtkXMLPolyDataWriter.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -44,27 +45,41 @@ class GatheredBoundary : public WholeSurface
 {
 public:
   void Take(vtkUnstructuredGrid* piece, morph::Monitor& monitor,
+    const std::function<std::vector<ListedZone>()>& list,
     const std::function<bool()>& needsAll) override;
   double Size() const override { return this->Whole().size(); }
-  const RankMesh& Pieces() const override { return this->Own; }
   std::vector<Index> Places() const override;
   morph::BoundaryTargets Match(
     vtkPointSet* boundary, const BoundaryMatch::Options& options) const override;
-  void Together(const std::function<void()>& work) const override;
-  std::vector<std::uint8_t> AnyFlags(const std::vector<std::uint8_t>& ofPiece) const override;
   void KeepOwn(vtkPolyData* surface) const override;
   void MakeIdsGlobal(vtkPolyData* surface, vtkIdType count) const override;
   vtkSmartPointer<vtkPolyData> OfPiece(vtkPolyData* surface) const override;
   std::pair<double, double> MaximumAndMean(
     const std::vector<Index>& points, const std::vector<double>& values) const override;
   vtkSmartPointer<vtkPolyData> Gather(vtkPolyData* part) const override;
-  std::unique_ptr<morph::InnerPieces> Volume() const override
+
+  const morph::Mesh& piece() const override { return this->Own.Grid(); }
+  const morph::Mesh& mesh() const override { return this->Whole().mesh(); }
+  const morph::HangingNodes& hanging() const override { return this->Own.Rest()->hanging(); }
+  bool needsPieces() const override { return this->Own.Rest()->needsPieces(); }
+  const std::shared_ptr<const morph::Communicator>& processes() const override
   {
-    return std::make_unique<WholeVolume>(*this);
+    return this->Own.Rest()->processes();
   }
+  Index nodeOf(Index node) const override
+  {
+    return this->Whole().nodeOf(this->Surface.NodeIds[node]);
+  }
+  void together(const std::function<void()>& work) const override;
+  Flags nodeFlags(const Flags& ofPiece) const override;
+  Flags anyFlags(const Flags& ofPiece) const override;
+  std::vector<Index> ownInner(const Flags& ofPiece) const override;
+  Columns findLayers(const morph::BoundaryFaces& faces, const Flags& isWall, Index most,
+    const Flags& isLayer) const override;
 
 private:
   const DistributedMesh& Whole() const { return this->Own.Whole(); }
+  std::map<std::int64_t, Index> OwnCells() const;
 
   RankMesh Own;
   const vtkUnstructuredGrid* Piece = nullptr; ///< compared, never used
@@ -77,24 +92,26 @@ std::unique_ptr<WholeSurface> WholeSurface::Make()
   return std::make_unique<GatheredBoundary>();
 }
 
-void GatheredBoundary::Take(
-  vtkUnstructuredGrid* piece, morph::Monitor& monitor, const std::function<bool()>& needsAll)
+void GatheredBoundary::Take(vtkUnstructuredGrid* piece, morph::Monitor& monitor,
+  const std::function<std::vector<ListedZone>()>& list, const std::function<bool()>& needsAll)
 {
   const bool isNew = this->Own.Take(piece, 1, GridMesh::UnknownCells::Refuse, monitor);
   const bool same =
     !isNew && this->Surface.Grid && this->Piece == piece && this->PieceTime == piece->GetMTime();
+  const auto gather = [&](bool all)
+  { this->Surface.Gather(this->Own, piece, list ? list() : std::vector<ListedZone>(), all); };
   if (this->Own.Ranks().sum(Index(!same)) > 0)
   {
     this->Own.RequireVolumeCells();
-    this->Surface.Gather(this->Own, piece, false);
+    gather(false);
     this->Piece = piece;
     this->PieceTime = piece->GetMTime();
   }
   bool all = this->Surface.HasAll;
-  this->Together([&] { all = all || (needsAll && needsAll()); });
+  this->together([&] { all = all || (needsAll && needsAll()); });
   if (all && !this->Surface.HasAll)
   {
-    this->Surface.Gather(this->Own, piece, true);
+    gather(true);
   }
 }
 
@@ -166,7 +183,8 @@ morph::BoundaryTargets GatheredBoundary::Match(
   return result;
 }
 
-void GatheredBoundary::Together(const std::function<void()>& work) const
+/// A message with ids says of what they are.
+void GatheredBoundary::together(const std::function<void()>& work) const
 {
   this->Own.Ranks().together(
     [&]
@@ -187,7 +205,7 @@ void GatheredBoundary::Together(const std::function<void()>& work) const
     });
 }
 
-std::vector<std::uint8_t> GatheredBoundary::AnyFlags(const std::vector<std::uint8_t>& ofPiece) const
+morph::InnerPieces::Flags GatheredBoundary::nodeFlags(const Flags& ofPiece) const
 {
   std::vector<std::int64_t> ids;
   for (std::size_t n = 0; n < ofPiece.size(); ++n)
@@ -198,12 +216,113 @@ std::vector<std::uint8_t> GatheredBoundary::AnyFlags(const std::vector<std::uint
       ids.push_back(id);
     }
   }
-  std::vector<std::uint8_t> flags(this->Surface.NodeIds.size(), 0);
+  Flags flags(this->Surface.NodeIds.size(), 0);
   for (const std::int64_t id : this->Own.Ranks().gather(ids))
   {
     flags[this->Surface.NodeOf(id)] = 1;
   }
   return flags;
+}
+
+morph::InnerPieces::Flags GatheredBoundary::anyFlags(const Flags& ofPiece) const
+{
+  const DistributedMesh& mesh = this->Whole();
+  std::vector<Index> nodes;
+  for (std::size_t n = 0; n < ofPiece.size(); ++n)
+  {
+    if (ofPiece[n] != 0) // by ids: ghost cells of the piece may have points of their own
+    {
+      nodes.push_back(mesh.nodeOf(mesh.nodeId(static_cast<Index>(n))));
+    }
+  }
+  this->Own.All().spread(nodes);
+  Flags result(mesh.pieceNodes(), 0);
+  for (const Index node : nodes)
+  {
+    if (node < mesh.pieceNodes())
+    {
+      result[node] = 1;
+    }
+  }
+  return result;
+}
+
+std::vector<Index> GatheredBoundary::ownInner(const Flags& ofPiece) const
+{
+  const DistributedMesh& mesh = this->Whole();
+  const std::vector<Index>& outer = this->Own.Rest()->outerNodes().nodes;
+  std::vector<Index> points;
+  for (Index n = 0; n < static_cast<Index>(ofPiece.size()); ++n)
+  {
+    if (ofPiece[n] != 0 && mesh.owns(n) && !std::binary_search(outer.begin(), outer.end(), n))
+    {
+      points.push_back(n);
+    }
+  }
+  return points;
+}
+
+/// Of the cells that count here, by their ids.
+std::map<std::int64_t, Index> GatheredBoundary::OwnCells() const
+{
+  std::map<std::int64_t, Index> cellOf;
+  for (Index c = 0; c < this->Whole().pieceCells(); ++c)
+  {
+    if (this->Whole().isGhost()[c] == 0)
+    {
+      cellOf.emplace(this->Whole().cellId(c), c);
+    }
+  }
+  return cellOf;
+}
+
+morph::InnerPieces::Columns GatheredBoundary::findLayers(
+  const morph::BoundaryFaces& faces, const Flags& isWall, Index most, const Flags& isLayer) const
+{
+  const DistributedMesh& mesh = this->Whole();
+  const std::map<std::int64_t, Index> cellOf = this->OwnCells();
+  morph::BoundaryFaces own;
+  Flags isOwnWall;
+  for (std::size_t f = 0; f < faces.cells.size(); ++f)
+  {
+    const auto cell = cellOf.find(this->Surface.CellIds[faces.cells[f]]);
+    if (cell != cellOf.end())
+    {
+      std::vector<Index> corners(faces.connectivity.begin() + faces.offsets[f],
+        faces.connectivity.begin() + faces.offsets[f + 1]);
+      std::transform(corners.begin(), corners.end(), corners.begin(),
+        [this](Index node) { return this->nodeOf(node); });
+      own.cells.push_back(cell->second);
+      own.add(corners.begin(), corners.end());
+      isOwnWall.push_back(isWall[f]);
+    }
+  }
+  own.takeNodes();
+  const morph::WallLayers layers =
+    morph::findWallLayers(mesh.mesh(), own, isOwnWall, most, isLayer, *this->processes());
+  Columns columns;
+  std::vector<std::array<Index, 2>> outer; // ids of nodes and their walls
+  for (std::size_t i = 0; i < layers.walls.size(); ++i)
+  {
+    const auto column = static_cast<Index>(i);
+    for (const Index* n = layers.columns.begin(column); n != layers.columns.end(column); ++n)
+    {
+      const Index node = this->Surface.NodeOf(mesh.nodeId(*n));
+      if (std::binary_search(faces.nodes.begin(), faces.nodes.end(), node))
+      {
+        outer.push_back({ mesh.nodeId(*n), layers.walls[i] });
+      }
+      else
+      {
+        columns.points.emplace_back(*n, this->Surface.NodeOf(layers.walls[i]));
+      }
+    }
+  }
+  for (const auto& [node, wall] : mesh.ranks().gather(outer))
+  {
+    columns.nodes.emplace_back(this->Surface.NodeOf(node), this->Surface.NodeOf(wall));
+  }
+  return columns;
 }
 
 void GatheredBoundary::KeepOwn(vtkPolyData* surface) const
@@ -256,14 +375,7 @@ vtkSmartPointer<vtkPolyData> GatheredBoundary::OfPiece(vtkPolyData* surface) con
   result->ShallowCopy(surface);
   renumber(result->GetPointData(), Surface::IdName, result->GetNumberOfPoints(),
     [&whole](vtkIdType id) { return static_cast<vtkIdType>(whole.nodeOf(id)); });
-  std::map<vtkIdType, vtkIdType> cellOf;
-  for (Index c = 0; c < whole.pieceCells(); ++c)
-  {
-    if (whole.isGhost()[c] == 0)
-    {
-      cellOf.emplace(whole.cellId(c), c);
-    }
-  }
+  const std::map<std::int64_t, Index> cellOf = this->OwnCells();
   renumber(result->GetCellData(), GatheredSurface::CellName, result->GetNumberOfCells(),
     [&cellOf](vtkIdType id) { return cellOf.at(id); });
   return result;

@@ -9,7 +9,6 @@
 #include <vtkSmartPointer.h>
 #include <vtkType.h>
 
-#include <cstdint>
 #include <functional>
 #include <memory>
 #include <utility>
@@ -20,36 +19,35 @@ class vtkUnstructuredGrid;
 
 namespace morph::filters
 {
-class RankMesh;
-
 /// The boundary of a mesh whose pieces are on several MPI processes, whole and the same on each of
 /// them. So serial code of surfaces runs on each process alike, with the same bits, and each keeps
 /// the part of the result that its own cells have. Not to be used unless Ranks::TakePieces().
 ///
-/// It has the cells with an outer face and the two-dimensional cells; nodes and cells in the order
-/// of their global ids. Where the serial filter has this order too, surfaces and curves have the
-/// same numbers. Memory and messages of each process grow with the whole boundary, not with the
-/// mesh, unless all of it is asked for: see GatheredSurface::Bytes.
-class WholeSurface
+/// It has the cells with an outer face, the two-dimensional cells and those at inner surfaces.
+/// Nodes and cells are in the order of their global ids. Where the serial filter has this order
+/// too, surfaces and curves have the same numbers. Memory and messages of each process grow with
+/// the whole boundary, inner surfaces included, and not with the mesh, unless all of it is asked
+/// for: see GatheredSurface::Bytes.
+///
+/// Beside it are the inner nodes of the mesh: nodes of InnerPieces are those of Boundary().
+class WholeSurface : public morph::InnerPieces
 {
 public:
   /// Throws std::logic_error in a build without MPI.
   static std::unique_ptr<WholeSurface> Make();
-  virtual ~WholeSurface() = default;
 
-  /// Gathers the boundary, unless the pieces are those that it was gathered from. Then gathers the
-  /// whole mesh if `needsAll`, called as Together() calls, says so of the boundary. Throws
-  /// morph::Error on all processes for a mesh that cannot be read or has no volume cells.
-  /// Collective, as all functions that say so.
+  /// Gathers the boundary, unless the pieces are those that it was gathered from. `list`: gives the
+  /// zones of the whole mesh with this process's cells, collective. Then gathers the whole mesh if
+  /// `needsAll`, called by together(), says so of the boundary. Throws morph::Error on all
+  /// processes for a mesh that cannot be read or has no volume cells. Collective, as all functions
+  /// that say so.
   virtual void Take(vtkUnstructuredGrid* piece, morph::Monitor& monitor,
+    const std::function<std::vector<ListedZone>()>& list = nullptr,
     const std::function<bool()>& needsAll = nullptr) = 0;
 
   const GatheredSurface& Boundary() const { return this->Surface; }
   /// The diagonal of the whole mesh's bounding box.
   virtual double Size() const = 0;
-
-  /// The pieces that it was gathered from.
-  virtual const RankMesh& Pieces() const = 0;
 
   /// For each point of the piece its node of the boundary, or #nodes + its body or, for a point of
   /// no volume cell, #nodes + #bodies.
@@ -58,13 +56,6 @@ public:
   /// Inner nodes that it names are left out. Collective.
   virtual morph::BoundaryTargets Match(
     vtkPointSet* boundary, const BoundaryMatch::Options& options) const = 0;
-
-  /// Calls `work`, the same on each process, which must not communicate; throws as
-  /// Ranks::Together() does. A message with ids says of what they are. Collective.
-  virtual void Together(const std::function<void()>& work) const = 0;
-
-  /// Whether any process sets a node's flag. `ofPiece`: of its points, or empty. Collective.
-  virtual std::vector<std::uint8_t> AnyFlags(const std::vector<std::uint8_t>& ofPiece) const = 0;
 
   /// Leaves those cells of a surface of Boundary() that belong to cells of this process, and the
   /// points on them; a cell without MorphCellId belongs where its first point does. MorphPointId
@@ -83,10 +74,6 @@ public:
   /// All processes' parts of a surface as one, the same on each of them. Where processes have equal
   /// parts, as where each has read the whole surface, one of these counts. Collective.
   virtual vtkSmartPointer<vtkPolyData> Gather(vtkPolyData* part) const = 0;
-
-  /// The inner nodes of the mesh, by nodes of Boundary(). Holds this object by reference, after
-  /// Take().
-  virtual std::unique_ptr<morph::InnerPieces> Volume() const = 0;
 
 protected:
   GatheredSurface Surface;

@@ -18,6 +18,7 @@
 #include <vtkDataSet.h>
 #include <vtkIdList.h>
 #include <vtkIdTypeArray.h>
+#include <vtkMultiBlockDataSet.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkUnstructuredGrid.h>
@@ -40,18 +41,7 @@ MergedBlocks makeOwn(
   const Ranks& ranks, vtkDataObjectTree* tree, const MergedBlocks::Options& options)
 {
   MergedBlocks merged;
-  ranks.together(
-    [&]
-    {
-      if (tree)
-      {
-        merged = MergedBlocks::Make(tree, options);
-      }
-      else
-      {
-        merged.Grid = vtkSmartPointer<vtkUnstructuredGrid>::New();
-      }
-    });
+  ranks.together([&] { merged = MergedBlocks::Make(tree, options); });
   return merged;
 }
 
@@ -162,7 +152,9 @@ void takeSomeNode(const Ranks& ranks, morph::distributed::Piece& piece)
 MergedBlocks Make(vtkDataObjectTree* tree, MergedBlocks::Options options)
 {
   const Ranks ranks = GlobalRanks();
-  const std::vector<Leaves::Leaf> leaves = tree ? Leaves::Of(tree) : std::vector<Leaves::Leaf>();
+  const vtkNew<vtkMultiBlockDataSet> none;
+  tree = tree ? tree : none.Get();
+  const std::vector<Leaves::Leaf> leaves = Leaves::Of(tree);
   options.AreOnRanks = true;
   options.Dimension = dimensionOf(ranks, leaves);
   std::vector<std::string> paths;
