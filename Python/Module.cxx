@@ -2,7 +2,7 @@
 // The extension module meshmorphing._core: arrays in, arrays out. Shapes, types and coordinates are
 // checked in Python (Python/_arrays.py), ids here and in the core.
 #include "Boundary/Classification.h"
-#include "Boundary/FaceAreas.h"
+#include "Boundary/FaceQuality.h"
 #include "LinearMethods/FemWarp.h"
 #include "LinearMethods/LogBarrierWarp.h"
 #include "LinearMethods/RadialBasis.h"
@@ -86,16 +86,16 @@ public:
     }
   }
 
-  void parallelFor(
+  int threads() const override { return numberOfThreads(); }
+
+protected:
+  void share(
     Index n, Index grain, const std::function<void(Index first, Index last)>& body) override
   {
-    const Index most = std::min<Index>(numberOfThreads(), n / std::max<Index>(grain, 1));
+    const Index most = std::min<Index>(this->threads(), n / std::max<Index>(grain, 1));
     if (most <= 1)
     {
-      if (n > 0)
-      {
-        body(0, n);
-      }
+      body(0, n);
       return;
     }
     const Index length = std::max(grain, n / (4 * most));

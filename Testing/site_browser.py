@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
 """The site as a browser shows it: each page opens without an error in the browser's console, its
-pictures are there, and it can be read in a window that is 400 pixels wide. The search finds.
+pictures are there, and it can be read in a window that is 400 pixels wide. The search finds. All
+pages for users but those of the properties, which come from a table, have at most 25,000 words.
 
 Usage: site_browser.py     (it builds the site first, which checks the links)
 Exits with 77 without mkdocs, chromium or Selenium (install-packages.sh --site).
@@ -26,6 +27,7 @@ except ImportError as error:
 ROOT = Path(__file__).resolve().parent.parent
 SITE = ROOT / "build/site"
 NARROW = 400  # pixels
+MOST_WORDS = 25000
 # How wide the page is, and the first element that sticks out of the window.
 WIDTH = """
   const wide = [...document.querySelectorAll("body *")].find(
@@ -34,6 +36,12 @@ WIDTH = """
     wide ? wide.tagName + ": " + wide.textContent.trim().slice(0, 60) : ""];"""
 PICTURES = """
   return [...document.images].map(i => [i.src, i.complete && i.naturalWidth > 0]);"""
+# Numbers of tables are words, too; code is none.
+WORDS = """
+  const page = (document.querySelector("[role=main]") || document.createElement("p"))
+    .cloneNode(true); // 404.html has none
+  page.querySelectorAll("pre").forEach(e => e.remove());
+  return (page.textContent.match(/\\S+/g) || []).length;"""
 
 
 class Quiet(http.server.SimpleHTTPRequestHandler):
@@ -66,7 +74,7 @@ class Site(unittest.TestCase):
     def test_pages(self):
         pages = sorted(path.relative_to(SITE).as_posix() for path in SITE.glob("**/*.html"))
         self.assertGreater(len(pages), 40)
-        shown = 0
+        shown = words = 0
         for page in pages:
             with self.subTest(page=page):
                 self.browser.get(f"{self.address}/{page}")
@@ -75,9 +83,12 @@ class Site(unittest.TestCase):
                 pictures = self.browser.execute_script(PICTURES)
                 self.assertEqual([source for source, there in pictures if not there], [])
                 shown += len(pictures)
+                if "/Properties/" not in page and page != "CONTRIBUTING.html":
+                    words += self.browser.execute_script(WORDS)
                 width, widest = self.browser.execute_script(WIDTH)
                 self.assertLessEqual(width, NARROW, widest)
         self.assertGreater(shown, 40)
+        self.assertLessEqual(words, MOST_WORDS)
 
     def test_search(self):
         self.browser.get(f"{self.address}/index.html?q=adjoint")

@@ -126,7 +126,9 @@ def build_older(commit):
     subprocess.run(["cmake", "--build", folder / "build", "--target", "morph_core"], check=True,
                    stdout=sys.stderr)
     library, = (folder / "build").rglob("libmorph_core.a")
-    subprocess.run(["c++", "-std=c++17", "-O2", "-isystem", "/usr/include/eigen3",
+    # Older cores have parallelFor() in the place of share().
+    subprocess.run(["c++", "-std=c++17", "-O2", "-Dshare=parallelFor", "-isystem",
+                    "/usr/include/eigen3",
                     f"-I{folder / 'source' / 'Filters' / 'Core'}", PROBE, library, "-lmpfr",
                     "-lgmp", "-lpthread", "-o", probe], check=True)
     return probe

@@ -5,16 +5,20 @@ which prepares the method. With --surface: with the output Surface in place of t
 floor, the same view of a surface of that size whose points change. --fade: the boundary fades
 instead of following. --outer: only the cells behind the surface are measured. With --shapes: from a
 changed weight of Morph Shapes to the picture of its output Surface, beside the floor. With
---morph-mesh: from a box dragged as Live Drag does it.
+--morph-mesh: from a box dragged as Live Drag does it. --keep writes what pages quote into
+Testing/Benchmark/results/dragging.csv, in place of earlier rows of the same.
 
 Run: MESHMORPHING_PLUGIN=<path of MeshMorphing.so> xvfb-run -a -s "-screen 0 1280x1024x24" \\
          pvpython Utilities/benchmark_live.py [--cells 50] [--drags 7] \\
          [--methods FEMWARP,LBWARP] [--upstream Transform] [--surface] [--shapes]
 """
 import argparse
+import csv
 import os
 import statistics
+import sys
 import time
+from pathlib import Path
 
 import numpy as np
 from paraview import simple
@@ -24,7 +28,16 @@ from vtkmodules.vtkCommonCore import vtkPoints, vtkSMPTools
 from vtkmodules.vtkCommonDataModel import (VTK_HEXAHEDRON, vtkCellArray, vtkPolyData,
                                            vtkUnstructuredGrid)
 
+ROOT = Path(__file__).resolve().parent.parent
+sys.path.insert(0, str(ROOT / "Utilities"))
+from study_pieces import ORIGIN, origin  # noqa: E402  (needs the path above)
+
 simple.LoadPlugin(os.environ["MESHMORPHING_PLUGIN"], remote=False, ns=globals())
+
+TABLE = ROOT / "Testing/Benchmark/results/dragging.csv"
+#: Times are in milliseconds; picture: from the drag to the finished picture.
+FIELDS = ("nodes", "paraview", "dragged", "evaluate_ms", "rest_of_filter_ms", "picture_ms",
+          "floor_ms", *ORIGIN)
 
 # SimplexNaturalNeighbor is left out: on this regular grid its weights take more than a minute.
 METHODS = "FEMWARP", "LBWARP", "WeightedResidual", "SimplexLinear"
@@ -32,6 +45,18 @@ COLUMNS = ("boundary", "prepare", "evaluate", "rest of filter", "surface", "rend
            "drag to picture")
 
 SURFACE_COLUMNS = ("boundary", "evaluate", "rest of filter", "render", "drag to picture", "floor")
+
+
+def keep(nodes, dragged, evaluate, rest, picture, floor):
+    """Writes a row, in place of one of the same three first fields. Times are in seconds; an
+    empty one was not measured."""
+    with open(TABLE, newline="", encoding="utf-8") as file:
+        rows = list(csv.reader(file))[1:]
+    key = [str(nodes), str(simple.GetParaViewVersion()), dragged]
+    times = (seconds and f"{1e3 * seconds:.1f}" for seconds in (evaluate, rest, picture, floor))
+    rows = [row for row in rows if row[:3] != key] + [[*key, *times, *origin()]]
+    with open(TABLE, "w", newline="", encoding="utf-8") as file:
+        csv.writer(file, lineterminator="\n").writerows([FIELDS, *rows])
 
 
 def cube(cells):
@@ -217,18 +242,24 @@ def main():
                         help="with --surface: measure the cells behind the surface alone")
     parser.add_argument("--shapes", action="store_true")
     parser.add_argument("--morph-mesh", action="store_true")
+    parser.add_argument("--keep", action="store_true", help="write the rows that pages quote")
     options = parser.parse_args()
     grid = cube(options.cells)
     part = simple.TrivialProducer()
     part.GetClientSideObject().SetOutput(grid)
-    print(f"{grid.GetNumberOfPoints():,} nodes, {grid.GetNumberOfCells():,} hexahedra; "
+    nodes = grid.GetNumberOfPoints()
+    print(f"{nodes:,} nodes, {grid.GetNumberOfCells():,} hexahedra; "
           f"milliseconds; {options.upstream}; "
           f"VTK's threads: {vtkSMPTools.GetBackend()}, cores: {os.cpu_count()}")
     warm_up(part, options.drags)
     if options.shapes:
         names = ("blend", "rest of filter", "render", "weight to picture", "floor", "first")
         print("".join(f"{name:>20}" for name in names))
-        print("".join(f"{1e3 * m:20.1f}" for m in measure_shapes(part, options.drags)))
+        medians = measure_shapes(part, options.drags)
+        print("".join(f"{1e3 * m:20.1f}" for m in medians))
+        if options.keep:
+            evaluate, rest, _, picture, floor, _ = medians
+            keep(nodes, "Morph Shapes, three weights", evaluate, rest, picture, floor)
         return
     if options.morph_mesh:
         names = ("evaluate", "rest of filter", "render", "box to picture", "floor", "first")
@@ -236,6 +267,9 @@ def main():
         for surroundings in ("Follow", "Fade", "Stay"):
             medians = measure_morph_mesh(part, surroundings, options.drags)
             print(f"{surroundings:12}" + "".join(f"{1e3 * m:20.1f}" for m in medians), flush=True)
+            if options.keep:
+                evaluate, rest, _, picture, floor, _ = medians
+                keep(nodes, f"Morph Mesh's box, *{surroundings}*", evaluate, rest, picture, floor)
         return
     if options.surface:
         print(f"{'':24}" + "".join(f"{name:>16}" for name in SURFACE_COLUMNS))
@@ -244,6 +278,9 @@ def main():
             medians = measure_surface(method, part, drag, options.drags,
                                       "Surface" if options.outer else "All")
             print(f"{method:24}" + "".join(f"{1e3 * m:16.1f}" for m in medians), flush=True)
+            if options.keep:
+                _, evaluate, rest, _, picture, floor = medians
+                keep(nodes, f"Morph {method}, its surface", evaluate, rest, picture, floor)
         return
     print(f"{'':24}" + "".join(f"{name:>16}" for name in COLUMNS)
           + f"{'prepared':>10}{'first':>10}")
@@ -253,6 +290,8 @@ def main():
         print(f"{method:24}" + "".join(f"{1e3 * m:16.1f}" for m in medians)
               + f"{count:>10.0f}{1e3 * first:10.0f}"
               f"   (of it prepare {1e3 * prepare:.0f})", flush=True)
+        if options.keep:
+            keep(nodes, f"Morph {method}, the mesh", medians[2], medians[3], medians[-1], "")
 
 
 if __name__ == "__main__":

@@ -17,6 +17,7 @@ GALLERY = ROOT / "Examples/gallery"
 sys.path[:0] = [str(GALLERY), str(ROOT / "Utilities")]
 from built_plugin import add_plugin, load_plugin  # noqa: E402  (needs the path above)
 from picture_arguments import fewer_colors, parse, picture_parser  # noqa: E402
+from study_pieces import ORIGIN, origin  # noqa: E402
 
 NAMES = sorted(path.stem for path in GALLERY.glob("*.py") if path.stem != "gallery")
 
@@ -33,7 +34,7 @@ def main():
     rows = []
     for name in arguments.names or NAMES:
         example = importlib.import_module(name).example()
-        rows.append({"script": name, **example.row()})
+        rows.append({"script": name, **example.row(), **dict(zip(ORIGIN, origin()))})
         print(rows[-1], flush=True)
         path = arguments.output / f"gallery-{name}.png"
         example.save(path)

@@ -45,7 +45,7 @@ PROPERTIES = """
     ZoneRegionType ZoneSelectionType""".split()
 
 # A line in the innermost loop of the product of matrix and vector: its file, and what it holds.
-KERNEL = "Filters/Core/Solvers/RowSum.h:sum0 += value[k] * row"
+KERNEL = "Filters/Core/Solvers/MultiVector.h:sum0 += A.value[k] * row"
 
 
 def tracked(tree):

@@ -1,13 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Runs the code of each page in Documentation/HowTo, in a folder of its own with the small models
-and the folders of Examples, and keeps the pictures that the pages make.
+"""Runs the code of each page in Documentation/HowTo as it stands, in a folder that the commands of
+README.md there make, and keeps the pictures that the pages make.
 
     xvfb-run -a -s "-noreset -screen 0 1280x1024x24" \\
         python3 Utilities/howto_pictures.py [--plugin MeshMorphing.so] [--page NAME] [folder]
 
-Blocks marked python run in one pvpython; those marked bash run by bash, which stops at the first
-command that fails. Writes howto-*.png into Documentation/images, or the folder given. Needs the
-built plugin, morph-mesh and ImageMagick. A page that fails ends this program."""
+Blocks marked python run in one pvpython, those marked python3 in Debian's Python with the built
+package meshmorphing, and those marked bash by bash, which stops at the first command that fails.
+Writes howto-*.png into Documentation/images, or the folder given. Needs the built plugin,
+morph-mesh and ImageMagick. A page that fails ends this program."""
 import argparse
 import os
 import re
@@ -22,33 +23,50 @@ from picture_arguments import fewer_colors
 
 ROOT = Path(__file__).resolve().parent.parent
 PAGES = ROOT / "Documentation/HowTo"
-MODELS = ROOT / "Data/Models/small"
-EXAMPLES = ROOT / "Examples"
-BLOCK = re.compile(r"^```(python|bash)\n(.*?)^```", re.MULTILINE | re.DOTALL)
-#: Programs that a page runs, and libraries of the plugin, that may be missing.
+PYTHON = "/usr/bin/python3"  # for which Debian's packages and the package for NumPy are built
+BLOCK = re.compile(r"^```(python3?|bash)\n(.*?)^```", re.MULTILINE | re.DOTALL)
+#: Programs that a page runs, modules of Python, and libraries of the plugin, that may be missing.
 NEEDS = {"CalculixAndScipy": ("ccx",),
+         "MorphFromNumPy": ("import meshio", "import meshmorphing"),
          "MorphAFoamCase": ("blockMesh", "icoFoam", "checkMesh"),
          "MorphOnMpiRanks": ("mpiexec", "libHYPRE"),
          "WriteYourOwnMethod": ("own-method",)}  # built by the test install.Examples
 
 
-def blocks(page, plugin):
-    """What a page runs, with this plugin: (language, code). Neighbors of one language are one."""
+def blocks(page):
+    """What a page runs: (language, code). Neighbors of one language are one."""
     found = BLOCK.findall((PAGES / f"{page}.md").read_text(encoding="utf-8"))
-    return [(language, re.sub(r'glob\("build/.*?\)\[0\]', lambda _: repr(str(plugin)),
-                              "\n".join(code for _, code in group)))
+    return [(language, "\n".join(code for _, code in group))
             for language, group in groupby(found, key=lambda block: block[0])]
 
 
 def pages():
     """The names of the pages with code to run."""
-    return [page.stem for page in sorted(PAGES.glob("*.md")) if blocks(page.stem, "")]
+    return [page.stem for page in sorted(PAGES.glob("*.md")) if blocks(page.stem)]
 
 
-def search_path(plugin):
-    """PATH with the programs that are built with the plugin, morph-mesh and the examples."""
-    build = next(folder for folder in Path(plugin).parents if folder.name == "lib").parent
-    return f"{build}/bin:{build}/installed-examples:{os.environ['PATH']}"
+def pictures(page):
+    """The names of the files that a page makes and shows."""
+    text = (PAGES / f"{page}.md").read_text(encoding="utf-8")
+    return re.findall(r"images/howto-([\w-]+\.png)", text)
+
+
+def environment(plugin):
+    """That of the commands: PATH has the programs that are built with the plugin, morph-mesh and
+    the examples, PYTHONPATH the package for NumPy."""
+    build = build_folder(plugin)
+    # This may be a process of MPI itself, run by root, on a machine of few processors.
+    found = {name: value for name, value in os.environ.items()
+             if not name.startswith(("OMPI_", "PMIX_", "ORTE_", "OPAL_"))}
+    found.update(PATH=f"{build}/bin:{build}/installed-examples:{os.environ['PATH']}",
+                 PYTHONPATH=":".join(map(str, build.glob("lib/python3*/*-packages"))),
+                 OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
+                 OMPI_MCA_rmaps_base_oversubscribe="1")
+    return found
+
+
+def build_folder(plugin):
+    return next(folder for folder in Path(plugin).parents if folder.name == "lib").parent
 
 
 def expected(page):
@@ -65,40 +83,49 @@ def expected(page):
 
 def missing(page, plugin):
     """What a page needs that is not there."""
-    linked = Path(plugin).read_bytes() if page in NEEDS else b""
-    return [name for name in NEEDS.get(page, ())
-            if not (name.encode() in linked if name.startswith("lib")
-                    else shutil.which(name, path=search_path(plugin)))]
+    def there(name):
+        if name.startswith("lib"):
+            return name.encode() in Path(plugin).read_bytes()
+        if name.startswith("import "):
+            return subprocess.run([PYTHON, "-c", name], env=environment(plugin),
+                                  capture_output=True, check=False).returncode == 0
+        return shutil.which(name, path=environment(plugin)["PATH"])
+    return [name for name in NEEDS.get(page, ()) if not there(name)]
 
 
 def run(page, plugin, images):
-    """Runs a page, and copies its picture to the folder `images`; returns its path, and what the
-    page has printed."""
-    text = (PAGES / f"{page}.md").read_text(encoding="utf-8")
-    picture = re.search(r"images/howto-([\w-]+\.png)", text).group(1)
-    # This may be a process of MPI itself, run by root, on a machine of few processors.
-    environment = {name: value for name, value in os.environ.items()
-                   if not name.startswith(("OMPI_", "PMIX_", "ORTE_", "OPAL_"))}
-    environment.update(PATH=search_path(plugin), OMPI_ALLOW_RUN_AS_ROOT="1",
-                       OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1", OMPI_MCA_rmaps_base_oversubscribe="1")
-    commands = {"python": ["pvpython", "--force-offscreen-rendering", "page.py"],
-                "bash": ["bash", "-e", "-o", "pipefail", "page.sh"]}
+    """Runs a page, and copies its pictures to the folder `images`. Returns their paths, and what
+    the page has printed."""
+    commands = {"python": "pvpython --force-offscreen-rendering page.py",
+                "python3": f"{PYTHON} page.py", "bash": "bash -e -o pipefail page.sh"}
     with tempfile.TemporaryDirectory() as name:
-        for model in ("bore_hex_small.vtu", "canister_hex_small.vtu"):
-            shutil.copy(MODELS / model, name)
-        for example in EXAMPLES.iterdir():
-            if example.is_dir():
-                shutil.copytree(example, Path(name) / example.name)
+        # A project's folder, in which the folder of the how-tos is made as their first page says.
+        project = Path(name)
+        (project / "build").mkdir()
+        (project / "build/paraview").symlink_to(build_folder(plugin))
+        for folder in "Data", "Examples":
+            (project / folder).symlink_to(ROOT / folder)
         printed = ""
-        for language, code in blocks(page, plugin):
+        for number, (language, code) in enumerate(blocks(page)):
+            folder = project / "build/howto"
             command = commands[language]
-            (Path(name) / command[-1]).write_text(code, encoding="utf-8")
-            done = subprocess.run(command, cwd=name, env=environment,
-                                  capture_output=True, text=True, check=False)
+            folder.mkdir(exist_ok=True)
+            (folder / command.split()[-1]).write_text(code, encoding="utf-8")
+            done = subprocess.run(["bash", "-e", "-c", f"{setup()}\n{command}"], cwd=project,
+                                  env=environment(plugin), capture_output=True, text=True,
+                                  check=False)
             if done.returncode != 0:
-                raise RuntimeError(f"{page}.md: {done.stdout}{done.stderr}")
+                raise RuntimeError(f"{page}.md, part {number + 1}: {done.stdout}{done.stderr}")
             printed += done.stdout
-        return shutil.copy(Path(name) / picture, Path(images) / f"howto-{picture}"), printed
+        return [shutil.copy(folder / picture, Path(images) / f"howto-{picture}")
+                for picture in pictures(page)], printed
+
+
+def setup():
+    """The commands that make the folder in which the pages run."""
+    text = (PAGES / "README.md").read_text(encoding="utf-8")
+    lines = re.search(r"(?<=\n\n)(?: {4}.*\n)+", text)[0]
+    return re.sub(r"^ {4}", "", lines, flags=re.MULTILINE)
 
 
 def main():
@@ -115,9 +142,9 @@ def main():
         if missing(page, plugin):
             print(f"{page}.md left out, there is no {', '.join(missing(page, plugin))}")
             continue
-        path, _ = run(page, plugin, options.folder)
-        fewer_colors(path)
-        print(path)
+        for path in run(page, plugin, options.folder)[0]:
+            fewer_colors(path)
+            print(path)
 
 
 if __name__ == "__main__":

@@ -1,12 +1,29 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What lets the study run in pieces: the state of the sources that a row comes from, and an end of
-the time that a piece has."""
+"""What lets the study run in pieces: the machine and the state of the sources that a row comes
+from, and an end of the time that a piece has."""
 
+import os
+import re
 import subprocess
 import time
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
+
+
+#: The columns that say where a row of a data file comes from.
+ORIGIN = ("machine", "commit")
+
+
+def origin():
+    """The values of ORIGIN."""
+    return machine(), commit()
+
+
+def machine():
+    """ "2 x Intel Xeon" """
+    text = Path("/proc/cpuinfo").read_text(encoding="ascii", errors="replace")
+    return f"{os.cpu_count()} x {re.search(r'model name.*: (.*)', text)[1].strip()}"
 
 
 def commit():

@@ -24,9 +24,8 @@ class Step(NamedTuple):
     """The result of one step. minimum, mean: scaled Jacobian. inverted: cells at or below 0, the
     degenerate ones included; boundary: of these, the cells that the boundary inverts by itself, at
     a corner whose four nodes are all prescribed; folded: of the others, the cells with a folded
-    boundary face. The remaining cells are the method's own. prepare, evaluate: seconds, with so
-    many threads. cells: ids of the first of the method's own.
-    commit: of the sources, empty if not recorded."""
+    boundary face. The remaining cells are the method's own. cells: ids of the first of these.
+    commit: of the sources."""
 
     step: int
     t: float
@@ -35,11 +34,8 @@ class Step(NamedTuple):
     inverted: int
     boundary: int
     folded: int
-    prepare: float
-    evaluate: float
-    threads: int
     cells: str
-    commit: str = ""
+    commit: str
 
     @property
     def own(self):
@@ -52,26 +48,17 @@ class Step(NamedTuple):
         return self.own == 0
 
 
-#: Fields of a Step that earlier versions did not write, and what stands for them.
-LATER = Step._fields[-1:]
-
-
 class RowFile:
     """A CSV file that grows by a row at a time.
 
     It is made with its head unless it is there; a last row that an interruption has cut off is
-    dropped. `later`: the last of the fields, which a file of an earlier version lacks; it gets
-    them, empty. Raises ValueError for a file with another head."""
+    dropped. Raises ValueError for a file with another head."""
 
-    def __init__(self, path, fields, later=()):
+    def __init__(self, path, fields):
         self._path = path
         text = path.read_text(encoding="utf-8") if path.is_file() else ""
         head = ",".join(fields) + "\n"
         whole = text[:text.rfind("\n") + 1] or head
-        earlier = ",".join(fields[:len(fields) - len(later)]) + "\n"
-        if later and whole.startswith(earlier):
-            empty = "," * len(later) + "\n"
-            whole = head + "".join(line + empty for line in whole.splitlines()[1:])
         if not whole.startswith(head):
             raise ValueError(f"{path} has other columns than {', '.join(fields)}: "
                              "give another folder, or move it away")
@@ -92,15 +79,14 @@ class Records:
     """`path`: of the CSV file; read if it is there, and appended to."""
 
     def __init__(self, path):
-        self._file = RowFile(path, Series._fields + Step._fields, LATER)
+        self._file = RowFile(path, Series._fields + Step._fields)
         self._steps = {}
         for row in self._file.rows():
             self._take(row)
 
     def _take(self, row):
         series = Series(*(row[field] for field in Series._fields))
-        self._put(series, Step(*(kind(row[field] or Step._field_defaults.get(field, ""))
-                                 for field, kind in Step.__annotations__.items())))
+        self._put(series, Step(*(kind(row[field]) for field, kind in Step.__annotations__.items())))
 
     def _put(self, series, step):
         """The rows of one commit take the place of another's."""

@@ -19,13 +19,15 @@ STYLES = dict(zip(METHODS, (("#7f7f7f", "v"), ("#e69f00", "s"), ("#0072b2", "o")
                             ("#009e73", "^"), ("#cc79a7", "x"), ("#000000", "P"),
                             ("#d55e00", "*"))))
 
-#: Whose absolute steps are a fixed matrix times the boundary's motion.
-LINEAR = tuple(method for method in METHODS if method not in ("Smoothing", "Inversion-free"))
+LEGEND = ("The minimum scaled Jacobian at S_F. In parentheses: inverted cells of the method's own + "
+          "those that the boundary inverts, at a folded face or a corner. t* is the t of the last "
+          "step up to which no cell of the method's own is inverted, if a series ended by one. "
+          "results.csv has all steps, also with the paper's surfaces.")
 
-LEGEND = ("Quality: minimum scaled Jacobian at S_F, and t*. In parentheses: inverted cells of the "
-          "method's own + those that the boundary takes with it, at a folded face or a corner. t* "
-          "is the t of the last step up to which no cell of the method's own is inverted; >= where "
-          "the series did not end by one.")
+SECONDS = ("## Seconds per step\n\n"
+           "Relative: the first of 20 steps, prepare and evaluate, since each step prepares again. "
+           "Absolute: evaluate at S_F, and in brackets prepare, once for all steps. Exact "
+           "surfaces.")
 
 
 def write_report(folder, records, steps):
@@ -40,9 +42,9 @@ def write_report(folder, records, steps):
             picture = folder / f"figure-{model}-{surfaces.replace(' ', '-')}.png"
             _draw_quality(picture, records, model, surfaces, steps)
             text += _quality_table(records, model, surfaces, steps, picture.name)
-    text += _linear_table(records, steps)
     if (folder / "timing.csv").is_file():
         timings = timing.read(folder / "timing.csv")
+        text += [SECONDS, ""]
         for model in [name for name in paper.TABLES if any(key[0] == name for key in timings)]:
             text += _seconds_table(timings, model)
     if (folder / "scaling.csv").is_file():
@@ -70,18 +72,20 @@ def _panel_series(surfaces):
 def _quality_table(records, model, surfaces, steps, picture):
     figure = f" (the paper's Figure {paper.FIGURES[model]})" if model in paper.FIGURES else ""
     rows = []
-    for method in _methods(records, model, surfaces):
+    for method in _methods(records, model, surfaces) if surfaces == "exact" else []:
         rows.append([method] + [_quality_cell(records.steps(Series(model, *key, method)), steps)
                                 for key in _panel_series(surfaces)])
     head = ["method"] + [f"{kind} {stepping}" for kind, stepping in paper.PANELS]
     return ([f"## {model.capitalize()}, {surfaces} surfaces{figure}", "",
-             f"![Minimum scaled Jacobian, step by step]({picture})", ""] + _table(head, rows))
+             f"![Minimum scaled Jacobian, step by step]({picture})", ""]
+            + (_table(head, rows) if rows else []))
 
 
 def _quality_cell(steps, to_final):
     if len(steps) <= to_final:
         return "not run" if not steps else f"ended at step {len(steps) - 1}"
-    return f"{_minimum(steps[to_final])}; t* {_survived(steps)}"
+    survived = "" if all(step.valid for step in steps) else f"; t* {_survived(steps)}"
+    return _minimum(steps[to_final]) + survived
 
 
 def _minimum(step):
@@ -93,37 +97,7 @@ def _minimum(step):
 def _survived(steps):
     """t*, as a text."""
     last = last_valid(steps)
-    open_end = ">= " if all(step.valid for step in steps) else ""
-    return "none" if last is None else f"{open_end}{last:.2f}"
-
-
-def _linear_table(records, steps):
-    """The inversion-free morph beside the linear methods, a row for each series that has both."""
-    rows = []
-    for series in records.series():
-        own = records.steps(series)
-        if series.method != "Inversion-free" or len(own) <= steps:
-            continue
-        linear = {method: records.steps(series._replace(method=method)) for method in LINEAR}
-        linear = {method: found for method, found in linear.items() if len(found) > steps}
-        if not linear:
-            continue
-        best = max(linear, key=lambda method: (-linear[method][steps].own,
-                                               linear[method][steps].minimum))
-        lasting = max(linear, key=lambda method: last_valid(linear[method]) or -1)
-        rows.append([f"{series.model} {series.kind} {series.stepping}, {series.surfaces}",
-                     _minimum(own[steps]), _survived(own),
-                     f"{best} {_minimum(linear[best][steps])}",
-                     f"{lasting} {_survived(linear[lasting])}"])
-    if not rows:
-        return []
-    return (["## The inversion-free morph beside the linear methods", "",
-             "Of the linear methods first that with the fewest inverted cells of its own at S_F, "
-             "and among those the highest minimum scaled Jacobian; then that with the largest t*.",
-             ""]
-            + _table(["series, surfaces", "inversion-free at S_F", "t*",
-                      "best linear method at S_F", "longest-lived linear method, t*"],
-                     sorted(rows)))
+    return "none" if last is None else f"{last:.2f}"
 
 
 def _draw_quality(path, records, model, surfaces, steps):
@@ -167,10 +141,8 @@ def _seconds_table(timings, model):
         rows.append(row)
     head = ["method"] + [f"{kind} {stepping}: ours; paper" for kind, stepping in paper.PANELS]
     runs, threads = (" or ".join(sorted({value[k] for value in mine.values()})) for k in (2, 3))
-    return ([f"## {model.capitalize()}: seconds per step (the paper's Table {paper.TABLES[model]})",
-             "", "Relative: the first of 20 steps, prepare and evaluate, since each step prepares "
-             "again. Absolute: evaluate at S_F, and in brackets prepare, once for all steps. Exact "
-             f"surfaces. Runs, of which these are medians: {runs}. Threads: {threads}.", ""]
+    return ([f"### {model.capitalize()} (the paper's Table {paper.TABLES[model]})", "",
+             f"Runs, of which these are medians: {runs}. Threads: {threads}.", ""]
             + _table(head, rows))
 
 

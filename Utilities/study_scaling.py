@@ -11,6 +11,7 @@ from vtkmodules.vtkCommonDataModel import VTK_HEXAHEDRON
 
 from demo_picture import producer
 from Models.model_mesh import ModelMesh, vtk_points
+from study_pieces import ORIGIN, origin
 from study_records import RowFile
 from study_series import METHODS
 
@@ -18,7 +19,8 @@ SIZES = tuple(range(20, 261, 10))
 REPEATS = 3
 LEAST_NODES = 61 * 21 * 21  # of the fit: N = 60
 MOTIONS = ("stretch", "twist")
-FIELDS = ("motion", "method", "n", "nodes", "prepare", "evaluate", "runs", "threads")
+FIELDS = ("motion", "method", "n", "nodes", "prepare", "evaluate", "runs", "threads",
+          *ORIGIN)
 
 
 def brick(n):
@@ -77,7 +79,8 @@ def run(path, methods, sizes, repeats, threads, deadline):
             boundary = producer(target)
             found = [seconds(method, rest, boundary, threads) for _ in range(repeats)]
             prepare, evaluate = (median(values) for values in zip(*found))
-            file.add((motion, method, n, len(mesh.points), prepare, evaluate, repeats, threads))
+            file.add((motion, method, n, len(mesh.points), prepare, evaluate, repeats, threads,
+                      *origin()))
             simple.Delete(boundary)
         simple.Delete(rest)
 

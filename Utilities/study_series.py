@@ -60,7 +60,7 @@ class SeriesRun:
     more; `commit`: of the sources."""
 
     def __init__(self, method, mesh, boundaries, ts, stepping, threads, commit=""):
-        self._ts, self._lost, self._threads = ts, boundaries.lost, threads
+        self._ts, self._lost = ts, boundaries.lost
         self._commit = commit
         self._rest, self._boundary = producer(mesh.to_vtk()), producer(mesh.boundary_to_vtk(0))
         self._source = BoundarySource(mesh, boundaries.positions)
@@ -91,8 +91,7 @@ class SeriesRun:
         boundary = int(value("BoundaryInvertedCells"))
         return Step(number, float(self._ts[number]), value("MinScaledJacobian"),
                     value("MeanScaledJacobian"), len(inverted), boundary,
-                    len(inverted) - len(own) - boundary, value("PrepareSeconds"),
-                    value("EvaluateSeconds"), self._threads, " ".join(map(str, own[:NAMED_CELLS])),
+                    len(inverted) - len(own) - boundary, " ".join(map(str, own[:NAMED_CELLS])),
                     self._commit)
 
     def mesh(self):

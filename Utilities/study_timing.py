@@ -12,12 +12,14 @@ from paraview import simple
 from demo_picture import producer
 from study_mesh import study_mesh
 from study_paper import STEPPINGS
+from study_pieces import ORIGIN, origin
 from study_records import RowFile
 from study_scaling import seconds
 
 #: A method slower than that is run once.
 SLOW = 60
-FIELDS = ("model", "kind", "stepping", "method", "prepare", "evaluate", "runs", "threads")
+FIELDS = ("model", "kind", "stepping", "method", "prepare", "evaluate", "runs", "threads",
+          *ORIGIN)
 
 
 def run(path, models, kinds, methods, steps, small, repeats, threads, deadline):
@@ -38,7 +40,8 @@ def run(path, models, kinds, methods, steps, small, repeats, threads, deadline):
                     if (name, kind, stepping, method) not in done:
                         deadline.check()
                         file.add((name, kind, stepping, method,
-                                  *_medians(method, rest, boundary, repeats, threads), threads))
+                                  *_medians(method, rest, boundary, repeats, threads), threads,
+                                  *origin()))
                 simple.Delete(boundary)
             simple.Delete(rest)
 

@@ -4,8 +4,8 @@
 #include "Distributed/RankCommunicator.h"
 #include "Mesh/CellShape.h"
 #include "Mesh/CollapsedCells.h"
-#include "Mesh/FacesOfCells.h"
 #include "Mesh/Polyhedra.h"
+#include "Mesh/Topology.h"
 #include "Support/Error.h"
 #include "Support/Lists.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkClassifyBoundary.h"
 
-#include "Mesh/Extent.h"
+#include "Mesh/Mesh.h"
 #include "Mesh/Topology.h"
 #include "Private/Blocks/Blocks.h"
 #include "Private/Data/Geometry.h"
@@ -15,7 +15,7 @@
 #include "Private/Pipeline/Ports.h"
 #include "Private/Pipeline/Ranks.h"
 #include "Support/Lists.h"
-#include "Support/ProgressRange.h"
+#include "Support/Monitor.h"
 
 #include <vtkDataObject.h>
 #include <vtkInformation.h>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkCompareMorphMethods.h"
 
-#include "Morpher/IncrementalMorph.h"
 #include "Private/Compare/Comparison.h"
 #include "Private/Compare/PeakMemory.h"
 #include "Private/Data/Quality.h"
@@ -14,8 +13,9 @@
 #include "Private/Pipeline/Ports.h"
 #include "Private/Pipeline/Ranks.h"
 #include "Quality/ScaledJacobian.h"
+#include "Session/IncrementalMorph.h"
 #include "Support/Error.h"
-#include "Support/ProgressRange.h"
+#include "Support/Monitor.h"
 #include "vtkFEMWarpMorph.h"
 #include "vtkInversionFreeMorph.h"
 #include "vtkLBWarpMorph.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkExtractMorphBoundary.h"
 
-#include "Mesh/Extent.h"
+#include "Mesh/Mesh.h"
 #include "Mesh/Topology.h"
 #include "Private/Blocks/Blocks.h"
 #include "Private/Data/GridMesh.h"

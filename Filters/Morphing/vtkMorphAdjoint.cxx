@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkMorphAdjoint.h"
 
-#include "Mesh/Extent.h"
+#include "Mesh/Mesh.h"
 #include "Private/Data/Arrays.h"
 #include "Private/Data/GridMesh.h"
 #include "Private/Options.h"

@@ -2,11 +2,10 @@
 #include "vtkMorphBoundary.h"
 
 #include "Boundary/FaceQuality.h"
-#include "BoundaryMorphing/CurveMorph.h"
 #include "BoundaryMorphing/SurfaceMeshSmoothing.h"
 #include "BoundaryMorphing/SurfaceMorph.h"
 #include "BoundaryMorphing/SurfaceSmoothing.h"
-#include "Mesh/Extent.h"
+#include "Mesh/Mesh.h"
 #include "Mesh/Topology.h"
 #include "Private/Data/Arrays.h"
 #include "Private/Data/Directions.h"

@@ -17,7 +17,7 @@
 #include "Private/Pipeline/UpToDateInput.h"
 #include "Private/Project/TargetDistance.h"
 #include "Support/Error.h"
-#include "Support/ProgressRange.h"
+#include "Support/Monitor.h"
 #include "vtkFEMWarpMorph.h"
 #include "vtkInversionFreeMorph.h"
 #include "vtkLBWarpMorph.h"

@@ -9,7 +9,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <functional>
-#include <numeric>
+#include <iterator>
 #include <sstream>
 
 namespace morph_mesh
@@ -176,6 +176,10 @@ void checkMotion(const Arguments& arguments)
   if (given.text("Displacement") == "Lattice" && arguments.lattice.empty())
   {
     throw UsageError(given.giver("Displacement") + " needs --lattice.");
+  }
+  if (given.hasZero("Scale"))
+  {
+    throw UsageError("--scale 0 makes what moves flat: give another factor than 0.");
   }
   if (given.has("Center") && !given.has("Rotation") && !given.has("Scale"))
   {
@@ -499,25 +503,6 @@ std::string helpOf(const std::vector<Option>& options)
   return text.str();
 }
 
-/// How many letters have to be changed, added or left out.
-std::size_t distance(const std::string& a, const std::string& b)
-{
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), 0);
-  for (std::size_t i = 0; i < a.size(); ++i)
-  {
-    std::size_t diagonal = row[0];
-    row[0] = i + 1;
-    for (std::size_t j = 0; j < b.size(); ++j)
-    {
-      const std::size_t changed = diagonal + (a[i] != b[j]);
-      diagonal = row[j + 1];
-      row[j + 1] = std::min({ changed, row[j] + 1, row[j + 1] + 1 });
-    }
-  }
-  return row.back();
-}
-
 /// The full name of an option of one letter.
 std::string longName(const std::string& name)
 {
@@ -526,13 +511,13 @@ std::string longName(const std::string& name)
   return found == Letters.end() ? name : found->second;
 }
 
-/// The one that is written most like `name`, for a message; empty if none is.
 template <typename List>
-std::string nearest(const std::string& name, const List& list, std::size_t most)
+std::vector<std::string> namesOfAll(const List& list)
 {
-  const auto near = std::min_element(list.begin(), list.end(),
-    [&](const auto& a, const auto& b) { return distance(name, a.name) < distance(name, b.name); });
-  return distance(name, near->name) > most ? "" : " Did you mean " + std::string(near->name) + "?";
+  std::vector<std::string> names;
+  std::transform(list.begin(), list.end(), std::back_inserter(names),
+    [](const auto& one) { return std::string(one.name); });
+  return names;
 }
 
 const Option* findOption(const std::vector<Option>& options, const std::string& argument)
@@ -552,7 +537,7 @@ const Option* takeOption(const std::vector<Option>& options, const std::string& 
   if (!option)
   {
     const std::string name = argument.substr(0, equals);
-    throw UsageError("There is no option " + name + "." + nearest(name, options, 3));
+    throw UsageError("There is no option " + name + "." + didYouMean(name, namesOfAll(options), 3));
   }
   // A flag of the table may be --certify=off.
   option->take(equals != std::string::npos ? argument.substr(equals + 1)
@@ -564,14 +549,24 @@ const Option* takeOption(const std::vector<Option>& options, const std::string& 
 /// The command that the first argument is; null if that is an option or a file.
 const Command* commandOf(int argc, char* argv[])
 {
-  const std::string first = argc > 1 ? argv[1] : "--help";
+  if (argc < 2)
+  {
+    std::string names;
+    for (const Command& one : Commands)
+    {
+      names += (names.empty() ? "" : ", ") + std::string(one.name);
+    }
+    throw UsageError("No command and no file is given. The commands are " + names + ".");
+  }
+  const std::string first = argv[1];
   const auto found = std::find_if(
     Commands.begin(), Commands.end(), [&](const Command& one) { return one.name == first; });
   if (found != Commands.end())
   {
     return &*found;
   }
-  const std::string meant = first.substr(0, 1) == "-" ? "" : nearest(first, Commands, 2);
+  const std::string meant =
+    first.substr(0, 1) == "-" ? "" : didYouMean(first, namesOfAll(Commands), 2);
   if (!meant.empty() && !std::filesystem::exists(first))
   {
     throw UsageError("There is no command and no file " + first + "." + meant);

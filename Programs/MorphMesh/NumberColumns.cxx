@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 
@@ -93,6 +94,12 @@ std::vector<std::string> splitLine(const std::string& line, char separator)
 std::vector<TableLine> readLines(const std::string& path)
 {
   std::ifstream file(path, std::ios::binary);
+  if (!file)
+  {
+    throw Failure("Cannot read " + path +
+                  (std::filesystem::exists(path) ? ": the system does not give its content."
+                                                 : ": there is no such file."));
+  }
   std::ostringstream whole;
   whole << file.rdbuf();
   std::string content = whole.str();
@@ -150,7 +157,7 @@ std::vector<TableLine> readLines(const std::string& path)
   }
   if (lines.empty())
   {
-    throw Failure("Cannot read " + path + ": it does not exist, or is empty.");
+    throw Failure("Cannot read " + path + ": the table is empty.");
   }
   return lines;
 }

@@ -2,6 +2,7 @@
 #include "Properties.h"
 
 #include "Arguments.h"
+#include "Messages.h"
 #include "NumberColumns.h"
 
 #include <vtksys/SystemTools.hxx>
@@ -9,6 +10,8 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <iterator>
+#include <numeric>
 #include <optional>
 #include <sstream>
 
@@ -27,6 +30,33 @@ std::string plain(const std::string& word)
       result += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
     }
   }
+  return result;
+}
+
+/// How many letters have to be changed, added or left out.
+std::size_t distance(const std::string& a, const std::string& b)
+{
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), 0);
+  for (std::size_t i = 0; i < a.size(); ++i)
+  {
+    std::size_t diagonal = row[0];
+    row[0] = i + 1;
+    for (std::size_t j = 0; j < b.size(); ++j)
+    {
+      const std::size_t changed = diagonal + (a[i] != b[j]);
+      diagonal = row[j + 1];
+      row[j + 1] = std::min({ changed, row[j] + 1, row[j + 1] + 1 });
+    }
+  }
+  return row.back();
+}
+
+std::string digits(const std::string& name)
+{
+  std::string result;
+  std::copy_if(name.begin(), name.end(), std::back_inserter(result),
+    [](unsigned char c) { return std::isdigit(c); });
   return result;
 }
 
@@ -112,8 +142,8 @@ PropertyValue valueOf(const Property& property, const std::string& text)
         [&](const std::string& word) { return plain(word) == plain(text); });
       if (found == property.words.end())
       {
-        throw UsageError(
-          property.option + " is one of " + wordsOf(property) + ", not '" + text + "'.");
+        throw UsageError(property.option + " is one of " + wordsOf(property) + ", not '" + text +
+                         "'." + didYouMean(text, property.words, 2));
       }
       return { { static_cast<double>(found - property.words.begin()) }, *found };
     }
@@ -121,6 +151,20 @@ PropertyValue valueOf(const Property& property, const std::string& text)
       return { {}, text };
   }
 }
+}
+
+std::string didYouMean(
+  const std::string& name, const std::vector<std::string>& names, std::size_t most)
+{
+  const auto apart = [&](const std::string& other)
+  {
+    return digits(name) == digits(other)
+             ? distance(vtksys::SystemTools::LowerCase(name), vtksys::SystemTools::LowerCase(other))
+             : name.size() + other.size() + most;
+  };
+  const auto near = std::min_element(names.begin(), names.end(),
+    [&](const std::string& a, const std::string& b) { return apart(a) < apart(b); });
+  return near == names.end() || apart(*near) > most ? "" : " Did you mean " + *near + "?";
 }
 
 std::string wordsOf(const Property& property)
@@ -252,6 +296,11 @@ bool GivenProperties::spell(const std::vector<std::string>& listed)
       name = *found;
       isChanged = true;
     }
+    const std::string meant = found == listed.end() ? didYouMean(name, listed, 2) : "";
+    if (!meant.empty())
+    {
+      throw Failure(one.option + " names '" + name + "', which the mesh does not have." + meant);
+    }
   }
   return isChanged;
 }
@@ -266,6 +315,12 @@ double GivenProperties::number(const std::string& name, double otherwise) const
 {
   const Given* found = this->find(name);
   return found ? found->value.numbers.front() : otherwise;
+}
+
+bool GivenProperties::hasZero(const std::string& name) const
+{
+  const Given* given = this->find(name);
+  return given && std::count(given->value.numbers.begin(), given->value.numbers.end(), 0.) > 0;
 }
 
 std::string GivenProperties::giver(const std::string& name) const

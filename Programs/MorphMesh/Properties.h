@@ -59,6 +59,10 @@ std::string inOptions(const std::string& message);
 std::string valueName(const Property& property);
 /// The words of a choice with commas between them; empty where it is none.
 std::string wordsOf(const Property& property);
+/// " Did you mean X?" of the name that is spelled most like `name`, case aside; empty if more than
+/// `most` letters or any digit differ.
+std::string didYouMean(
+  const std::string& name, const std::vector<std::string>& names, std::size_t most);
 
 /// The properties that a command line gives.
 class GivenProperties
@@ -72,11 +76,13 @@ public:
 
   bool has(const std::string& name) const;
   /// Gives names of lists the case that they have in `listed`, if one there is the same but for
-  /// case. Returns whether any has changed.
+  /// case. Returns whether any has changed. Throws Failure for a name that is nearly one there.
   bool spell(const std::vector<std::string>& listed);
   /// As it is given; empty where it is not.
   std::string text(const std::string& name) const;
   double number(const std::string& name, double otherwise) const;
+  /// Whether a number of it is 0.
+  bool hasZero(const std::string& name) const;
   /// The option that gave or implied it.
   std::string giver(const std::string& name) const;
   /// All, for a record of what was given: "--method=FEMWARP ...".

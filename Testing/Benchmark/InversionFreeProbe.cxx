@@ -43,16 +43,16 @@ public:
   {
   }
 
-  void parallelFor(
+  int threads() const { return this->threads_; } // an override but for older cores
+
+protected:
+  void share(
     Index n, Index grain, const std::function<void(Index first, Index last)>& body) override
   {
     const Index parts = std::min<Index>(this->threads_, n / grain);
     if (parts < 2)
     {
-      if (n > 0)
-      {
-        body(0, n);
-      }
+      body(0, n);
       return;
     }
     std::vector<std::thread> others;

@@ -6,7 +6,7 @@
 #include "Mesh/Topology.h"
 #include "Morpher/PolyhedralMorpher.h"
 #include "Private/Data/GridMesh.h"
-#include "Support/Stopwatch.h"
+#include "Support/Monitor.h"
 
 #include <vtkNew.h>
 #include <vtkUnstructuredGrid.h>

@@ -1,18 +1,32 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Writes a cube of N x N x N hexahedra and its twisted boundary, for meshes of 10^7 nodes.
+"""Writes a cube of N x N x N hexahedra and its twisted boundary, for meshes of 10^7 nodes, and
+measures morph-mesh on it.
 
 OUTPUT.vtu is the mesh, OUTPUT_boundary.vtp its outer nodes turned about the z axis by up to 90
 degrees, with the array MorphPointId. Both are raw appended data, written plane by plane, so that
-the script needs little memory. For instance
+the script needs little memory. With --measure, results/whole-program.csv gets the whole program's
+seconds and the peak of its memory:
 
-  pvpython large_cube.py 215 /tmp/cube
-  /usr/bin/time -v morph-mesh /tmp/cube.vtu /tmp/cube_boundary.vtp /tmp/moved.vtu"""
+  python3 large_cube.py 215 /tmp/cube --measure build/paraview/bin/morph-mesh"""
 
 import argparse
+import csv
+import json
+import resource
 import struct
+import subprocess
+import sys
+import time
+from pathlib import Path
 
 import numpy as np
+
+HERE = Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE.parent.parent / "Utilities"))
+from study_pieces import ORIGIN, origin  # noqa: E402  (needs the path above)
+
+TABLE = HERE / "results/whole-program.csv"
 
 
 def plane_of_points(n, k):
@@ -73,11 +87,26 @@ def write(path, kind, piece, arrays):
         file.write(b"</AppendedData></VTKFile>\n")
 
 
+def measure(program, cube):
+    """The row of a run on the files CUBE.vtu and CUBE_boundary.vtp."""
+    start = time.perf_counter()
+    subprocess.run([program, "--report", f"{cube}.json", f"{cube}.vtu", f"{cube}_boundary.vtp",
+                    f"{cube}_moved.vtu"], check=True)
+    seconds = time.perf_counter() - start
+    report = json.loads(Path(f"{cube}.json").read_text(encoding="utf-8"))
+    return {"nodes": report["nodes"], "method": "FEMWARP", "seconds": f"{seconds:.0f}",
+            "prepare_s": f"{report['seconds to prepare']:.0f}",
+            "evaluate_s": f"{report['seconds to evaluate']:.0f}",
+            "memory_GB": f"{resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss / 1e6:.1f}",
+            **dict(zip(ORIGIN, origin()))}
+
+
 def main():
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("side", type=int, metavar="N", help="cells a side, up to 1289")
     parser.add_argument("output", metavar="OUTPUT", help="of the files, without extension")
+    parser.add_argument("--measure", metavar="PROGRAM", help="morph-mesh")
     arguments = parser.parse_args()
     n = arguments.side
     if not 1 <= n <= 1289:  # nodes are numbered with 32 bits in the file
@@ -98,6 +127,12 @@ def main():
         ("PointData", "Int64", "MorphPointId", 1, 8 * len(ids), lambda: [ids.astype("<i8")]),
         ("Points", "Float64", "Points", 3, 24 * len(ids), lambda: [twisted(places)])])
     print(f"{points:,} nodes, {cells:,} hexahedra, {len(ids):,} outer nodes")
+    if arguments.measure:
+        row = measure(arguments.measure, arguments.output)
+        with open(TABLE, "w", encoding="utf-8", newline="") as file:
+            table = csv.DictWriter(file, list(row), lineterminator="\n")
+            table.writeheader()
+            table.writerow(row)
 
 
 if __name__ == "__main__":

@@ -8,7 +8,7 @@ import numpy as np
 from vtkmodules.vtkCommonDataModel import VTK_HEXAHEDRON, VTK_TETRA
 
 ROOT = Path(__file__).resolve().parent.parent.parent
-sys.path[:0] = [str(ROOT / "Data"), str(ROOT / "Testing/ParaView")]
+sys.path[:0] = [str(ROOT / folder) for folder in ("Data", "Testing/ParaView", "Utilities")]
 import Models  # noqa: E402  (needs the path above)
 from Models.model_mesh import ModelMesh  # noqa: E402
 from Models.structured import around_axis  # noqa: E402

@@ -19,6 +19,7 @@ ROOT = Path(__file__).resolve().parent.parent.parent
 sys.path[:0] = [str(ROOT / "Utilities"),
                 *map(str, ROOT.glob("build/paraview/lib/python3*/site-packages"))]
 import benchmark_inversion_free as problems  # noqa: E402  (needs the path above)
+from study_pieces import ORIGIN, origin  # noqa: E402
 import meshmorphing as mm  # noqa: E402
 import numpy as np  # noqa: E402
 
@@ -55,7 +56,7 @@ def rows(name, problem, folder):
     def row(program, points, seconds):
         quality = mm.quality(mesh, points)
         return [name, program, f"{quality.minimum:.4f}", f"{quality.mean:.4f}", quality.inverted,
-                seconds]
+                seconds, *origin()]
 
     yield row("start", start, "")
     moved = motion + TINY * np.ptp(problem.points)
@@ -81,7 +82,8 @@ def main():
         return
     with open(TABLE, "w", encoding="ascii", newline="") as out:
         table = csv.writer(out, lineterminator="\n")
-        table.writerow(["mesh", "program", "minimum", "mean", "inverted", "processor_seconds"])
+        table.writerow(["mesh", "program", "minimum", "mean", "inverted", "processor_seconds",
+                        *ORIGIN])
         for name, problem in cases.items():
             table.writerows(rows(name, problem, Path(folder)))
 

@@ -25,13 +25,14 @@ from paraview import simple
 from meshes import KINDS, ROOT
 import calculix
 import openfoam
+from study_pieces import ORIGIN, origin
 from Models.vtk_files import write_grid
 
 HERE = Path(__file__).resolve().parent
 RESULTS = HERE / "results/performance.csv"
 FIELDS = ("mesh", "nodes", "size", "program", "processors", "run", "first_s", "later_s",
           "prepare_s", "evaluate_s", "memory_GB", "iterations", "difference", "inverted", "minimum",
-          "machine", "commit")
+          *ORIGIN)
 METHODS = {"FEMWARP": "FEMWARP", "LBWARP": "LBWARP", "Weighted residual": "WeightedResidual",
            "Simplex-linear": "SimplexLinear", "Simplex-natural neighbor": "SimplexNaturalNeighbor",
            "Radial basis": "RadialBasis", "Smoothing": "Smoothing",
@@ -43,17 +44,6 @@ SMALL = 200000  # nodes up to which direct solvers and elasticity run
 SLOW = 100  # seconds: what takes longer runs once
 LIMIT = 600  # seconds: what takes longer is ended, and its row is empty
 RANKS = (1, 2, 4)
-
-
-def machine():
-    """ "2 x Intel Xeon" """
-    text = Path("/proc/cpuinfo").read_text(encoding="ascii", errors="replace")
-    return f"{os.cpu_count()} x {re.search(r'model name.*: (.*)', text)[1].strip()}"
-
-
-def commit():
-    return subprocess.run(["git", "-C", str(ROOT), "rev-parse", "--short", "HEAD"], check=True,
-                          capture_output=True, text=True).stdout.strip()
 
 
 def run(command, limit=LIMIT):
@@ -90,7 +80,7 @@ class Table:
         if path.exists():
             with open(path, newline="", encoding="utf-8") as file:
                 self.rows = list(csv.DictReader(file))
-        self.about = {"machine": machine(), "commit": commit()}
+        self.about = dict(zip(ORIGIN, origin()))
 
     def of(self, kind, size, program, processors):
         wanted = (kind, str(size), program, str(processors))

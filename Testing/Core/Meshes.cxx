@@ -426,7 +426,7 @@ Points randomPoints(Index n, std::mt19937& random)
 }
 
 ThreadedMonitor::ThreadedMonitor(int count)
-  : threads(count)
+  : count(count)
 {
 }
 
@@ -445,18 +445,17 @@ void ThreadedMonitor::warn(const std::string& message)
   this->warnings.push_back(message);
 }
 
-void ThreadedMonitor::parallelFor(
-  Index n, Index grain, const std::function<void(Index, Index)>& body)
+void ThreadedMonitor::share(Index n, Index grain, const std::function<void(Index, Index)>& body)
 {
   // Ranges of one grain, dealt out in turn: an unusual cut shows what depends on the ranges.
   const Index ranges = (n + grain - 1) / grain;
   const auto work = [&](int t)
   {
-    for (Index r = t; r < ranges; r += this->threads)
+    for (Index r = t; r < ranges; r += this->count)
     {
       body(r * grain, std::min(n, (r + 1) * grain));
     }
   };
-  inThreads(static_cast<int>(std::min<Index>(this->threads, ranges)), work);
+  inThreads(static_cast<int>(std::min<Index>(this->count, ranges)), work);
 }
 }

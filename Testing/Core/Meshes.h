@@ -86,12 +86,13 @@ Points randomPoints(Index n, std::mt19937& random);
 struct ThreadedMonitor : morph::Monitor
 {
   explicit ThreadedMonitor(int threads = 1);
+  int threads() const override { return this->count; }
   void progress(double fraction) override;
   bool cancelled() override;
   void warn(const std::string& message) override;
-  void parallelFor(Index n, Index grain, const std::function<void(Index, Index)>& body) override;
+  void share(Index n, Index grain, const std::function<void(Index, Index)>& body) override;
 
-  int threads;
+  int count;           ///< of the threads
   double cancelAt = 2; ///< cancels once progress has come this far
   double lastProgress = 0;
   std::vector<std::string> warnings;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Meshes.h"
-#include "Solvers/AssembleRows.h"
+#include "Solvers/CsrMatrix.h"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,6 @@
 #include "Meshes.h"
 #include "Motions.h"
 #include "Optimization/BlockCsr3f.h"
-#include "Optimization/NodePreconditioner.h"
 
 #include <gtest/gtest.h>
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause What boundaries forbid by themselves, and how soon the
 // inversion-free morph and its sub-steps give up then.
-#include "Geometry/CommonPoint.h"
+#include "Geometry/ExactPredicates.h"
 #include "LinearMethods/FemWarp.h"
 #include "Mesh/Topology.h"
 #include "Meshes.h"
-#include "Morpher/IncrementalMorph.h"
 #include "Motions.h"
 #include "Quality/ScaledJacobian.h"
+#include "Session/IncrementalMorph.h"
 #include "Untangling/BoundaryCheck.h"
 #include "Untangling/InversionFree.h"
 

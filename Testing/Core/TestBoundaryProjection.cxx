@@ -3,7 +3,6 @@
 
 #include "Boundary/FaceQuality.h"
 #include "BoundaryMorphing/BoundaryProjection.h"
-#include "BoundaryMorphing/CurveMorph.h"
 #include "BoundaryMorphing/SurfaceMorph.h"
 
 #include <Eigen/Geometry>

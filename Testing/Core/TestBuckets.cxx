@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Meshes.h"
-#include "Support/Buckets.h"
+#include "Support/Lists.h"
 
 #include <gtest/gtest.h>
 

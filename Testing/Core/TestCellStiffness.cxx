@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "LinearMethods/ElementStiffness.h"
 #include "LinearMethods/FemWarp.h"
-#include "LinearMethods/StiffnessFactors.h"
 #include "Mesh/CellShape.h"
 #include "Meshes.h"
 #include "Morpher/PolyhedralMorpher.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Geometry/OrientationPredicate.h"
+#include "Geometry/ExactPredicates.h"
 #include "Mesh/CellShape.h"
 #include "Meshes.h"
 #include "Quality/Certificate.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Boundary/FaceAreas.h"
+#include "Boundary/FaceQuality.h"
 #include "BoundaryShapes.h"
 #include "Support/Error.h"
 

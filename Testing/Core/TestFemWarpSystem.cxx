@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "LinearMethods/ElementStiffness.h"
-#include "LinearMethods/FemWarpSystem.h"
+#include "LinearMethods/FemWarp.h"
 #include "Meshes.h"
 #include "Motions.h"
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Boundary/FaceQuality.h"
-#include "Boundary/FoldedFaces.h"
 #include "ClassifiedShape.h"
 #include "Motions.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Energies/ConditionKernel.h"
+#include "Energies/CellBatchKernel.h"
 #include "Energies/FoldoverKernel.h"
 #include "Meshes.h"
 

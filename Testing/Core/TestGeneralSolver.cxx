@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "DirectSolutions.h"
-#include "Solvers/GeneralSolver.h"
+#include "Solvers/MultigridSolver.h"
 
 #include "Meshes.h"
 #include "Motions.h"
-#include "Solvers/SpdSolver.h"
 #include "Support/Error.h"
 #include "WatchingMonitor.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Faces that are divided on one side alone: no gap opens there, and all else is as elsewhere.
 #include "Boundary/Classification.h"
-#include "Boundary/FaceAreas.h"
+#include "Boundary/FaceQuality.h"
 #include "LinearMethods.h"
 #include "LinearMethods/FemWarp.h"
 #include "Mesh/CollapsedCells.h"

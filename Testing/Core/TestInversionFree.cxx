@@ -4,11 +4,11 @@
 #include "LinearMethods/SimplexLinear.h"
 #include "Mesh/Topology.h"
 #include "Meshes.h"
-#include "Morpher/IncrementalMorph.h"
 #include "Motions.h"
 #include "Quality/BoundaryDetermined.h"
 #include "Quality/MovableQuality.h"
 #include "Quality/ScaledJacobian.h"
+#include "Session/IncrementalMorph.h"
 #include "Untangling/InversionFree.h"
 
 #include <gtest/gtest.h>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ClassifiedShape.h"
 
-#include "BoundaryMorphing/CurveMorph.h"
 #include "BoundaryMorphing/KnownMotion.h"
+#include "BoundaryMorphing/SurfaceMorph.h"
 
 #include <Eigen/Geometry>
 #include <Eigen/SVD>

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Meshes.h"
-#include "Solvers/Aggregation.h"
-#include "Solvers/GaussSeidel.h"
 #include "Solvers/Multigrid.h"
 
 #include <gtest/gtest.h>

@@ -5,8 +5,8 @@
 #include "Motions.h"
 
 #include "BoundaryMorphing/HandleMotion.h"
-#include "BoundaryMorphing/MotionFit.h"
-#include "BoundaryMorphing/SurfaceHarmonicExtension.h"
+#include "BoundaryMorphing/KnownMotion.h"
+#include "BoundaryMorphing/SurfaceMorph.h"
 #include "BoundaryMorphing/SurfaceResidual.h"
 #include "Interpolation/AffineWeights.h"
 #include "LinearMethods/BodyMotion.h"

@@ -5,9 +5,9 @@
 #include "Motions.h"
 
 #include "Mesh/Topology.h"
-#include "Morpher/IncrementalMorph.h"
 #include "Quality/MovableQuality.h"
-#include "Support/ProgressRange.h"
+#include "Session/IncrementalMorph.h"
+#include "Support/Monitor.h"
 #include "Untangling/InversionFree.h"
 #include "Untangling/QualityRaising.h"
 #include "Untangling/Smoothing.h"

@@ -3,9 +3,8 @@
 #include "Meshes.h"
 #include "Motions.h"
 
-#include "Geometry/FarthestPoints.h"
-#include "Interpolation/CompactCorrection.h"
-#include "Interpolation/RadialKernel.h"
+#include "Geometry/PointOrders.h"
+#include "Interpolation/RadialInterpolant.h"
 #include "Solvers/DenseCholesky.h"
 
 #include <Eigen/Cholesky>

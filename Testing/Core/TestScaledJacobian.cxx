@@ -438,8 +438,8 @@ namespace
 class UnevenThreads : public Monitor
 {
 public:
-  void parallelFor(
-    Index n, Index, const std::function<void(Index first, Index last)>& body) override
+  int threads() const override { return 2; }
+  void share(Index n, Index, const std::function<void(Index first, Index last)>& body) override
   {
     std::vector<Index> ends{ n };
     while (ends.back() > 0)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Sliding nodes that FEMWARP does not pull along their surfaces, against a dense solution.
 #include "DirectSolutions.h"
-#include "LinearMethods/FemWarpSystem.h"
+#include "LinearMethods/FemWarp.h"
 #include "LinearMethods/SlidingWarp.h"
 #include "Meshes.h"
 

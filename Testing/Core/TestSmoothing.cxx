@@ -6,7 +6,7 @@
 #include "RandomMeshes.h"
 
 #include "Energies/MeshEnergy.h"
-#include "Energies/SmoothingTargets.h"
+#include "Energies/TargetMatrices.h"
 #include "Energies/UntangleEnergy.h"
 #include "Mesh/Topology.h"
 #include "Quality/ScaledJacobian.h"

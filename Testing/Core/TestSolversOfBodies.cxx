@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Bodies that do not touch are systems of their own.
 #include "Meshes.h"
-#include "Solvers/GeneralSolver.h"
-#include "Solvers/SpdSolver.h"
+#include "Solvers/MultigridSolver.h"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,6 @@
 #include "ClassifiedShape.h"
 
 #include "Boundary/FaceQuality.h"
-#include "BoundaryMorphing/CurveMorph.h"
 #include "BoundaryMorphing/SurfaceMeshSmoothing.h"
 #include "BoundaryMorphing/SurfaceMorph.h"
 #include "BoundaryMorphing/SurfaceSmoothing.h"

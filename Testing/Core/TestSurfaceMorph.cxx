@@ -3,8 +3,6 @@
 #include "Motions.h"
 
 #include "Boundary/FaceQuality.h"
-#include "Boundary/SurfaceLoops.h"
-#include "BoundaryMorphing/CurveMorph.h"
 #include "BoundaryMorphing/SurfaceMorph.h"
 #include "Support/Error.h"
 

@@ -2,7 +2,7 @@
 // Valid ranges against bisection with the measure of quality, on random motions.
 #include "Meshes.h"
 #include "Motions.h"
-#include "Quality/PolynomialRoot.h"
+#include "Quality/Bernstein.h"
 #include "Quality/ValidRange.h"
 #include "Support/Error.h"
 #include "ValidRangeCases.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Layers of cells on a wall, and how they move with it.
 #include "Boundary/WallLayers.h"
-#include "BoundaryMorphing/LayerMotion.h"
-#include "Geometry/RigidFit.h"
+#include "BoundaryMorphing/BoundaryMotion.h"
+#include "Geometry/RotationFit.h"
 #include "LinearMethods/FemWarp.h"
 #include "Meshes.h"
 #include "Motions.h"

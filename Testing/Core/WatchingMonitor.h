@@ -17,15 +17,16 @@ struct WatchingMonitor : morph::Monitor
     return ++this->questions > this->cancelAfter;
   }
 
+  int threads() const override { return 2; } // so that it is told of each loop
   /// Throws after `mostLoops` loops without a question: the computation does not listen.
-  void parallelFor(morph::Index n, morph::Index grain,
+  void share(morph::Index n, morph::Index grain,
     const std::function<void(morph::Index, morph::Index)>& body) override
   {
     if (++this->loopsSince > this->mostLoops)
     {
       throw std::runtime_error("many loops without asking whether to stop");
     }
-    Monitor::parallelFor(n, grain, body);
+    Monitor::share(n, grain, body);
   }
 
   int mostLoops = 1000;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What code of one mesh is told on ranks, against the same of the whole mesh.
 #include "Distributed/RankCommunicator.h"
-#include "Mesh/KRing.h"
 #include "Mesh/OwnCells.h"
 #include "Mesh/Topology.h"
 #include "Meshes.h"

@@ -11,7 +11,6 @@
 #include "LinearMethods/WeightedResidual.h"
 #include "Mesh/Topology.h"
 #include "Meshes.h"
-#include "Morpher/BodyByBody.h"
 #include "Morpher/SiteMethod.h"
 #include "Pieces.h"
 #include "Session/Session.h"

@@ -133,7 +133,7 @@ TEST(BoundarySliding, PlanesOfSymmetryStayPlanarWhileAHoleGrows)
     }
     EXPECT_GT(off, 0.02);
     ASSERT_FALSE(listener.Warnings.empty());
-    EXPECT_NE(listener.Warnings[0].find("off their own shape"), std::string::npos);
+    EXPECT_NE(listener.Warnings[0].find("leave their own shape"), std::string::npos);
   }
 }
 

@@ -2,7 +2,7 @@
 // Filters on meshes with hanging nodes: shapes, derivatives, steps and Compare leave no gap,
 // either.
 #include "DisplacedBoundaries.h"
-#include "Geometry/RigidFit.h"
+#include "Geometry/RotationFit.h"
 #include "MorphFilters.h"
 #include "Octree.h"
 #include "TestGrids.h"

@@ -3,7 +3,7 @@
 #include "BlockGrids.h"
 #include "DisplacedBoundaries.h"
 
-#include "Geometry/RigidFit.h"
+#include "Geometry/RotationFit.h"
 #include "vtkFEMWarpMorph.h"
 #include "vtkInversionFreeMorph.h"
 #include "vtkLBWarpMorph.h"

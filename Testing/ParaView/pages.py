@@ -183,11 +183,11 @@ class SolverFilesAndCommands(InFolder):
                     for line in commands_of(page)
                     if not re.search(r"\bcase\b", line)]
         self.assertGreaterEqual(len(commands), 10)
-        path = howto_pictures.search_path(PLUGIN)
+        environment = howto_pictures.environment(PLUGIN)
         for line in commands:
             with self.subTest(command=line):
                 # The shell ends a line at its comment.
-                done = subprocess.run(["bash", "-c", line], env={**os.environ, "PATH": path},
+                done = subprocess.run(["bash", "-c", line], env=environment,
                                       capture_output=True, text=True, timeout=120, check=False)
                 self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
                 if not re.search(" (list|extract) ", line):
@@ -197,14 +197,54 @@ class SolverFilesAndCommands(InFolder):
     def test_what_a_command_prints(self):
         shutil.copy(BORE.with_name("canister_hex_small.vtu"), "canister.vtu")
         page = (ROOT / "Documentation/CommandLine.md").read_text(encoding="utf-8")
-        said = re.search(r"`(--move [^`]*)`\s+prints this, [^:]*:\s*\n((?: {4}.*\n)+)", page)
+        said = re.search(r"`(--move [^`]*)`\s+prints this, .*?:\n\n((?: {4}.*\n)+)", page)
         done = subprocess.run(["bash", "-c", f"morph-mesh {said[1]} canister.vtu wider.vtu"],
-                              env={**os.environ, "PATH": howto_pictures.search_path(PLUGIN)},
+                              env=howto_pictures.environment(PLUGIN),
                               capture_output=True, text=True, timeout=120, check=False)
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertTrue(done.stdout.endswith("wider.vtu: Valid\n"), done.stdout)
         self.assertTrue(done.stdout.startswith(re.sub(r"^ {4}", "", said[2], flags=re.MULTILINE)),
                         done.stdout)
+
+
+class ProjectCommands(unittest.TestCase):
+    """Commands of Install.md and Study.md, in a folder that looks like the project's."""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
+        (self.folder / "build").mkdir()
+        (self.folder / "build/paraview").symlink_to(howto_pictures.build_folder(PLUGIN))
+        (self.folder / "Utilities").symlink_to(ROOT / "Utilities")
+
+    def run_line(self, page, start, then=""):
+        """Runs the line of the page that begins so, and more."""
+        text = (ROOT / "Documentation" / page).read_text(encoding="utf-8")
+        line = re.search(rf"^ {{4}}({re.escape(start)}.*)$", text, re.MULTILINE)[1]
+        done = subprocess.run(["bash", "-ec", f"{line}\n{then}"], cwd=self.folder,
+                              env={**os.environ, "HOME": str(self.folder)}, capture_output=True,
+                              text=True, timeout=120, check=False)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        return done.stdout
+
+    def test_paraview_loads_the_plugin_by_its_folder(self):
+        Path(self.folder, "task.py").write_text(
+            "from paraview.simple import *\nprint(MorphMesh.__name__)\n", encoding="utf-8")
+        self.assertEqual(self.run_line("Install.md", "export PV_PLUGIN_PATH", "pvpython task.py"),
+                         "MorphMesh\n")
+
+    def test_the_plugin_is_installed_alone(self):
+        self.run_line("Install.md", "cmake --install build/paraview --component plugin")
+        found = [path.name for path in (self.folder / ".local").rglob("*.*")
+                 if path.suffix in (".so", ".h")]
+        self.assertEqual(found, ["MeshMorphing.so"])
+
+    def test_the_study_s_report(self):
+        shutil.copytree(ROOT / "Documentation/Study", self.folder / "study-output")
+        self.run_line("Study.md", "pvpython Utilities/study.py --report")
+        self.assertEqual((self.folder / "study-output/Results.md").read_text(encoding="utf-8"),
+                         (ROOT / "Documentation/Study/Results.md").read_text(encoding="utf-8"))
 
 
 class HowTos(unittest.TestCase):
@@ -216,15 +256,17 @@ class HowTos(unittest.TestCase):
                 absent = howto_pictures.missing(page, PLUGIN)
                 if absent:
                     self.skipTest(f"{page}.md: there is no {', '.join(absent)}")
-                path, printed = howto_pictures.run(page, PLUGIN, folder)
+                paths, printed = howto_pictures.run(page, PLUGIN, folder)
+                self.assertGreater(len(paths), 0)
                 self.assertGreater(len(howto_pictures.expected(page)), 0)
                 for pattern in howto_pictures.expected(page):
                     self.assertRegex(" ".join(printed.split()), pattern)
-                made = image(path)
-                kept = image(ROOT / "Documentation/images" / Path(path).name)
-                self.assertEqual(made.shape, kept.shape)
-                # As the page shows it, but for fonts and the colors of this ParaView.
-                self.assertLess(abs(made - kept).mean(), 20)
+                for path in paths:
+                    made = image(path)
+                    kept = image(ROOT / "Documentation/images" / Path(path).name)
+                    self.assertEqual(made.shape, kept.shape, path)
+                    # As the page shows it, but for fonts and the colors of this ParaView.
+                    self.assertLess(abs(made - kept).mean(), 20, path)
 
     def test_cxx_is_that_of_the_example(self):
         """Each C++ block is a part of OwnMethod.cxx, which another test compiles and runs."""

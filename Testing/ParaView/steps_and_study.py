@@ -211,21 +211,17 @@ class StudyBoundary(unittest.TestCase):
             self.assertEqual((counts[0], steps[1].folded), (0, 0), (name, SEED))
             self.assertGreater(counts[1], 0, (name, SEED))
 
-    def test_reads_results_of_earlier_versions(self):
+    def test_rows_of_one_commit_take_the_place_of_another_s(self):
         series = StudySeries("bore", "hex", "exact", "absolute", "FEMWARP")
         with tempfile.TemporaryDirectory() as folder:
             file = Path(folder) / "results.csv"
             for number in range(3):
-                Records(file).add(series, Step(number, 0.0, 0.5, 0.9, 0, 0, 0, 0.0, 0.0, 2, "7 9"))
-            text = file.read_text(encoding="utf-8")
-            self.assertTrue(text.splitlines()[1].endswith(",7 9,"))
-            file.write_text(text.replace(",commit", "").replace(",7 9,", ",7 9"),
-                            encoding="utf-8")
+                Records(file).add(series, Step(number, 0.0, 0.5, 0.9, 0, 0, 0, "7 9", "def"))
             records = Records(file)
             self.assertEqual([(step.cells, step.commit) for step in records.steps(series)],
-                             3 * [("7 9", "")])
-            # A commit's rows take the place of another's, the longer series' end included.
-            records.add(series, Step(0, 0.0, 0.6, 0.9, 0, 0, 0, 0.0, 0.0, 2, "", "abc"))
+                             3 * [("7 9", "def")])
+            # The longer series' end is gone, too.
+            records.add(series, Step(0, 0.0, 0.6, 0.9, 0, 0, 0, "", "abc"))
             for read in (records, Records(file)):
                 self.assertEqual([step.minimum for step in read.steps(series)], [0.6])
                 self.assertEqual(read.steps(series, "def"), [])
@@ -235,7 +231,7 @@ class StudyBoundary(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             file = Path(folder) / "results.csv"
             Records(file).add(StudySeries("bore", "hex", "exact", "absolute", "FEMWARP"),
-                              Step(0, 0.0, 0.5, 0.9, 3, 1, 2, 0.0, 0.0, 2, ""))
+                              Step(0, 0.0, 0.5, 0.9, 3, 1, 2, "", "abc"))
             steps = Records(file).steps(StudySeries("bore", "hex", "exact", "absolute", "FEMWARP"))
             self.assertEqual((steps[0].own, last_valid(steps)), (0, 0.0))
             text = file.read_text(encoding="utf-8")

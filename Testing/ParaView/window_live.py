@@ -73,7 +73,7 @@ class LiveDrags(unittest.TestCase):
         frames, messages = played("box", events)
         self.assertNotIn("ERR|", messages)
         # It is in the panel, and no window opens over the view.
-        self.assertNotIn("pulls surfaces off their own shape", messages)
+        self.assertNotIn("leave their own shape", messages)
 
         start = frames[0]
         self.assertEqual(start["Position"], [0, 0, 0])

@@ -35,7 +35,7 @@ ONE_INPUT = ("MorphMesh", "FitToSurface", "RepairMesh", "BoundaryDisplacement")
 CLICKS = {"move a surface that is pointed at": 5, "see which surface has which number": 2,
           "undo and redo": 4, "count and see inverted cells": 8, "an error keeps the picture": 6,
           "open the filter's page": 1}
-NEITHER = ("Radius Change needs cylinders or spheres, and Surface 3, which moves, is neither. "
+NEITHER = ("Radius Change needs cylinders or spheres, and Surface 3 is neither. "
            "Choose such surfaces, or another displacement.")
 class Tasks(Clicks):
     """Counts the clicks of each task, and keeps a picture of each step that changes what is

@@ -552,7 +552,9 @@ class MorphMesh(unittest.TestCase):
         self.fails(2, "says '0,0,0.1', and --translate says", *move, "--translate", "1,0,0", *files)
         self.fails(2, "--center has no effect", *move, "--center", "1,0,0", *files)
         self.fails(2, "--move needs a value", "--move", "--radius", "0.1", *files)
-        self.fails(1, "inverts", "--move", "Surface 1", "--scale", "0", *files)
+        for scale in ("0", "1,0,1"):
+            self.fails(2, "--scale 0 makes what moves flat", "--move", "Surface 1", "--scale",
+                       scale, "--validity", "report", *files)
         self.assertFalse(files[1].exists())
 
     def test_files_that_are_no_mesh_are_told_apart(self):
@@ -564,6 +566,10 @@ class MorphMesh(unittest.TestCase):
             file.write_text("hello")
             self.fails(1, f"it does not begin as a {file.suffix} file does", "list", file)
         self.fails(1, "the folder has no mesh of OpenFOAM", "list", self.folder)
+        table = self.folder / "nodes.csv"
+        self.fails(1, "there is no such file", "--displacements", table, BORE, "out.vtu")
+        table.write_text("")
+        self.fails(1, "the table is empty", "--displacements", table, BORE, "out.vtu")
 
     def test_no_file_of_a_run_takes_the_place_of_another(self):
         grid, out = self.folder / "part.vtu", self.folder / "out.vtu"
@@ -647,6 +653,12 @@ class MorphMesh(unittest.TestCase):
         self.assertEqual(run("-V").stdout, run("--version").stdout)
         self.fails(2, "Did you mean --translate?", *options, flat, "--tranlsate", "1,0,0")
         self.fails(2, "no file lst. Did you mean list?", "lst", BORE)
+        self.fails(2, "Did you mean FEMWARP?", *options, flat, "--method", "femwrap")
+        self.fails(1, "names 'Surfce 1', which the mesh does not have. Did you mean Surface 1?",
+                   "--move", "Surfce 1", "--translate", "0,0,1", BORE, flat)
+        self.fails(1, "'Surface 99', which the boundary does not have; it has Surface 0", "--move",
+                   "Surface 99", "--translate", "0,0,1", BORE, flat)
+        self.fails(2, "The commands are move, fit, bake, list")
 
     def test_repair_and_check(self):
         """A cell that was inverted before is mended; the boundary stays."""

@@ -3,8 +3,6 @@
 
 Run: PYTHONPATH=<folder of meshmorphing> MESHMORPHING_MODELS=<small models> python3 arrays.py
 """
-import contextlib
-import io
 import os
 import pickle
 import re
@@ -31,9 +29,6 @@ except ImportError:
     pyvista = None
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "Utilities"))
-import howto_pictures  # noqa: E402  (needs the path above)
-
 MODELS = Path(os.environ["MESHMORPHING_MODELS"])
 LINEAR = (mm.FEMWARP, mm.LBWARP, mm.WeightedResidual, mm.SimplexLinear, mm.SimplexNaturalNeighbor,
           mm.RadialBasis)
@@ -529,28 +524,7 @@ class Process(unittest.TestCase):
         self.assertRegex(wrong.stderr, "ImportError: meshmorphing has no Mesh here: .*pybind11")
 
 
-class Pages(unittest.TestCase):
-    """What Documentation and Examples have, as it stands."""
-
-    @unittest.skipUnless(meshio, "meshio is not installed")
-    def test_how_to(self):
-        page = (ROOT / "Documentation/HowTo/MorphFromNumPy.md").read_text(encoding="utf-8")
-        blocks = re.findall(r"^```py\n(.*?)^```", page, re.MULTILINE | re.DOTALL)
-        self.assertGreaterEqual(len(blocks), 2)
-        with tempfile.TemporaryDirectory() as folder:
-            self.addCleanup(os.chdir, os.getcwd())
-            os.chdir(folder)
-            Path("part.vtu").write_bytes((MODELS / "bore_hex_small.vtu").read_bytes())
-            names, printed = {}, io.StringIO()
-            with contextlib.redirect_stdout(printed):
-                for number, block in enumerate(blocks, 1):
-                    exec(compile(block, f"block {number}", "exec"), names)
-            patterns = howto_pictures.expected("MorphFromNumPy")
-            self.assertEqual(len(patterns), 5)
-            for pattern in patterns:
-                self.assertRegex(printed.getvalue(), pattern)
-            self.assertTrue(Path("moved.vtk").exists())
-
+class Examples(unittest.TestCase):
     def test_optimization(self):
         try:
             import scipy  # noqa: F401

@@ -4,7 +4,6 @@
 #include "Boundary/GivenSurfaces.h"
 #include "Boundary/SheetSurfaces.h"
 #include "Mesh/CellShape.h"
-#include "Support/Buckets.h"
 #include "Support/Error.h"
 #include "Support/Lists.h"
 #include "Support/Parallel.h"
@@ -512,7 +511,7 @@ private:
     if (!other.empty())
     {
       monitor.warn(
-        "The mesh does not bear out the given geometry at node ids " + listIds(other) +
+        "The given geometry contradicts the mesh at node ids " + listIds(other) +
         ": a node given to a curve is beside no curve edge, say, or curves end at a node not "
         "given as a vertex. These nodes are classified by the faces around them.");
     }

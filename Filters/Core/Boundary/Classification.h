@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Boundary/CurveChains.h"
+#include "Boundary/SurfaceEdges.h"
 #include "Boundary/SurfacePatches.h"
 #include "Mesh/Mesh.h"
 #include "Mesh/Topology.h"

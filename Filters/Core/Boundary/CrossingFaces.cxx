@@ -3,9 +3,7 @@
 
 #include "Boundary/Classification.h"
 #include "Boundary/SurfaceEdges.h"
-#include "Geometry/OrientationPredicate.h"
-#include "Geometry/OverlappingBoxes.h"
-#include "Support/Buckets.h"
+#include "Geometry/ExactPredicates.h"
 #include "Support/Lists.h"
 #include "Support/Parallel.h"
 

@@ -3,7 +3,7 @@
 
 #include "Boundary/SurfaceEdges.h"
 #include "Boundary/SurfacePatches.h"
-#include "Mesh/FacesOfCells.h"
+#include "Mesh/Topology.h"
 #include "Support/Lists.h"
 
 #include <algorithm>

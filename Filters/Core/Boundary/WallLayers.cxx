@@ -4,7 +4,6 @@
 #include "Mesh/CellShape.h"
 #include "Mesh/Mesh.h"
 #include "Mesh/Topology.h"
-#include "Support/Adjacency.h"
 #include "Support/Lists.h"
 
 #include <algorithm>

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "Mesh/Topology.h"
-#include "Support/Adjacency.h"
 #include "Support/Communicator.h"
+#include "Support/Lists.h"
 
 #include <cstdint>
 #include <map>

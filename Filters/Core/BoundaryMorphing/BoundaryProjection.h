@@ -2,6 +2,7 @@
 #pragma once
 
 #include "Boundary/Classification.h"
+#include "Boundary/NodesBetween.h"
 #include "BoundaryMorphing/BoundaryMotion.h"
 #include "Support/Monitor.h"
 
@@ -60,4 +61,11 @@ ProjectionReport projectSurfaces(const BoundaryFaces& faces, const Classificatio
 /// #nodes x 3.
 Points surfaceNodeNormals(const ConstPoints& rest, const ConstPoints& moved,
   const BoundaryFaces& faces, const Classification& geometry);
+
+/// Moves mid-side and face nodes that their surface moved (state OnSurface) with their corners: by
+/// meanBetween() of the shifts of these since `before` (#nodes x 3, moved positions), and onto the
+/// `target`, if not null. `normals`: of surfaceNodeNormals(), read with a target alone.
+void carryMidNodes(const BoundaryFaces& faces, const Classification& geometry,
+  const ProjectionTarget* target, const Points& normals, const Points& before,
+  BoundaryMotion& motion);
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "BoundaryMorphing/HandleMotion.h"
 
-#include "Mesh/Extent.h"
+#include "Mesh/Mesh.h"
 #include "Support/Error.h"
 #include "Support/Parallel.h"
 

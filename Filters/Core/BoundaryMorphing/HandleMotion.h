@@ -3,7 +3,7 @@
 
 #include "Geometry/AffineFit.h"
 #include "Geometry/NearestNodes.h"
-#include "Interpolation/RadialKernel.h"
+#include "Interpolation/RadialInterpolant.h"
 #include "Support/Monitor.h"
 #include "Support/Types.h"
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "Mesh/Topology.h"
-#include "Support/Adjacency.h"
+#include "Support/Lists.h"
 #include "Support/Types.h"
 
 #include <array>

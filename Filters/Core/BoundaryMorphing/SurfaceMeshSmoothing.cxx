@@ -2,9 +2,7 @@
 #include "BoundaryMorphing/SurfaceMeshSmoothing.h"
 
 #include "Boundary/FaceQuality.h"
-#include "Boundary/FoldedFaces.h"
 #include "BoundaryMorphing/BoundaryProjection.h"
-#include "BoundaryMorphing/MidNodes.h"
 #include "BoundaryMorphing/PhongSurface.h"
 #include "Energies/FaceEnergy.h"
 #include "Geometry/AffineFit.h"

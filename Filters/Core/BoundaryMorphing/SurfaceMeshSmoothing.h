@@ -34,7 +34,7 @@ struct SurfaceMeshSmoothing
 /// The base is the inverse mean ratio, which in two dimensions is the condition number, too. The
 /// power makes the worst faces count most.
 ///
-/// 1. Where a corner is inverted, the regularised measure of FaceDensity.h untangles, in up to 40
+/// 1. Where a corner is inverted, the regularised measure of FaceEnergy.h untangles, in up to 40
 ///    stages of 10 Newton steps. Six stages without gain end it.
 /// 2. Newton's method lowers the sum, in up to 20 rounds. Nodes move in their tangent planes, then
 ///    to the `target`, if it holds the surface. Without one they keep to the surface's own shape at

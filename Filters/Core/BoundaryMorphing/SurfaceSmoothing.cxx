@@ -2,9 +2,9 @@
 #include "BoundaryMorphing/SurfaceSmoothing.h"
 
 #include "Boundary/FaceQuality.h"
-#include "BoundaryMorphing/MidNodes.h"
+#include "BoundaryMorphing/BoundaryProjection.h"
 #include "Energies/FaceEnergy.h"
-#include "Mesh/GatherMap.h"
+#include "Support/Lists.h"
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "BoundaryMover/BoundaryModel.h"
 
-#include "Boundary/FaceAreas.h"
+#include "Boundary/FaceQuality.h"
 #include "Boundary/NodesBetween.h"
 #include "Mesh/FaceTable.h"
-#include "Mesh/FacesOfCells.h"
+#include "Mesh/Topology.h"
 #include "Support/Lists.h"
 
 #include <Eigen/Geometry>

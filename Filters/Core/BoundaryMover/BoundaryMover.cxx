@@ -1,15 +1,169 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "BoundaryMover/BoundaryMover.h"
 
-#include "Support/ProgressRange.h"
+#include "BoundaryMover/Patches.h"
+#include "Support/Error.h"
+#include "Support/Monitor.h"
 
+#include <algorithm>
 #include <functional>
+#include <sstream>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
 namespace morph
 {
+namespace
+{
+constexpr double Rounding = 1e-9; // of the boundary's size
+
+/// Nodes, and the largest distance of one. Images across a shell do not count.
+class Off
+{
+public:
+  explicit Off(const BoundaryModel& model)
+    : layer_(model.mesh.layer)
+    , rounding_(Rounding * model.size)
+  {
+  }
+  void add(Index node, double distance)
+  {
+    if (distance > this->rounding_ && this->layer_.frontOf(node) == node)
+    {
+      this->nodes_.push_back(node);
+      this->largest_ = std::max(this->largest_, distance);
+    }
+  }
+  void write(const char* what, std::ostream& text)
+  {
+    if (!this->nodes_.empty())
+    {
+      std::sort(this->nodes_.begin(), this->nodes_.end());
+      text << " " << this->nodes_.size() << " nodes that " << what << " by up to " << this->largest_
+           << ": point ids " << listIds(this->nodes_) << ".";
+    }
+  }
+
+private:
+  const ShellLayer& layer_;
+  double rounding_;
+  std::vector<Index> nodes_;
+  double largest_ = 0;
+};
+}
+
+void warnOfUnmet(const BoundaryModel& model, const Choice& choice, const Points& targets,
+  const std::vector<Index>& sliding, const Surroundings::Result& result, Surroundings& surroundings,
+  Monitor& monitor)
+{
+  Off moving(model), held(model), off(model);
+  for (std::size_t i = 0; i < choice.moving.size(); ++i)
+  {
+    const Index node = choice.moving[i];
+    moving.add(node, (result.moved.row(node) - targets.row(static_cast<Index>(i))).norm());
+  }
+  for (const Index node : choice.held)
+  {
+    held.add(node, (result.moved.row(node) - model.points().row(node)).norm());
+  }
+  for (const Index s : sliding)
+  {
+    for (const Index node : model.geometry.surfaces[s].nodes)
+    {
+      if (result.roles[node] == Surroundings::IsZone)
+      {
+        const Eigen::RowVector3d to = result.moved.row(node);
+        off.add(node, (surroundings.slid(model, { s }, model.points().row(node), to) - to).norm());
+      }
+    }
+  }
+  std::ostringstream text;
+  text.precision(3);
+  moving.write("move miss their places", text);
+  held.write("are held move", text);
+  off.write("slide leave their surfaces", text);
+  if (!text.str().empty())
+  {
+    monitor.warn(
+      "Zones, sliding and periodic surfaces win over what else is asked of the boundary." +
+      text.str() + " Leave these nodes out of one or the other if that is not meant.");
+  }
+}
+
+void TouchingNodes::warnOfParted(
+  const BoundaryModel& model, const Surroundings::Result& result, Monitor& monitor)
+{
+  if (this->version_ != model.motionVersion)
+  {
+    this->version_ = model.motionVersion;
+    this->pairs_.clear();
+    const auto key = [&](Index n)
+    {
+      const auto x = model.points().row(n);
+      return std::make_tuple(x[0], x[1], x[2], model.bodyOfNode[n], n);
+    };
+    std::vector<Index> nodes = model.faces.nodes;
+    const auto body = [&](Index n) { return model.bodyOfNode[n]; };
+    const bool isOne = std::all_of(
+      nodes.begin(), nodes.end(), [&](Index n) { return body(n) == body(nodes.front()); });
+    if (!isOne)
+    {
+      std::sort(nodes.begin(), nodes.end(), [&](Index a, Index b) { return key(a) < key(b); });
+    }
+    for (std::size_t i = 1; !isOne && i < nodes.size(); ++i)
+    {
+      const Index a = nodes[i - 1], b = nodes[i];
+      if (body(a) != body(b) && model.points().row(a) == model.points().row(b))
+      {
+        this->pairs_.push_back({ a, b });
+      }
+    }
+  }
+  double most = 0;
+  std::vector<Index> parted;
+  for (const auto& [a, b] : this->pairs_)
+  {
+    const double distance = (result.moved.row(a) - result.moved.row(b)).norm();
+    if (distance > Rounding * model.size)
+    {
+      most = std::max(most, distance);
+      parted.insert(parted.end(), { a, b });
+    }
+  }
+  if (parted.empty())
+  {
+    return;
+  }
+  std::sort(parted.begin(), parted.end());
+  std::string surfaces;
+  for (std::size_t s = 0; s < model.geometry.surfaces.size(); ++s)
+  {
+    const std::vector<Index>& faces = model.geometry.surfaces[s].faces;
+    const auto isParted = [&](Index n)
+    { return std::binary_search(parted.begin(), parted.end(), n); };
+    const auto corner = model.faces.connectivity.begin();
+    if (std::any_of(faces.begin(), faces.end(),
+          [&](Index f)
+          {
+            return std::all_of(
+              corner + model.faces.offsets[f], corner + model.faces.offsets[f + 1], isParted);
+          }))
+    {
+      surfaces +=
+        (surfaces.empty() ? "" : ", ") + surfaceName(model.geometry, static_cast<Index>(s));
+    }
+  }
+  std::ostringstream text;
+  text << "Bodies touch and are not tied: " << parted.size()
+       << " nodes part from nodes of other bodies at their places, by up to " << most
+       << (surfaces.empty() ? "" : ", on ") << surfaces
+       << ". `ContactDistance` lets a body follow one that it touches: a length above 0 ties "
+          "nodes at one place.";
+  monitor.warn(text.str());
+}
+
 const Surroundings::Result& BoundaryMover::move(const BoundaryModel& model, const Choice& choice,
   const Points& targets, const Options& options, const InnerPieces* pieces, Monitor& monitor)
 {

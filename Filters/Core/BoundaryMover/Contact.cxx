@@ -19,24 +19,24 @@ namespace morph
 namespace
 {
 using Row = Eigen::RowVector3d;
-using Triangle = std::array<Index, 3>;
+using Facet = std::array<Index, 3>;
 
 /// The faces of surfaces as triangles, outward.
 struct Facets
 {
-  std::vector<Triangle> corners;
+  std::vector<Facet> corners;
   TriangleTree tree;
 
-  Facets(std::vector<Triangle> ids, const Points& points)
+  Facets(std::vector<Facet> ids, const Points& points)
     : corners(std::move(ids))
     , tree(placesOf(corners, points))
   {
   }
   static std::vector<TriangleTree::Triangle> placesOf(
-    const std::vector<Triangle>& ids, const Points& points)
+    const std::vector<Facet>& ids, const Points& points)
   {
     std::vector<TriangleTree::Triangle> result;
-    for (const Triangle& corner : ids)
+    for (const Facet& corner : ids)
     {
       result.push_back({ points.row(corner[0]), points.row(corner[1]), points.row(corner[2]) });
     }
@@ -52,17 +52,17 @@ bool takesPart(const BoundaryModel& model, std::size_t face, const Contact::Opti
 }
 
 /// The faces from their first corner on.
-std::vector<Triangle> trianglesOf(const BoundaryModel& model, const Contact::Options& options)
+std::vector<Facet> trianglesOf(const BoundaryModel& model, const Contact::Options& options)
 {
   const BoundaryFaces& faces = model.faces;
-  std::vector<Triangle> result;
+  std::vector<Facet> result;
   for (std::size_t f = 0; f + 1 < faces.offsets.size(); ++f)
   {
     const bool isMirrored = model.orientation[f] < 0;
     for (Index k = faces.offsets[f] + 2; takesPart(model, f, options) && k < faces.offsets[f + 1];
          ++k)
     {
-      Triangle corners = { faces.connectivity[faces.offsets[f]], faces.connectivity[k - 1],
+      Facet corners = { faces.connectivity[faces.offsets[f]], faces.connectivity[k - 1],
         faces.connectivity[k] };
       if (isMirrored)
       {
@@ -179,7 +179,7 @@ void Contact::find(const BoundaryModel& model, const Options& options)
       otherBody(model, triangles, node, points.row(node), options.distance);
     if (found.triangle >= 0)
     {
-      const Triangle& corners = triangles.corners[found.triangle];
+      const Facet& corners = triangles.corners[found.triangle];
       this->pairs_.push_back({ node, corners, weightsAt(points, corners, found.place) });
     }
   }

@@ -93,7 +93,7 @@ private:
       if (this->Found.shapes[i].kind() == SurfaceShape::Kind::Facets)
       {
         throw Error("`Dimension` needs planes, cylinders or spheres, and " + this->name(i) +
-                    ", which moves, is none. Choose such surfaces, or another displacement.");
+                    " is none of these. Choose such surfaces, or another displacement.");
       }
     }
   }

@@ -6,6 +6,8 @@
 #include "BoundaryMover/BoundaryModel.h"
 #include "BoundaryMover/Choice.h"
 #include "BoundaryMover/Surroundings.h"
+#include "Geometry/TriangleTree.h"
+#include "Support/Monitor.h"
 
 #include <Eigen/Geometry>
 
@@ -15,8 +17,19 @@
 #include <vector>
 
 /// Moves a part of a boundary onto a target surface.
+
 namespace morph
 {
+/// Returns the rotation and shift that lays the triangles of `surface` on those of `onto`; both
+/// have some. `landmarks`: points of the surface, of which some hundred are taken, evenly from all.
+/// Iterative closest points, each by Umeyama's least squares (IEEE Trans. PAMI 13 (1991) 376-380),
+/// run from six starts: the current place, equal centers, and the four rotations that turn
+/// principal axes into each other. The start that ends with the least mean distance is taken; of
+/// nearly equal ones the first, which turns it less. A symmetric surface may so be turned about its
+/// symmetry. Cost: some 70,000 searches at most.
+Eigen::Isometry3d alignment(
+  const TriangleTree& surface, const Points& landmarks, const TriangleTree& onto, Monitor& monitor);
+
 /// The rotation and shift that lays a target on the boundary, or on what moves of it. `choice`:
 /// what moves, or null. See alignment().
 Eigen::Isometry3d alignedOnto(

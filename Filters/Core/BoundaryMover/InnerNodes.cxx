@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "BoundaryMover/InnerNodes.h"
 
-#include "BoundaryMorphing/LayerMotion.h"
+#include "BoundaryMorphing/BoundaryMotion.h"
 #include "Geometry/AffineFit.h"
-#include "Geometry/RigidFit.h"
+#include "Geometry/RotationFit.h"
 #include "LinearMethods/FemWarp.h"
 #include "Mesh/ShellLayer.h"
 #include "Morpher/PolyhedralMorpher.h"

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "BoundaryMover/Patches.h"
 
-#include "Boundary/FaceAreas.h"
+#include "Boundary/FaceQuality.h"
 #include "BoundaryMover/SurfaceShape.h"
-#include "Mesh/FacesOfCells.h"
 #include "Mesh/ShellLayer.h"
+#include "Mesh/Topology.h"
 #include "Support/Error.h"
 #include "Support/Lists.h"
 

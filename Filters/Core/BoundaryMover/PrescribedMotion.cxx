@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "BoundaryMover/PrescribedMotion.h"
 
-#include "Boundary/FaceAreas.h"
+#include "Boundary/FaceQuality.h"
 #include "BoundaryMover/Dimension.h"
 #include "BoundaryMover/Patches.h"
 #include "BoundaryMover/SurfaceShape.h"
@@ -99,7 +99,7 @@ Points movedByRadius(const BoundaryModel& model, const Choice& choice, double ch
     if (!shape.isRound())
     {
       throw Error("`RadiusChange` needs cylinders or spheres, and " + name +
-                  ", which moves, is neither. Choose such surfaces, or another displacement.");
+                  " is neither. Choose such surfaces, or another displacement.");
     }
     if (shape.radius() + change <= 0)
     {
@@ -117,8 +117,8 @@ Points movedByRadius(const BoundaryModel& model, const Choice& choice, double ch
   }
   if (std::all_of(isDone.begin(), isDone.end(), [](std::uint8_t done) { return !done; }))
   {
-    throw Error("`RadiusChange` needs cylinders or spheres, and no face moves. Choose surfaces "
-                "that are some.");
+    throw Error("`RadiusChange` needs cylinders or spheres, and no face moves. Choose such "
+                "surfaces.");
   }
   return to;
 }

@@ -5,7 +5,7 @@
 #include "Mesh/HangingNodes.h"
 #include "Morpher/PolyhedralMorpher.h"
 #include "Support/Error.h"
-#include "Support/ProgressRange.h"
+#include "Support/Monitor.h"
 
 #include <algorithm>
 #include <functional>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "BoundaryMover/SurfaceShape.h"
 
-#include "Boundary/FaceAreas.h"
+#include "Boundary/FaceQuality.h"
 
 #include <Eigen/Dense>
 

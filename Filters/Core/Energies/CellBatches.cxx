@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Energies/CellBatches.h"
 
-#include "Mesh/GatherMap.h"
 #include "Support/Lists.h"
 
 #include <algorithm>

@@ -2,9 +2,7 @@
 #pragma once
 
 #include "Energies/CellBatches.h"
-#include "Energies/ConditionDensity.h"
 #include "Energies/EnergyState.h"
-#include "Energies/FoldoverDensity.h"
 #include "Energies/TargetMatrices.h"
 #include "Optimization/Objective.h"
 

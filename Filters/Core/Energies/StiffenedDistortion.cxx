@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Energies/StiffenedDistortion.h"
 
-#include "Energies/BatchReductions.h"
+#include "Energies/CellBatches.h"
 #include "Energies/StiffenedKernel.h"
+#include "Mesh/NodePartition.h"
 #include "Mesh/ShellLayer.h"
-#include "Mesh/UnknownOrdering.h"
 
 #include <Eigen/Geometry>
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Energies/UntangleEnergy.h"
 
-#include "Energies/BatchReductions.h"
 #include "Energies/CellBatchKernel.h"
+#include "Energies/CellBatches.h"
+#include "Mesh/NodePartition.h"
 #include "Mesh/ShellLayer.h"
-#include "Mesh/UnknownOrdering.h"
 
 #include <Eigen/LU>
 

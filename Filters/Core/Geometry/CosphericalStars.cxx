@@ -3,7 +3,6 @@
 
 #include "Geometry/Delaunay.h"
 #include "Geometry/MeanOfRows.h"
-#include "Support/Buckets.h"
 #include "Support/Lists.h"
 #include "Support/Monitor.h"
 #include "Support/Parallel.h"

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "Geometry/Delaunay.h"
-#include "Support/Adjacency.h"
+#include "Support/Lists.h"
 #include "Support/Monitor.h"
 
 namespace morph
@@ -10,7 +10,7 @@ namespace morph
 /// Tetrahedra that do not depend on how a Delaunay tessellation divides cospherical sites.
 ///
 /// More than four sites on one empty sphere are the corners of one convex cell, whose division is
-/// arbitrary (CosphericalCells.h). Here each such cell is divided into the pyramids from the mean
+/// arbitrary. Here each such cell is divided into the pyramids from the mean
 /// of its corners to its faces. A face with more than three corners is divided into triangles from
 /// the mean of its own corners. Neighboring cells have the same face and divide it alike. So the
 /// tetrahedra follow the sites through any rigid motion and any renumbering. Tetrahedra in no cell

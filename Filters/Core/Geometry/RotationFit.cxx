@@ -1,17 +1,77 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Geometry/RotationFit.h"
 
-#include "Geometry/ThinSvd3.h"
 #include "Support/Error.h"
 
 #include <Eigen/Geometry>
+#include <Eigen/QR>
 #include <Eigen/SVD>
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 
 namespace morph
 {
+namespace
+{
+constexpr double Vanishing = 1e-10; // of the largest singular value
+}
+
+Eigen::Matrix3d nearestRotation(const Eigen::Matrix3d& moment)
+{
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(moment, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const Eigen::Vector3d sigma = svd.singularValues();
+  if (!(sigma[0] > 0))
+  {
+    return Eigen::Matrix3d::Identity();
+  }
+  if (sigma[1] <= Vanishing * sigma[0])
+  {
+    // A single direction: the shortest turn.
+    return Eigen::Quaterniond::FromTwoVectors(svd.matrixU().col(0), svd.matrixV().col(0))
+      .toRotationMatrix();
+  }
+  Eigen::Matrix3d V = svd.matrixV();
+  if ((V * svd.matrixU().transpose()).determinant() < 0)
+  {
+    V.col(2) *= -1;
+  }
+  return V * svd.matrixU().transpose();
+}
+
+RigidMotion fitRigidMotion(const Points& from, const Points& to)
+{
+  RigidMotion motion;
+  if (from.rows() == 0)
+  {
+    return motion;
+  }
+  // Differences from the first point keep the digits of a small body far from the origin.
+  motion.from = from.row(0) + (from.rowwise() - from.row(0)).colwise().mean();
+  motion.to = to.row(0) + (to.rowwise() - to.row(0)).colwise().mean();
+  motion.rotation =
+    nearestRotation((from.rowwise() - motion.from).transpose() * (to.rowwise() - motion.to));
+  return motion;
+}
+
+ThinSvd3::ThinSvd3(const ConstPoints& vectors)
+  : dimension(0)
+{
+  constexpr double RankTolerance = 1e-11;
+  Eigen::MatrixXd tall = Eigen::MatrixXd::Zero(std::max<Index>(vectors.rows(), 3), 3);
+  tall.topRows(vectors.rows()) = vectors;
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(tall);
+  const Eigen::MatrixXd R = qr.matrixQR().topRows<3>().triangularView<Eigen::Upper>();
+  const Eigen::JacobiSVD<Eigen::MatrixXd, Eigen::NoQRPreconditioner> svd(R, Eigen::ComputeFullV);
+  this->extent = svd.singularValues();
+  this->axes = qr.colsPermutation() * svd.matrixV();
+  for (int c = 0; c < 3; ++c)
+  {
+    this->dimension += this->extent[c] > RankTolerance * this->extent[0];
+  }
+}
+
 namespace
 {
 /// Below this angle in radians the place of the axis is rounding.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Support/Adjacency.h"
+#include "Support/Lists.h"
 #include "Support/Monitor.h"
 #include "Support/Types.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Interpolation/PointLocation.h"
 
-#include "Geometry/SpatialOrder.h"
+#include "Geometry/PointOrders.h"
 #include "Support/Error.h"
 #include "Support/Parallel.h"
 

@@ -2,7 +2,7 @@
 #include "LinearMethods/AttachedNodes.h"
 
 #include "Geometry/AffineFit.h"
-#include "Geometry/RigidFit.h"
+#include "Geometry/RotationFit.h"
 #include "Mesh/CellShape.h"
 #include "Support/Lists.h"
 #include "Support/UnionFind.h"

@@ -3,8 +3,8 @@
 
 #include "Mesh/Mesh.h"
 #include "Mesh/NodePartition.h"
-#include "Support/Adjacency.h"
 #include "Support/Communicator.h"
+#include "Support/Lists.h"
 
 #include <Eigen/SparseCholesky>
 

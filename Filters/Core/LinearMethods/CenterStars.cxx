@@ -2,7 +2,7 @@
 #include "LinearMethods/CenterStars.h"
 
 #include "Mesh/CellShape.h"
-#include "Mesh/GatherMap.h"
+#include "Support/Lists.h"
 #include "Support/Parallel.h"
 
 #include <algorithm>

@@ -4,7 +4,7 @@
 #include "Mesh/Mesh.h"
 #include "Mesh/NodePartition.h"
 #include "Morpher/Morpher.h"
-#include "Support/Adjacency.h"
+#include "Support/Lists.h"
 #include "Support/Monitor.h"
 
 #include <vector>

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "LinearMethods/DirichletSystem.h"
 
-#include "Mesh/UnknownOrdering.h"
-#include "Solvers/GeneralSolver.h"
-#include "Solvers/SpdSolver.h"
+#include "Mesh/NodePartition.h"
+#include "Solvers/MultigridSolver.h"
 #include "Support/Error.h"
 #include "Support/Lists.h"
 #include "Support/Parallel.h"
@@ -363,54 +362,47 @@ EvaluateReport DirichletMethod::report(const SolveReport& solved, Monitor& monit
   return { solved.iterations, solved.relativeResidual, this->statistics_ };
 }
 
-EvaluateReport DirichletMethod::solve(
-  const MultiVector& prescribed, MultiVector& x, Monitor& monitor) const
+template <typename Columns>
+EvaluateReport DirichletMethod::displaceColumns(
+  const Columns& prescribed, Columns& free, Monitor& monitor) const
 {
   constexpr double AffineShare = 0.01; // of the tolerance, within which a motion counts as affine
   const double affine = AffineShare * this->tolerance_;
   const Points& rest = this->restPoints();
   const NodePartition& partition = this->partition();
-  const AffineGuess::Fits fits = this->guess_.fits(prescribed);
-  x.resize(this->rows().size());
+  const MultiVector given = toRows(prescribed, monitor);
+  const AffineGuess::Fits fits = this->guess_.fits(given);
+  MultiVector x(this->rows().size());
   parallel(static_cast<Index>(x.size()), Grain, monitor,
     [&](Index i)
     { x[i] = fits.displacement(this->guess_.component(i), rest.row(this->rows()[i])); });
+  SolveReport solved;
   // A pass over the matrix takes longer than all else.
-  if (this->guess_.agree(rest, partition, prescribed, fits, affine) &&
-      (!this->isUniform_ || this->affineResidual(monitor) <= affine))
+  const bool isAffine = this->guess_.agree(rest, partition, given, fits, affine) &&
+                        (!this->isUniform_ || this->affineResidual(monitor) <= affine);
+  if (!isAffine)
   {
-    return this->report({}, monitor);
+    MultiVector rhs, fitted;
+    if (!this->isUniform_)
+    {
+      this->guess_.takeOff(rest, partition, this->coupling_, given, fits, rhs, x, fitted, monitor);
+    }
+    solved = this->solver_->solve(
+      this->isUniform_ ? RightHandSide(this->coupling_, given) : RightHandSide(rhs), x,
+      this->tolerance_, MaxIterations, monitor);
+    for (std::size_t i = 0; i < fitted.size(); ++i)
+    {
+      x[i] += fitted[i];
+    }
   }
-  MultiVector rhs, fitted;
-  if (!this->isUniform_)
-  {
-    this->guess_.takeOff(
-      rest, partition, this->coupling_, prescribed, fits, rhs, x, fitted, monitor);
-  }
-  const SolveReport solved = this->solver_->solve(
-    this->isUniform_ ? RightHandSide(this->coupling_, prescribed) : RightHandSide(rhs), x,
-    this->tolerance_, MaxIterations, monitor);
-  for (std::size_t i = 0; i < fitted.size(); ++i)
-  {
-    x[i] += fitted[i];
-  }
-  return this->report(solved, monitor);
-}
-
-template <typename Columns>
-EvaluateReport DirichletMethod::displaceColumns(
-  const Columns& prescribed, Columns& free, Monitor& monitor) const
-{
-  MultiVector x;
-  const EvaluateReport report = this->solve(toRows(prescribed, monitor), x, monitor);
   parallel(static_cast<Index>(x.size()), Grain, monitor,
     [&](Index i)
     {
-      free.row(indexInFree(this->rows(), this->partition().free, i)) =
+      free.row(indexInFree(this->rows(), partition.free, i)) =
         x[i].template head<Columns::ColsAtCompileTime>().transpose();
     });
   this->stars_.recover(prescribed, free, monitor);
-  return report;
+  return this->report(solved, monitor);
 }
 
 EvaluateReport DirichletMethod::displace(

@@ -9,7 +9,6 @@
 #include "Solvers/CsrMatrix.h"
 #include "Solvers/LinearSolver.h"
 #include "Solvers/MultiVector.h"
-#include "Solvers/RightHandSide.h"
 #include "Solvers/RowComponents.h"
 #include "Support/Communicator.h"
 #include "Support/Monitor.h"
@@ -161,8 +160,6 @@ private:
   /// By how much affine motions miss the equations; the first call takes affineResidual().
   double affineResidual(Monitor& monitor) const;
   EvaluateReport report(const SolveReport& solved, Monitor& monitor) const;
-  /// Sets `x` to the displacements of the rows.
-  EvaluateReport solve(const MultiVector& prescribed, MultiVector& x, Monitor& monitor) const;
   template <typename Columns>
   EvaluateReport displaceColumns(const Columns& prescribed, Columns& free, Monitor& monitor) const;
 

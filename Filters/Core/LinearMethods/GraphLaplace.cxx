@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "LinearMethods/GraphLaplace.h"
 
-#include "Mesh/CellEdges.h"
-#include "Solvers/SpdSolver.h"
+#include "Mesh/Topology.h"
+#include "Solvers/MultigridSolver.h"
 #include "Support/Lists.h"
-#include "Support/ProgressRange.h"
+#include "Support/Monitor.h"
 
 #include <algorithm>
 #include <utility>

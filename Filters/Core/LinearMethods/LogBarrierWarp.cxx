@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "LinearMethods/LogBarrierWarp.h"
 
-#include "Geometry/ThinSvd3.h"
+#include "Geometry/RotationFit.h"
 #include "LinearMethods/ElementStiffness.h"
 #include "LinearMethods/LogBarrierWeights.h"
 #include "Mesh/CellShape.h"
 #include "Mesh/StandingCells.h"
 #include "Mesh/Topology.h"
-#include "Solvers/AssembleRows.h"
+#include "Solvers/CsrMatrix.h"
 #include "Support/Error.h"
-#include "Support/ProgressRange.h"
+#include "Support/Monitor.h"
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "LinearMethods/LogBarrierWeights.h"
 
-#include "Geometry/ThinSvd3.h"
+#include "Geometry/RotationFit.h"
 #include "Support/Lists.h"
 
 #include <algorithm>

@@ -2,9 +2,9 @@
 #include "LinearMethods/RadialBasis.h"
 
 #include "Geometry/AffineFit.h"
-#include "Geometry/FarthestPoints.h"
+#include "Geometry/PointOrders.h"
 #include "Support/Error.h"
-#include "Support/ProgressRange.h"
+#include "Support/Monitor.h"
 
 #include <algorithm>
 #include <cmath>

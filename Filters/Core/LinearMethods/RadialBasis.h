@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Interpolation/CompactCorrection.h"
 #include "Interpolation/InterpolationSites.h"
 #include "Interpolation/RadialInterpolant.h"
-#include "Interpolation/RadialKernel.h"
 #include "Morpher/Morpher.h"
 
 #include <atomic>

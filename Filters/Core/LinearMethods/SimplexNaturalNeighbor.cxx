@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "LinearMethods/SimplexNaturalNeighbor.h"
 
-#include "Geometry/SpatialOrder.h"
-#include "Support/ProgressRange.h"
-#include "Support/Stopwatch.h"
+#include "Geometry/PointOrders.h"
+#include "Support/Monitor.h"
 
 #include <algorithm>
 #include <atomic>

@@ -2,7 +2,7 @@
 #include "Mesh/DividedFaces.h"
 
 #include "Mesh/CellShape.h"
-#include "Support/Buckets.h"
+#include "Support/Lists.h"
 #include "Support/Parallel.h"
 
 #include <Eigen/Dense>

@@ -4,7 +4,7 @@
 #include "Mesh/CellShape.h"
 #include "Mesh/Mesh.h"
 #include "Mesh/Polyhedra.h"
-#include "Support/Adjacency.h"
+#include "Support/Lists.h"
 #include "Support/Monitor.h"
 
 #include <algorithm>

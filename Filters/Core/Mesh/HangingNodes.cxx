@@ -4,8 +4,8 @@
 #include "Mesh/CellShape.h"
 #include "Mesh/DividedFaces.h"
 #include "Mesh/FaceTable.h"
-#include "Mesh/FacesOfCells.h"
 #include "Mesh/Polyhedra.h"
+#include "Mesh/Topology.h"
 #include "Support/Lists.h"
 #include "Support/Parallel.h"
 

@@ -4,7 +4,7 @@
 #include "Mesh/CellShape.h"
 #include "Mesh/FaceTable.h"
 #include "Mesh/Polyhedra.h"
-#include "Support/Buckets.h"
+#include "Support/Lists.h"
 
 #include <algorithm>
 #include <set>

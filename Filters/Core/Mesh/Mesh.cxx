@@ -5,7 +5,13 @@
 #include "Mesh/Polyhedra.h"
 #include "Support/Error.h"
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <sstream>
+#include <string>
 
 namespace morph
 {
@@ -103,5 +109,108 @@ void validate(const Mesh& mesh)
     throw Error("Coordinates that are not finite (NaN or infinite) at node ids " +
                 listIds(notFinite) + ". Correct them, or remove their cells.");
   }
+}
+
+void requireIndexable(Index nodes, Index cells, Index corners)
+{
+  constexpr Index Limit = (Index(1) << 31) - (Index(1) << 20);
+  const auto require = [](Index count, const char* of)
+  {
+    if (count >= Limit)
+    {
+      throw Error("The mesh is too large: it has " + std::to_string(count) + " " + of +
+                  ", and the methods can number fewer than " + std::to_string(Limit) +
+                  ". Morph it in parts.");
+    }
+  };
+  require(nodes, "nodes");
+  require(cells, "cells");
+  require(corners, "corners of cells");
+}
+
+void requireIndexable(const Mesh& mesh)
+{
+  requireIndexable(
+    mesh.numberOfNodes(), mesh.numberOfCells(), static_cast<Index>(mesh.connectivity.size()));
+}
+
+bool isModerate(const Eigen::RowVector3d& x)
+{
+  // Written so that a NaN is not moderate.
+  return (x.array().abs() <= LargestLength).all();
+}
+
+std::vector<Index> immoderateRows(const Points& x, Monitor* monitor)
+{
+  std::vector<Index> rows;
+  // Nearly always none: told without a branch for each value.
+  std::atomic<bool> areModerate = true;
+  Monitor serial;
+  (monitor ? *monitor : serial)
+    .parallelFor(x.size(), 16384,
+      [&](Index first, Index last)
+      {
+        bool isModerate = true;
+        for (const double* value = x.data() + first; value != x.data() + last; ++value)
+        {
+          isModerate &= std::abs(*value) <= LargestLength; // a NaN is not
+        }
+        if (!isModerate)
+        {
+          areModerate = false;
+        }
+      });
+  if (areModerate)
+  {
+    return rows;
+  }
+  for (Index i = 0; i < x.rows(); ++i)
+  {
+    if (!isModerate(x.row(i)))
+    {
+      rows.push_back(i);
+    }
+  }
+  return rows;
+}
+
+double meshSize(const Mesh& mesh)
+{
+  Eigen::AlignedBox3d box;
+  for (Index c = 0; c < mesh.numberOfCells(); ++c)
+  {
+    for (Index k = 0; volumeShape(mesh, c) && k < mesh.cellSize(c); ++k)
+    {
+      box.extend(mesh.points.row(mesh.cell(c)[k]).transpose());
+    }
+  }
+  return box.isEmpty() ? 0 : box.diagonal().stableNorm();
+}
+
+void requireExtent(double size, const char* subject)
+{
+  if (size > 0 && size < SmallestLength)
+  {
+    std::ostringstream text;
+    text << subject << " is only " << size
+         << " long, less than 1e-50. Use another unit, or correct its coordinates.";
+    throw Error(text.str());
+  }
+}
+
+void requireVolumeCells(const Mesh& mesh)
+{
+  if (mesh.numberOfCells() == 0)
+  {
+    throw Error("The input has no cells, so there is nothing to morph.");
+  }
+  if (std::none_of(mesh.types.begin(), mesh.types.end(),
+        [](std::uint8_t type) { return cellShape(type)->dimension == 3; }))
+  {
+    throw Error("None of the input's " + std::to_string(mesh.numberOfCells()) +
+                " cells is a volume cell (the first is a " + cellShape(mesh.types.front())->name +
+                "). Tetrahedra, hexahedra, wedges or pyramids are needed.");
+  }
+  requireExtent(meshSize(mesh), "The input's volume mesh");
 }
 }

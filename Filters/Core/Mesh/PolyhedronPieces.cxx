@@ -2,7 +2,7 @@
 #include "Mesh/PolyhedronPieces.h"
 
 #include "Mesh/FaceTable.h"
-#include "Mesh/IndexLimits.h"
+#include "Mesh/Mesh.h"
 #include "Mesh/Polyhedra.h"
 #include "Mesh/SimplicialDecomposition.h"
 #include "Support/Lists.h"

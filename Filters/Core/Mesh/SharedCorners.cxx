@@ -3,7 +3,6 @@
 
 #include "Mesh/CellShape.h"
 #include "Mesh/Polyhedra.h"
-#include "Support/Buckets.h"
 #include "Support/Lists.h"
 #include "Support/UnionFind.h"
 

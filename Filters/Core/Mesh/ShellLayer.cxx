@@ -2,9 +2,9 @@
 #include "Mesh/ShellLayer.h"
 
 #include "Mesh/CellShape.h"
-#include "Mesh/FacesOfCells.h"
 #include "Mesh/ShellWindings.h"
 #include "Mesh/StandingCells.h"
+#include "Mesh/Topology.h"
 #include "Support/Error.h"
 #include "Support/Lists.h"
 

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Mesh/CellShape.h"
 #include "Mesh/Mesh.h"
-#include "Support/Adjacency.h"
 #include "Support/Communicator.h"
+#include "Support/Lists.h"
 #include "Support/Monitor.h"
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace morph
@@ -72,4 +74,55 @@ std::vector<std::int8_t> cellSigns(const Mesh& mesh, const ConnectedComponents& 
   Monitor& monitor, const Communicator& processes = Communicator::alone());
 std::vector<std::int8_t> cellSigns(const Mesh& mesh, const ConnectedComponents& bodies);
 ///@}
+
+/// Returns those boundary faces that belong to a cell with a nonzero entry in `isOf` (#cells), with
+/// the nodes on them. `faces`: boundaryFaces(mesh). Cost: one pass over the faces.
+BoundaryFaces facesOfCells(
+  const Mesh& mesh, const BoundaryFaces& faces, const std::vector<std::uint8_t>& isOf);
+
+/// Returns the faces from `first` to before `last`, with the nodes on them, in the same way: with
+/// the corners that their edges were given where they are divided (HangingNodes.h).
+BoundaryFaces facesBetween(const Mesh& mesh, const BoundaryFaces& faces, Index first, Index last);
+
+/// Gives faces other corners. Those that were no corners before are nodes of the boundary now, and
+/// between no others.
+void setCorners(std::vector<Index> offsets, std::vector<Index> connectivity, BoundaryFaces& faces);
+
+/// Describes faces that are known to be on the boundary: of each the cell, a volume cell, and the
+/// number of the face as in BoundaryFaces::sides. Cost: one pass over the faces.
+BoundaryFaces facesAt(const Mesh& mesh, const std::vector<std::pair<Index, int>>& places);
+
+/// Calls body(a, b) for the edges of each volume cell, once for each adjacent face. `a`, `b`: ids
+/// of corner nodes, in the order of the face.
+template <typename Body>
+void forCellEdges(const Mesh& mesh, const Body& body)
+{
+  for (Index c = 0; c < mesh.numberOfCells(); ++c)
+  {
+    const CellShape& shape = *cellShape(mesh, c);
+    for (int f = 0; f < shape.numberOfFaces; ++f)
+    {
+      const FaceShape& face = shape.faces[f];
+      for (int k = 0; k < face.size; ++k)
+      {
+        body(mesh.cell(c)[shape.cornerNode[face.corner[k]]],
+          mesh.cell(c)[shape.cornerNode[face.corner[(k + 1) % face.size]]]);
+      }
+    }
+  }
+}
+
+/// The k-ring neighborhood of a set of cells.
+struct KRing
+{
+  std::vector<Index> nodes; ///< free corners of the seeds and of the first k rings, ascending
+  std::vector<Index> cells; ///< all cells with such a corner, ascending
+};
+
+/// `seeds`: cell ids; `rings`: k; `around`: nodeToCells(mesh); `free`: node ids, ascending. Cost:
+/// passes over nodes and cells, and the neighborhood. On several processes the seeds are those of
+/// all, and the result has the nodes and cells of this one.
+KRing kRingOfCells(const Mesh& mesh, const Adjacency& around, const std::vector<Index>& free,
+  const std::vector<Index>& seeds, int rings,
+  const Communicator& communicator = Communicator::alone());
 }

@@ -1,21 +1,29 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Morpher/Morpher.h"
 
-#include "Mesh/IndexLimits.h"
+#include "Mesh/Mesh.h"
 #include "Mesh/ShellLayer.h"
+#include "Support/Communicator.h"
 #include "Support/Error.h"
-#include "Support/FirstSpeaks.h"
+#include "Support/Monitor.h"
 #include "Support/Parallel.h"
-#include "Support/ProgressRange.h"
 #include "Support/ReproducibleSum.h"
 
 #include <algorithm>
 #include <iterator>
+#include <tuple>
 #include <typeinfo>
 #include <utility>
 
 namespace morph
 {
+bool CellStiffness::operator==(const CellStiffness& other) const
+{
+  const auto all = [](const CellStiffness& s)
+  { return std::tie(s.kind, s.exponent, s.walls, s.values, s.noWalls, s.areWallsGlobal); };
+  return all(*this) == all(other);
+}
+
 namespace
 {
 /// Returns the `ids` whose row of `some` is not finite.

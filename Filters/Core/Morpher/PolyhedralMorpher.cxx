@@ -4,7 +4,7 @@
 #include "Mesh/HigherOrderNodes.h"
 #include "Mesh/Polyhedra.h"
 #include "Mesh/PolyhedronPieces.h"
-#include "Morpher/CellStiffness.h"
+#include "Morpher/Morpher.h"
 #include "Support/Error.h"
 #include "Support/Lists.h"
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Optimization/NodePreconditioner.h"
 #include "Support/Communicator.h"
 #include "Support/Monitor.h"
 #include "Support/Types.h"
@@ -12,6 +11,20 @@
 
 namespace morph
 {
+/// Approximates the inverse of a scalar matrix K over the nodes, in each of three columns. It sees
+/// the whole mesh at once, where diagonal blocks see a node alone.
+class NodePreconditioner
+{
+public:
+  virtual ~NodePreconditioner() = default;
+  /// Computes `to` = B `from` (#rows x 3). B is symmetric and positive definite, near K^-1.
+  virtual void apply(const Points& from, Points& to, Monitor& monitor) const = 0;
+  /// The diagonal of K, all positive.
+  virtual double diagonal(Index row) const = 0;
+  /// The number of nodes: that of the block rows of the matrix that it is for.
+  virtual Index rows() const = 0;
+};
+
 /// Identifies the owner of a pattern: every object has a unique number, also a copy.
 class PatternId
 {

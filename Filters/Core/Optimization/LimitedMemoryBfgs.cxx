@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Optimization/Descent.h"
+#include "Optimization/Minimizers.h"
 #include "Support/Simd.h"
 
 #include <algorithm>

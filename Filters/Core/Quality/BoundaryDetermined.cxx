@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Quality/BoundaryDetermined.h"
 
-#include "Geometry/CommonPoint.h"
+#include "Geometry/ExactPredicates.h"
 #include "Mesh/CellShape.h"
 #include "Mesh/SimplicialDecomposition.h"
 #include "Mesh/Topology.h"

@@ -11,7 +11,7 @@
 namespace morph
 {
 /// Returns the cells, ascending, that the prescribed positions invert for any position of the free
-/// nodes. The proof covers two cases, the second in exact arithmetic (CommonPoint.h):
+/// nodes. The proof covers two cases, the second in exact arithmetic (ExactPredicates.h):
 /// - A corner and its neighbors along the edges are prescribed and span no positive volume.
 /// - No position of one free node makes the cell's corners positive that have no other free node.
 /// `points`: #nodes x 3, read only at the prescribed nodes. `orientation`: #cells, see cellSigns()

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Quality/Certificate.h"
 
-#include "Geometry/OrientationPredicate.h"
+#include "Geometry/ExactPredicates.h"
 #include "Mesh/CellShape.h"
 #include "Mesh/Polyhedra.h"
 #include "Mesh/SimplicialDecomposition.h"

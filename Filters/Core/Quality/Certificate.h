@@ -31,7 +31,7 @@ struct CertificateReport
 /// Certifies all volume cells in parallel, each from its nodes in VTK's order. Rounding errors are
 /// bounded throughout, so Certified and Inverted hold for the coordinates as given.
 ///
-/// - Tetrahedron: the determinant is constant and its sign exact (OrientationPredicate.h).
+/// - Tetrahedron: the determinant is constant and its sign exact (ExactPredicates.h).
 /// - Pyramid: with the base Q(r, s) = q + r u + s v + r s w and the apex a, VTK's map is (1 - t) Q
 ///   + t a and its determinant (1 - t)^2 g, where g = det [Q_r, Q_s, a - Q] is the determinant of
 ///   the rational map of the pyramid. With Q_r x Q_s = u x v + r u x w + s w x v the terms in r^2

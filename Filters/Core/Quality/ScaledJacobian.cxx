@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <iterator>
 #include <limits>
 #include <numeric>
@@ -368,15 +367,10 @@ double measureInside(
 /// The highest dimension of the mesh's cells.
 int dimensionOf(const Mesh& mesh)
 {
-  bool has[256] = {};
+  int dimension = 0;
   for (const std::uint8_t type : mesh.types)
   {
-    has[type] = true;
-  }
-  int dimension = 0;
-  for (int type = 0; type < 256; ++type)
-  {
-    const CellShape* shape = has[type] ? cellShape(static_cast<std::uint8_t>(type)) : nullptr;
+    const CellShape* shape = cellShape(type);
     dimension = std::max(dimension, shape ? shape->dimension : 0);
   }
   return dimension;
@@ -525,60 +519,67 @@ double scaledJacobian(const CellShape& shape, const double (*corners)[3], unsign
   return value;
 }
 
-unsigned samplesOf(Shape shape, unsigned nodes)
+namespace
 {
-  const auto has = [nodes](int k) { return (nodes >> k & 1u) != 0; };
-  unsigned samples = 0;
-  const auto add = [&](int sample, const int* corner)
-  {
-    if (has(corner[0]) || has(corner[1]) || has(corner[2]) || has(corner[3]))
-    {
-      samples |= 1u << sample;
-    }
-  };
+/// The corners of a volume cell, each with its neighbors along edges: of a tetrahedron all four.
+struct CornerTable
+{
+  const int (*corner)[4];
+  int size;
+};
+
+CornerTable cornersOf(Shape shape)
+{
+  static constexpr int TetCorners[4][4] = { { 0, 1, 2, 3 }, { 1, 2, 0, 3 }, { 2, 0, 1, 3 },
+    { 3, 0, 2, 1 } };
   switch (shape)
   {
     case Shape::Tet:
-      return nodes != 0 ? 1u : 0u;
+      return { TetCorners, 4 };
     case Shape::Hex:
-      for (int k = 0; k < 8; ++k)
-      {
-        add(k, HexCornerNodes[k]);
-      }
-      return nodes != 0 ? samples | HexCenter : 0u;
+      return { HexCornerNodes, 8 };
     case Shape::Wedge:
-      for (int k = 0; k < 6; ++k)
-      {
-        add(k, WedgeCornerNodes[k]);
-      }
-      return samples;
+      return { WedgeCornerNodes, 6 };
     case Shape::Pyramid:
-      for (int k = 0; k < 4; ++k)
-      {
-        add(k, PyramidCornerNodes[k]);
-      }
-      return samples;
+      return { PyramidCornerNodes, 4 };
     default:
-      return 0;
+      return { nullptr, 0 };
   }
 }
+}
 
-namespace
+unsigned samplesOf(Shape shape, unsigned nodes)
 {
-/// The four corners of a tetrahedron with its other corners.
-constexpr int TetCorners[4][4] = { { 0, 1, 2, 3 }, { 1, 2, 0, 3 }, { 2, 0, 1, 3 }, { 3, 0, 2, 1 } };
-
-/// The minimum of the sine of the angle between two edges at a corner, all three nodes in `nodes`
-/// and the fourth not.
-template <int N>
-double leastSine(const double (*x)[3], const int (&corners)[N][4], unsigned nodes)
-{
-  const auto edge = [x](int from, int to) -> Vector3<double> {
-    return { x[to][0] - x[from][0], x[to][1] - x[from][1], x[to][2] - x[from][2] };
-  };
-  double sine = Infinity;
-  for (const int(&c)[4] : corners)
+  if (shape == Shape::Tet)
   {
+    return nodes != 0 ? 1u : 0u;
+  }
+  const CornerTable table = cornersOf(shape);
+  unsigned samples = shape == Shape::Hex && nodes != 0 ? HexCenter : 0u;
+  for (int k = 0; k < table.size; ++k)
+  {
+    const int(&c)[4] = table.corner[k];
+    if ((nodes & (1u << c[0] | 1u << c[1] | 1u << c[2] | 1u << c[3])) != 0)
+    {
+      samples |= 1u << k;
+    }
+  }
+  return samples;
+}
+
+double scaledJacobianBound(Shape shape, const double (*corners)[3], unsigned nodes)
+{
+  const auto edge = [corners](int from, int to) -> Vector3<double>
+  {
+    const double *a = corners[from], *b = corners[to];
+    return { b[0] - a[0], b[1] - a[1], b[2] - a[2] };
+  };
+  // The sine of the angle between two edges at a corner, all three nodes in `nodes`, the fourth not.
+  double sine = Infinity;
+  const CornerTable table = cornersOf(shape);
+  for (int k = 0; k < table.size; ++k)
+  {
+    const int(&c)[4] = table.corner[k];
     for (int d = 0; d < 3; ++d)
     {
       const int a = c[1 + d], b = c[1 + (d + 1) % 3], other = c[1 + (d + 2) % 3];
@@ -594,25 +595,11 @@ double leastSine(const double (*x)[3], const int (&corners)[N][4], unsigned node
       }
     }
   }
-  return sine;
-}
-}
-
-double scaledJacobianBound(Shape shape, const double (*corners)[3], unsigned nodes)
-{
-  switch (shape)
-  {
-    case Shape::Tet:
-      return std::sqrt(2.) * leastSine(corners, TetCorners, nodes);
-    case Shape::Hex:
-      return leastSine(corners, HexCornerNodes, nodes);
-    case Shape::Wedge:
-      return 2 / std::sqrt(3.) * leastSine(corners, WedgeCornerNodes, nodes);
-    case Shape::Pyramid:
-      return 2 * leastSine(corners, PyramidCornerNodes, nodes);
-    default:
-      return Infinity;
-  }
+  const double factor = shape == Shape::Tet       ? std::sqrt(2.)
+                        : shape == Shape::Wedge   ? 2 / std::sqrt(3.)
+                        : shape == Shape::Pyramid ? 2.
+                                                  : 1.;
+  return factor * sine;
 }
 
 Quality measureQuality(const Mesh& mesh, const ConstPoints& points,
@@ -686,22 +673,9 @@ Quality ofAll(const Quality& mine, const Communicator& processes)
   return whole;
 }
 
-namespace
-{
-/// Numbers in the order of the doubles.
-std::uint64_t keyOf(double value)
-{
-  constexpr std::uint64_t Sign = std::uint64_t(1) << 63;
-  std::uint64_t bits;
-  std::memcpy(&bits, &value, sizeof(bits));
-  return (bits & Sign) != 0 ? ~bits : bits | Sign;
-}
-}
-
 double worstMean(const Quality& mine, double share, const Communicator& processes)
 {
   std::vector<double> values;
-  values.reserve(mine.measured);
   std::copy_if(mine.scaledJacobian.begin(), mine.scaledJacobian.end(), std::back_inserter(values),
     [](double value) { return !std::isnan(value); });
   const Index all = processes.sum(static_cast<Index>(values.size()));
@@ -711,30 +685,15 @@ double worstMean(const Quality& mine, double share, const Communicator& processe
   }
   const Index count =
     std::clamp<Index>(static_cast<Index>(std::ceil(share * static_cast<double>(all))), 1, all);
-  const auto end = values.begin() + std::min(count, static_cast<Index>(values.size()));
-  std::nth_element(values.begin(), end == values.begin() ? end : end - 1, values.end());
-  std::sort(values.begin(), end);
-  const auto below = [&](std::uint64_t key) // of this process
+  const auto keepLowest = [&]
   {
-    return std::partition_point(
-      values.begin(), end, [&](double value) { return keyOf(value) < key; });
+    const auto end = values.begin() + std::min(count, static_cast<Index>(values.size()));
+    std::partial_sort(values.begin(), end, values.end());
+    values.erase(end, values.end());
   };
-  const auto countBelow = [&](std::uint64_t key)
-  { return processes.sum(static_cast<Index>(below(key) - values.begin())); };
-  // The largest key with fewer than `count` values below is that of the last value that counts.
-  std::uint64_t key = 0;
-  for (int bit = 63; bit >= 0; --bit)
-  {
-    const std::uint64_t next = key | std::uint64_t(1) << bit;
-    key = countBelow(next) < count ? next : key;
-  }
-  const auto own = below(key);
-  const double last = processes.minimum(own == end ? Infinity : *own);
-  double sum = processes.sum(std::accumulate(values.begin(), own, 0.));
-  for (Index i = countBelow(key); i < count; ++i)
-  {
-    sum += last;
-  }
-  return sum / static_cast<double>(count);
+  keepLowest();
+  values = processes.gather(values);
+  keepLowest();
+  return std::accumulate(values.begin(), values.end(), 0.) / static_cast<double>(count);
 }
 }

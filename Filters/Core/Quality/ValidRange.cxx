@@ -2,11 +2,11 @@
 #include "Quality/ValidRange.h"
 
 #include "Mesh/Polyhedra.h"
+#include "Quality/Bernstein.h"
 #include "Quality/CellMap.h"
 #include "Quality/Certificate.h"
 #include "Quality/MeasuredPlaces.h"
 #include "Quality/PolyhedronQuality.h"
-#include "Quality/PolynomialRoot.h"
 #include "Support/Parallel.h"
 
 #include <Eigen/Cholesky>

@@ -42,7 +42,7 @@ struct ValidRange
 /// it: all the determinants at corners, and at the center of a hexahedron, are positive.
 ///
 /// Each determinant is followed from 0 by steps in which it cannot reach 0. A step is the first
-/// root (PolynomialRoot.h) of a lower bound: the determinant of the edges' tangents, a cubic, less
+/// root (Bernstein.h) of a lower bound: the determinant of the edges' tangents, a cubic, less
 /// rounding and what the second derivatives can change. Without turns the cubic is the determinant,
 /// and a second step finds no more, but where edges vanish together. Else each of the last steps
 /// gains two digits. The turn of the whole cell is taken off first where that lowers the second

@@ -7,7 +7,7 @@
 #include "Mesh/Topology.h"
 #include "Quality/BoundaryDetermined.h"
 #include "Quality/ScaledJacobian.h"
-#include "Support/ProgressRange.h"
+#include "Support/Monitor.h"
 #include "Untangling/InversionFree.h"
 #include "Untangling/SmoothMesh.h"
 

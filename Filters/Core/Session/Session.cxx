@@ -2,17 +2,16 @@
 #include "Session/Session.h"
 
 #include "Mesh/CollapsedCells.h"
-#include "Mesh/Extent.h"
+#include "Mesh/Mesh.h"
 #include "Mesh/OwnCells.h"
 #include "Mesh/ShellLayer.h"
 #include "Morpher/PolyhedralMorpher.h"
 #include "Quality/BoundaryDetermined.h"
 #include "Quality/ScaledJacobian.h"
 #include "Session/AfterMotion.h"
+#include "Support/Communicator.h"
 #include "Support/Error.h"
-#include "Support/FirstSpeaks.h"
-#include "Support/ProgressRange.h"
-#include "Support/Stopwatch.h"
+#include "Support/Monitor.h"
 #include "Untangling/HigherOrderUntangling.h"
 #include "Untangling/InversionFree.h"
 
@@ -24,6 +23,70 @@
 
 namespace morph
 {
+void Series::clear()
+{
+  this->kept_.clear();
+  this->stride_ = 1;
+  this->last_ = 0;
+}
+
+void Series::check(std::uint64_t options, bool varies, std::uint64_t boundary)
+{
+  const State state{ options, varies, varies ? boundary : 0 };
+  if (state != this->state_)
+  {
+    this->clear();
+  }
+  this->state_ = state;
+}
+
+void Series::keep(int number, Step step, double megabytes)
+{
+  const double size = std::max(1., 24. * static_cast<double>(step->moved.rows()));
+  // A pass over all that is kept would make a run of many steps quadratic in their number.
+  if (this->last_ % this->stride_ != 0)
+  {
+    this->kept_.erase(this->last_);
+  }
+  this->kept_[number] = std::move(step);
+  this->last_ = number;
+  // The last one is there besides, so that going back does not thin out what helps to go back.
+  const auto full = [&]
+  {
+    const auto counted = this->kept_.size() - (number % this->stride_ != 0);
+    return static_cast<double>(counted) * size > 1e6 * megabytes;
+  };
+  while (full() && this->stride_ <= this->kept_.rbegin()->first)
+  {
+    this->stride_ *= 2;
+    this->thin();
+  }
+  if (full())
+  {
+    const Step last = this->kept_[number];
+    this->kept_ = { { number, last } };
+  }
+}
+
+void Series::thin()
+{
+  for (auto it = this->kept_.begin(); it != this->kept_.end();)
+  {
+    const bool stays = it->first == this->last_ || it->first % this->stride_ == 0;
+    it = stays ? std::next(it) : this->kept_.erase(it);
+  }
+}
+
+std::pair<int, Series::Step> Series::lastUntil(int number) const
+{
+  auto after = this->kept_.upper_bound(number);
+  if (after == this->kept_.begin())
+  {
+    return { -1, nullptr };
+  }
+  return *std::prev(after);
+}
+
 namespace
 {
 /// A method with these options, not prepared, for the cells of `mesh` at its points or others.
@@ -277,7 +340,11 @@ StepResult Session::morphStep(const Mesh& from, const BoundaryTargets& boundary,
   auto evaluating = part(0.3, 0.5);
   const Stopwatch watch;
   StepResult result;
-  const EvaluateReport report = this->evaluate(boundary.targets, handle, result.moved, evaluating);
+  const LinearMorpher* byModes = this->preparedModes(handle, evaluating);
+  const EvaluateReport report =
+    byModes
+      ? this->modes_.evaluate(*byModes, handle->motion, boundary.targets, result.moved, evaluating)
+      : this->method_->evaluate(boundary.targets, result.moved, evaluating);
   placeImages(from, result.moved, processes); // of a sum of modes
   if (validity.isInversionFree && onPieces)
   {
@@ -369,20 +436,15 @@ StepResult Session::morphStep(const Mesh& from, const BoundaryTargets& boundary,
   return result;
 }
 
-EvaluateReport Session::evaluate(
-  const Points& targets, const AffineHandle* handle, Points& moved, Monitor& monitor)
+const LinearMorpher* Session::preparedModes(const AffineHandle* handle, Monitor& monitor)
 {
   const auto* linear = dynamic_cast<const LinearMorpher*>(this->method_.get());
-  if (!handle || !linear)
-  {
-    return this->method_->evaluate(targets, moved, monitor);
-  }
   // Always, not from the second motion on: a result must not depend on what ran before.
-  if (!this->all().all(this->modes_.isPreparedFor(*linear, handle->fields)))
+  if (handle && linear && !this->all().all(this->modes_.isPreparedFor(*linear, handle->fields)))
   {
     this->modes_.prepare(*linear, handle->fields, monitor);
   }
-  return this->modes_.evaluate(*linear, handle->motion, targets, moved, monitor);
+  return handle ? linear : nullptr;
 }
 
 const NodePartition& Session::partitionOf(const std::vector<Index>& prescribed)

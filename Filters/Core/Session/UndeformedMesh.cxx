@@ -2,10 +2,9 @@
 #include "Session/UndeformedMesh.h"
 
 #include "Mesh/CellShape.h"
-#include "Mesh/Extent.h"
-#include "Mesh/FacesOfCells.h"
+#include "Mesh/Mesh.h"
 #include "Mesh/SharedCorners.h"
-#include "Morpher/BodyByBody.h"
+#include "Mesh/Topology.h"
 #include "Morpher/PolyhedralMorpher.h"
 #include "Morpher/SiteMethod.h"
 #include "Quality/Certificate.h"

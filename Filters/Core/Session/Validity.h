@@ -3,10 +3,10 @@
 
 #include "Mesh/HangingNodes.h"
 #include "Mesh/Topology.h"
-#include "Morpher/IncrementalMorph.h"
 #include "Morpher/Morpher.h"
 #include "Quality/InvertedBefore.h"
 #include "Quality/ScaledJacobian.h"
+#include "Session/IncrementalMorph.h"
 #include "Support/Communicator.h"
 #include "Support/Error.h"
 

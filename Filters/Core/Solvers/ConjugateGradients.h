@@ -2,7 +2,6 @@
 #pragma once
 
 #include "Solvers/RowComponents.h"
-#include "Solvers/SolveReport.h"
 #include "Support/Monitor.h"
 #include "Support/Parallel.h"
 #include "Support/Types.h"
@@ -12,6 +11,17 @@
 
 namespace morph
 {
+/// The effort of an iterative solution.
+struct SolveReport
+{
+  int iterations = 0; ///< of all right-hand sides together
+  /// maximum of |b - A x| / |b| over the right-hand sides, computed from x
+  double relativeResidual = 0;
+};
+
+/// Warns if rounding kept the residual above the `tolerance`.
+void reportRounding(const SolveReport& report, double tolerance, Monitor& monitor);
+
 /// What a linear solver aims at: |r|^2 <= goal2 in each column of each component, and its first
 /// residual r = b - A x.
 struct SolverGoal

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solvers/DenseCholesky.h"
 
+#include "Support/Monitor.h"
 #include "Support/Parallel.h"
-#include "Support/ProgressRange.h"
 #include "Support/Types.h"
 
 #include <Eigen/Cholesky>

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solvers/Multigrid.h"
 
-#include "Solvers/Aggregation.h"
-#include "Solvers/RowProducts.h"
+#include "Solvers/CsrMatrix.h"
 #include "Support/Error.h"
 #include "Support/Parallel.h"
 
@@ -16,6 +15,111 @@
 
 namespace morph
 {
+Index GaussSeidel::blockSize() const
+{
+  constexpr Index Blocks = 16;
+  constexpr Index Least = 4096; // of less, waking a thread would take as long
+  return std::max((static_cast<Index>(this->places_.size()) + Blocks - 1) / Blocks, Least);
+}
+
+void GaussSeidel::locate(const CsrRows<float>& A, Index row)
+{
+  const Index first = row / this->blockSize() * this->blockSize();
+  const auto find = [&](Index column)
+  {
+    return static_cast<int>(std::lower_bound(A.column + A.start[row], A.column + A.start[row + 1],
+                              static_cast<int>(column)) -
+                            A.column);
+  };
+  Place& own = this->places_[row];
+  own.first = find(first);
+  own.diagonal = find(row);
+  own.last = find(std::min(first + this->blockSize(), A.rows));
+}
+
+bool GaussSeidel::prepare(const CsrRows<float>& A, float least, Monitor& monitor)
+{
+  this->places_.resize(A.rows);
+  parallel(A.rows, monitor,
+    [&](Index i)
+    {
+      this->locate(A, i);
+      Place& own = this->places_[i];
+      const bool isThere = own.diagonal < own.last && A.column[own.diagonal] == i;
+      const float diagonal = isThere ? A.value[own.diagonal] : 0;
+      float size = 0;
+      for (int k = A.start[i]; k < A.start[i + 1]; ++k)
+      {
+        size += k < own.first || k >= own.last ? std::abs(A.value[k]) : 0;
+      }
+      own.added = size / 2;
+      own.inverse = diagonal >= least && std::isfinite(diagonal) ? 1 / (diagonal + own.added) : 0;
+    });
+  return std::all_of(this->places_.begin(), this->places_.end(),
+    [](const Place& place) { return place.inverse > 0; });
+}
+
+void GaussSeidel::prepareTransposed(
+  const GaussSeidel& other, const CsrRows<float>& A, Monitor& monitor)
+{
+  this->places_ = other.places_;
+  parallel(A.rows, monitor, [&](Index i) { this->locate(A, i); });
+}
+
+template <typename Body>
+void GaussSeidel::forBlocks(Index rows, Monitor& monitor, const Body& body) const
+{
+  const Index size = this->blockSize();
+  parallel((rows + size - 1) / size, 1, monitor,
+    [&](Index block) { body(block * size, std::min((block + 1) * size, rows)); });
+}
+
+void GaussSeidel::sweep(const CsrRows<float>& A, const Row* rhs, Row* x, Monitor& monitor) const
+{
+  this->forBlocks(A.rows, monitor,
+    [&](Index first, Index last)
+    {
+      for (Index i = first; i < last; ++i)
+      {
+        const Place& own = this->places_[i];
+        x[i] = own.inverse * (rhs[i] - rowSum(A, own.first, own.diagonal, x));
+      }
+    });
+}
+
+void GaussSeidel::residual(
+  const CsrRows<float>& A, const Row* x, Row* residual, Monitor& monitor) const
+{
+  // The sweep has solved (D* + L) x = rhs, so rhs - A x = (D* - D - U - F) x.
+  this->forBlocks(A.rows, monitor,
+    [&](Index first, Index last)
+    {
+      for (Index i = first; i < last; ++i)
+      {
+        const Place& own = this->places_[i];
+        residual[i] = own.added * x[i] - (rowSum(A, own.diagonal + 1, A.start[i + 1], x) +
+                                           rowSum(A, A.start[i], own.first, x));
+      }
+    });
+}
+
+void GaussSeidel::sweepBack(
+  const CsrRows<float>& A, const Row* rhs, const Row* x, Row* to, Monitor& monitor) const
+{
+  this->forBlocks(A.rows, monitor,
+    [&](Index first, Index last)
+    {
+      for (Index i = last; i-- > first;)
+      {
+        const Place& own = this->places_[i];
+        const Row rest = rowSum(A, A.start[i], own.diagonal + 1, x) +
+                         rowSum(A, own.last, A.start[i + 1], x) +
+                         rowSum(A, own.diagonal + 1, own.last, to);
+        to[i] = x[i] + own.inverse * (rhs[i] - rest);
+      }
+    });
+}
+
 namespace
 {
 constexpr int CoarsestSize = 200; // maximum number of rows for a dense factorisation
@@ -217,16 +321,232 @@ void Multigrid::cycle(
   level.smoother.sweep(A, rhs, work, monitor);
   Row* residual = x;
   level.smoother.residual(A, work, residual, monitor);
-  monitor.parallelFor(level.R.rows(), Grain / 8,
-    [&](Index first, Index last)
-    { rowProducts(CsrRows<float>(level.R), residual, first, last, below.rhs.data() + first); });
+  const CsrRows<float> R = level.R, P = level.P;
+  parallel(R.rows, Grain / 8, monitor,
+    [&](Index i) { below.rhs[i] = rowSum(R, R.start[i], R.start[i + 1], residual); });
   this->cycle(k + 1, below.rhs.data(), below.x.data(), workspace, monitor);
-  monitor.parallelFor(level.rows, Grain,
-    [&](Index first, Index last)
-    {
-      forRowProducts(CsrRows<float>(level.P), below.x.data(), first, last,
-        [&](Index i, const Row& product) { work[i] += product; });
-    });
+  parallel(level.rows, monitor,
+    [&](Index i) { work[i] += rowSum(P, P.start[i], P.start[i + 1], below.x.data()); });
   level.smoother.sweepBack(A, rhs, work, x, monitor);
+}
+
+namespace
+{
+double distance2(const Points& points, Index i, Index j)
+{
+  const double* a = points.data() + 3 * i;
+  const double* b = points.data() + 3 * j;
+  const double d[3] = { a[0] - b[0], a[1] - b[1], a[2] - b[2] };
+  return d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
+}
+
+/// How near the column of an entry is to its row; Far for the diagonal.
+enum class Nearness : std::uint8_t
+{
+  Far,
+  OneSided, ///< near as seen from the row, not from the column
+  Mutual
+};
+
+/// Of each entry of A.
+std::vector<Nearness> nearNeighbors(
+  const CsrRows<float>& A, const Points& coordinates, Monitor& monitor)
+{
+  // Coarsens along the short side from an aspect ratio of 1.6 on.
+  constexpr double Share = 0.4;
+  const auto distanceTo = [&](Index i, int k)
+  { return A.column[k] == i ? HUGE_VAL : distance2(coordinates, i, A.column[k]); };
+  std::vector<double> nearest(A.rows, HUGE_VAL);
+  parallel(A.rows, monitor,
+    [&](Index i)
+    {
+      for (int k = A.start[i]; k < A.start[i + 1]; ++k)
+      {
+        nearest[i] = std::min(nearest[i], distanceTo(i, k));
+      }
+    });
+  std::vector<Nearness> near(A.entries(), Nearness::Far);
+  parallel(A.rows, monitor,
+    [&](Index i)
+    {
+      for (int k = A.start[i]; k < A.start[i + 1]; ++k)
+      {
+        const double part = Share * distanceTo(i, k);
+        if (part < HUGE_VAL && part <= nearest[i])
+        {
+          near[k] = part <= nearest[A.column[k]] ? Nearness::Mutual : Nearness::OneSided;
+        }
+      }
+    });
+  return near;
+}
+
+/// The aggregate of each row.
+struct Aggregates
+{
+  std::vector<int>& of; ///< #rows
+  int count = 0;
+  int ofMutual = 0; ///< so many, the first ones, started from mutual neighbors
+};
+
+Aggregates aggregate(const CsrRows<float>& A, const Points& coordinates,
+  const std::vector<Nearness>& near, std::vector<int>& of)
+{
+  Aggregates result = { of };
+  std::vector<int>& group = of;
+  int& groups = result.count;
+  const int n = static_cast<int>(A.rows);
+  constexpr int None = -1;
+  group.assign(n, None);
+  // First, whole neighborhoods without a grouped node.
+  std::vector<int> neighbors;
+  for (int i = 0; i < n; ++i)
+  {
+    if (group[i] != None)
+    {
+      continue;
+    }
+    neighbors.clear();
+    bool free = true;
+    for (int k = A.start[i]; k < A.start[i + 1] && free; ++k)
+    {
+      if (near[k] == Nearness::Mutual)
+      {
+        free = group[A.column[k]] == None;
+        neighbors.push_back(A.column[k]);
+      }
+    }
+    if (free && !neighbors.empty())
+    {
+      group[i] = groups;
+      for (int j : neighbors)
+      {
+        group[j] = groups;
+      }
+      ++groups;
+    }
+  }
+  // Then each remaining node joins the group of its nearest grouped neighbor; nodes without one
+  // form groups.
+  const std::vector<int> first = group;
+  result.ofMutual = groups;
+  for (int i = 0; i < n; ++i)
+  {
+    if (group[i] != None)
+    {
+      continue;
+    }
+    double best = HUGE_VAL;
+    for (int k = A.start[i]; k < A.start[i + 1]; ++k)
+    {
+      const int j = A.column[k];
+      if (near[k] != Nearness::Far && first[j] != None && distance2(coordinates, i, j) < best)
+      {
+        best = distance2(coordinates, i, j);
+        group[i] = first[j];
+      }
+    }
+  }
+  for (int i = 0; i < n; ++i)
+  {
+    if (group[i] != None)
+    {
+      continue;
+    }
+    group[i] = groups;
+    for (int k = A.start[i]; k < A.start[i + 1]; ++k)
+    {
+      if (near[k] != Nearness::Far && group[A.column[k]] == None)
+      {
+        group[A.column[k]] = groups;
+      }
+    }
+    ++groups;
+  }
+  return result;
+}
+
+CsrMatrixOf<float> smoothedProlongation(const CsrRows<float>& A, const std::vector<Nearness>& near,
+  const Aggregates& aggregates, Monitor& monitor)
+{
+  const std::vector<int>& group = aggregates.of;
+  const MakeRow makeRow = [&](Index i, SparseRow& row)
+  {
+    float diagonal = 0, size = 0;
+    bool isHarmonic = group[i] < aggregates.ofMutual;
+    for (int k = A.start[i]; k < A.start[i + 1]; ++k)
+    {
+      diagonal += near[k] == Nearness::Far ? A.value[k] : 0;
+      size += near[k] == Nearness::Far ? 0 : std::abs(A.value[k]);
+      isHarmonic = isHarmonic && near[k] != Nearness::Mutual;
+    }
+    const float omega = (isHarmonic ? 2 : 4.f / 3) / (size + std::abs(diagonal));
+    row.add(group[i], 1 - omega * diagonal);
+    for (int k = A.start[i]; k < A.start[i + 1]; ++k)
+    {
+      if (near[k] != Nearness::Far)
+      {
+        row.add(group[A.column[k]], -omega * A.value[k]);
+      }
+    }
+  };
+  return rounded(assembleRows(A.rows, aggregates.count, aggregates.count, monitor,
+    [&] {
+      return makeRow;
+    }).inside);
+}
+}
+
+CsrMatrixOf<float> prolongation(const CsrRows<float>& A, const Points& coordinates,
+  std::vector<int>& aggregateOf, Monitor& monitor)
+{
+  constexpr double MostShare = 0.8;
+  const std::vector<Nearness> near = nearNeighbors(A, coordinates, monitor);
+  const Aggregates aggregates = aggregate(A, coordinates, near, aggregateOf);
+  return aggregates.count > MostShare * static_cast<double>(A.rows)
+           ? CsrMatrixOf<float>()
+           : smoothedProlongation(A, near, aggregates, monitor);
+}
+
+CsrMatrix tripleProduct(const CsrMatrixOf<float>& R, const CsrMatrix& A,
+  const CsrMatrixOf<float>& P, double factor, Monitor& monitor)
+{
+  const auto makeRows = [&]() -> MakeRow
+  {
+    return [&, RA = SparseRow()](Index i, SparseRow& row) mutable
+    {
+      RA.clear();
+      for (CsrMatrixOf<float>::InnerIterator r(R, i); r; ++r)
+      {
+        const double scaled = factor * r.value();
+        for (CsrMatrix::InnerIterator a(A, r.col()); a; ++a)
+        {
+          RA.add(static_cast<int>(a.col()), scaled * a.value());
+        }
+      }
+      for (const auto& [column, value] : RA.entries())
+      {
+        for (CsrMatrixOf<float>::InnerIterator p(P, column); p; ++p)
+        {
+          row.add(static_cast<int>(p.col()), value * p.value());
+        }
+      }
+    };
+  };
+  SplitMatrix product = assembleRows(R.rows(), P.cols(), P.cols(), monitor, makeRows);
+  CsrMatrix result;
+  result.swap(product.inside); // Eigen 3.4 would copy on a move
+  return result;
+}
+
+CsrMatrixOf<float> rounded(const CsrMatrix& A)
+{
+  CsrMatrixOf<float> result(A.rows(), A.cols());
+  result.resizeNonZeros(A.nonZeros());
+  std::copy_n(A.outerIndexPtr(), A.rows() + 1, result.outerIndexPtr());
+  std::copy_n(A.innerIndexPtr(), A.nonZeros(), result.innerIndexPtr());
+  std::transform(A.valuePtr(), A.valuePtr() + A.nonZeros(), result.valuePtr(),
+    [](double value) { return static_cast<float>(value); });
+  return result;
 }
 }

@@ -5,7 +5,6 @@
 #include "Solvers/LinearSolver.h"
 #include "Solvers/MultiVector.h"
 #include "Solvers/Multigrid.h"
-#include "Solvers/RightHandSide.h"
 #include "Solvers/RowComponents.h"
 
 #include <cstddef>
@@ -83,5 +82,54 @@ protected:
 
 private:
   Multigrid::Symmetry symmetry_;
+};
+
+/// Solves A X = B by conjugate gradients, with A sparse, symmetric positive definite. B has three
+/// or four columns; one pass over the matrix serves all of them.
+class SpdSolver : public MultigridSolver
+{
+public:
+  SpdSolver()
+    : MultigridSolver(Multigrid::Symmetry::Symmetric)
+  {
+  }
+
+  using MultigridSolver::solve;
+  SolveReport solve(const RightHandSide& b, MultiVector& x, double tolerance, int maxIterations,
+    Monitor& monitor) const override;
+
+private:
+  struct Iteration;
+};
+
+/// Solves A X = B and A^T X = B by BiCGSTAB, with A sparse and close to an M-matrix. B has three
+/// or four columns; one pass over the matrix serves all of them. The right preconditioner is a
+/// multigrid of A, or of its transpose for the transposed system. An iteration is one application
+/// of it. Source: van der Vorst, SIAM J. Sci. Stat. Comput. 13 (1992) 631-644.
+class GeneralSolver : public MultigridSolver
+{
+public:
+  GeneralSolver();
+  ~GeneralSolver() override;
+  GeneralSolver(GeneralSolver&&) noexcept;
+  GeneralSolver& operator=(GeneralSolver&&) noexcept;
+
+  void prepare(LinearEquations&& equations, Monitor& monitor) override;
+
+  using MultigridSolver::solve;
+  /// A residual of 1e-14 (|A| |x| + |b|) counts as rounding, too.
+  SolveReport solve(const RightHandSide& b, MultiVector& x, double tolerance, int maxIterations,
+    Monitor& monitor) const override;
+  /// Solves A^T x = b. The first call makes and keeps the transposes.
+  SolveReport solveTransposed(const Points& b, Points& x, double tolerance, int maxIterations,
+    Monitor& monitor) const override;
+
+private:
+  struct Iteration;
+  struct Transposed;
+  void findNorm();
+
+  double norm_ = 0; ///< largest row sum of |A|
+  std::unique_ptr<Transposed> transposed_;
 };
 }

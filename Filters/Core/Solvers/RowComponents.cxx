@@ -51,7 +51,7 @@ Sums keepBetterGuess(const RowComponents& components, const RightHandSide& b, co
   {
     return norm2;
   }
-  return components.sumsOfRows(b.rows(), monitor,
+  return components.sums(b.rows(), monitor,
     [&](Index i, int component)
     {
       for (int j = 0; j < 4; ++j)

@@ -3,7 +3,6 @@
 
 #include "Solvers/CsrMatrix.h"
 #include "Solvers/MultiVector.h"
-#include "Solvers/RightHandSide.h"
 #include "Support/Monitor.h"
 #include "Support/Parallel.h"
 
@@ -33,41 +32,32 @@ struct RowComponents
 
   int of(Index row) const { return this->ofRow.empty() ? 0 : this->ofRow[row]; }
 
-  /// Calls body(first, last, component) for the ranges of rows in [first, last) that lie in one
-  /// component.
-  template <typename Body>
-  void forRanges(Index first, Index last, const Body& body) const
-  {
-    for (Index end = last; first < last; first = end, end = last)
-    {
-      if (!this->ofRow.empty())
-      {
-        const auto rows = this->ofRow.begin();
-        end = std::find_if(rows + first, rows + last,
-                [own = this->ofRow[first]](int other) { return other != own; }) -
-              rows;
-      }
-      body(first, end, this->of(first));
-    }
-  }
   /// Calls body(i, component) for all `rows`, perhaps in several threads.
   template <typename Body>
   void forRows(Index rows, Monitor& monitor, const Body& body) const
   {
     parallel(rows, monitor, [&](Index i) { body(i, this->of(i)); });
   }
-  /// Sums body(first, last, component), a MultiVectorRow, by components. Ranges lie in blocks of a
-  /// fixed length and are added in their order, so threads cannot change the last bit.
+  /// Sums body(i, component), a MultiVectorRow, by components. The rows are added in blocks of a
+  /// fixed length, and these in their order, so threads cannot change the last bit.
   template <typename Body>
   Sums sums(Index rows, Monitor& monitor, const Body& body) const
   {
     std::vector<std::vector<std::pair<int, MultiVectorRow>>> parts((rows + Block - 1) / Block);
-    parallel(static_cast<Index>(parts.size()), 1, monitor,
-      [&](Index b)
+    monitor.parallelFor(static_cast<Index>(parts.size()), 1,
+      [&](Index begin, Index end)
       {
-        this->forRanges(b * Block, std::min(rows, (b + 1) * Block),
-          [&](Index first, Index last, int component)
-          { parts[b].emplace_back(component, body(first, last, component)); });
+        for (Index i = begin * Block; i < std::min(rows, end * Block);)
+        {
+          const Index block = i / Block, last = std::min(rows, (block + 1) * Block);
+          const int component = this->of(i);
+          MultiVectorRow sum = MultiVectorRow::Zero();
+          for (; i < last && this->of(i) == component; ++i)
+          {
+            sum += body(i, component);
+          }
+          parts[block].emplace_back(component, sum);
+        }
       });
     Sums total = Sums::Zero(this->count, 4);
     for (const auto& part : parts)
@@ -78,21 +68,6 @@ struct RowComponents
       }
     }
     return total;
-  }
-  /// Sums body(i, component).
-  template <typename Body>
-  Sums sumsOfRows(Index rows, Monitor& monitor, const Body& body) const
-  {
-    return this->sums(rows, monitor,
-      [&](Index first, Index last, int component)
-      {
-        MultiVectorRow sum = MultiVectorRow::Zero();
-        for (Index i = first; i < last; ++i)
-        {
-          sum += body(i, component);
-        }
-        return sum;
-      });
   }
 
 private:

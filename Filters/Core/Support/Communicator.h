@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace morph
@@ -136,5 +137,26 @@ public:
   ///@}
 
   static const Communicator& alone();
+};
+
+/// Keeps back the warnings of all processes but the first: they are of the whole mesh.
+class FirstSpeaks : public ProgressRange
+{
+public:
+  FirstSpeaks(Monitor& whole, const Communicator& processes)
+    : ProgressRange(whole, 0, 1)
+    , speaks_(processes.isFirst())
+  {
+  }
+  void warn(const std::string& message) override
+  {
+    if (this->speaks_)
+    {
+      ProgressRange::warn(message);
+    }
+  }
+
+private:
+  bool speaks_;
 };
 }

@@ -20,12 +20,18 @@ void Monitor::warn(const std::string&)
 {
 }
 
-void Monitor::parallelFor(Index n, Index, const std::function<void(Index first, Index last)>& body)
+void Monitor::parallelFor(
+  Index n, Index grain, const std::function<void(Index first, Index last)>& body)
 {
   if (n > 0)
   {
-    body(0, n);
+    this->threads() > 1 ? this->share(n, grain, body) : body(0, n);
   }
+}
+
+void Monitor::share(Index n, Index, const std::function<void(Index first, Index last)>& body)
+{
+  body(0, n);
 }
 
 void Monitor::check()

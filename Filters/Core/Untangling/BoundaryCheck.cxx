@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Untangling/BoundaryCheck.h"
 
-#include "Boundary/FoldedFaces.h"
+#include "Boundary/FaceQuality.h"
 #include "Support/Lists.h"
 
 #include <algorithm>

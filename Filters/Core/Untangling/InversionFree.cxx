@@ -1,19 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Untangling/InversionFree.h"
 
-#include "Boundary/FoldedFaces.h"
+#include "Boundary/FaceQuality.h"
 #include "LinearMethods/GraphLaplace.h"
 #include "LinearMethods/SimplexLinear.h"
-#include "Mesh/CellEdges.h"
-#include "Mesh/KRing.h"
+#include "Mesh/NodePartition.h"
 #include "Mesh/ShellLayer.h"
-#include "Mesh/UnknownOrdering.h"
+#include "Mesh/Topology.h"
 #include "Morpher/SiteMethod.h"
 #include "Quality/BoundaryDetermined.h"
 #include "Quality/ScaledJacobian.h"
 #include "Support/Error.h"
 #include "Support/Lists.h"
-#include "Support/ProgressRange.h"
+#include "Support/Monitor.h"
 #include "Untangling/HigherOrderUntangling.h"
 #include "Untangling/QualityRaising.h"
 #include "Untangling/Untangling.h"
@@ -387,7 +386,7 @@ TargetConstruction InversionFree::findStart(const Points& boundary, const Movabl
     return TargetConstruction::Stretched;
   }
   keepBetter(atRest);
-  // Where it is the better start, the undeformed shapes are worth nothing.
+  // If it is the better start, the undeformed cell shapes are no useful target.
   return this->own_->isWhole() &&
              keepBetter(graphLaplaceMesh(this->own_->mesh(), this->partition(), atRest, monitor))
            ? TargetConstruction::IdealSkew

@@ -6,7 +6,7 @@
 #include "LinearMethods/FemWarp.h"
 #include "Mesh/OwnCells.h"
 #include "Morpher/Morpher.h"
-#include "Optimization/NodePreconditioner.h"
+#include "Optimization/BlockCsr3f.h"
 #include "Quality/MovableQuality.h"
 #include "Untangling/Untangling.h"
 

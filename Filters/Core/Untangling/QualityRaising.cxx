@@ -3,8 +3,8 @@
 
 #include "Energies/StiffenedDistortion.h"
 #include "Mesh/CellShape.h"
-#include "Mesh/KRing.h"
-#include "Mesh/SubMesh.h"
+#include "Mesh/OwnCells.h"
+#include "Mesh/Topology.h"
 #include "Support/Lists.h"
 
 #include <algorithm>

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Energies/SmoothingTargets.h"
+#include "Energies/TargetMatrices.h"
 #include "Mesh/Mesh.h"
 #include "Mesh/NodePartition.h"
+#include "Quality/ScaledJacobian.h"
 #include "Support/Communicator.h"
 #include "Support/Monitor.h"
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace morph
@@ -16,7 +18,7 @@ namespace morph
 enum class SmoothingObjective : std::uint8_t
 {
   MeanRatio,       ///< the inverse mean ratio, everywhere
-  ConditionNumber, ///< the condition number (ConditionDensity.h), everywhere
+  ConditionNumber, ///< the condition number (EnergyState.h), everywhere
   Adaptive         ///< the condition number round bad cells, the inverse mean ratio elsewhere
 };
 
@@ -66,7 +68,7 @@ struct SmoothingReport
 /// 4. With the objective Adaptive: the condition number on the nodes of three rings around the
 ///    cells that are still below 0.2, however many. It takes up to four rounds, each of a fifth of
 ///    the limit of steps. Nodes around cells that fell below the minimum scaled Jacobian return
-///    (KeepMinimum.h), so the result is never below that of the objective MeanRatio.
+///    (SmoothMesh.h), so the result is never below that of the objective MeanRatio.
 ///
 /// With the target Ideal the measure is averaged over the corners of each cell, as Mesquite does. A
 /// graded mesh loses its grading, and a mesh whose boundary does not move changes. With the target
@@ -80,5 +82,15 @@ struct SmoothingReport
 /// 2.5 kB a hexahedron. On several processes `rest` has the cells of this one.
 SmoothingReport smoothMesh(const Mesh& rest, const std::vector<std::int8_t>& orientation,
   const NodePartition& partition, const SmoothingOptions& options, Points& points, Monitor& monitor,
+  const Communicator& communicator = Communicator::alone());
+
+/// Reverts moves that lowered the minimum scaled Jacobian. Free corners of cells below the minimum
+/// of `start` return to their position there, until no cell is below. Nothing happens if `start` is
+/// not valid. `start`, `points`: #nodes x 3, equal at nodes that are not `free` (ids, ascending).
+/// `measure`: returns the quality of points, and may set their higher-order nodes. On several
+/// processes its minimum is that of all. Returns the number of reverted nodes of the whole mesh.
+/// Cost: a measurement for each layer of reverted cells; after 30 layers all nodes are reverted.
+Index keepMinimum(const Mesh& mesh, const std::vector<Index>& free, const Points& start,
+  Points& points, const std::function<Quality(Points&)>& measure,
   const Communicator& communicator = Communicator::alone());
 }

@@ -2,11 +2,11 @@
 #include "Untangling/Smoothing.h"
 
 #include "Energies/MeshEnergy.h"
-#include "Energies/SmoothingTargets.h"
+#include "Energies/TargetMatrices.h"
 #include "LinearMethods/BodyMotion.h"
-#include "Mesh/Extent.h"
+#include "Mesh/Mesh.h"
 #include "Quality/BoundaryDetermined.h"
-#include "Untangling/KeepMinimum.h"
+#include "Untangling/SmoothMesh.h"
 
 #include <string>
 
@@ -121,7 +121,7 @@ EvaluateReport Smoothing::displace(const Points& prescribed, Points& free, Monit
   const Points ofOwn = own.take(displacement)(own.partition().prescribed, allColumns);
   SmoothingReport smoothing;
   std::vector<Index> determined;
-  Index takenBack = 0; // nodes of the whole mesh; see KeepMinimum.h
+  Index takenBack = 0; // nodes of the whole mesh; see SmoothMesh.h
   if (this->isIdentity(ofOwn, monitor))
   {
     smoothing.isValid = true;

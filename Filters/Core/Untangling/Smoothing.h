@@ -27,7 +27,7 @@ namespace morph
 /// other method differs from the identity there. With the target Initial a valid undeformed mesh
 /// then stays bit for bit. Affine motions are reproduced to the tolerance of the minimization. If
 /// the boundary stays or moves affinely, the minimum scaled Jacobian never falls below that of a
-/// valid affine image. Nodes around cells that fell below it return to the image (KeepMinimum.h;
+/// valid affine image. Nodes around cells that fell below it return to the image (SmoothMesh.h;
 /// count `NodesTakenBack`).
 ///
 /// Counts: `UntangleSteps`, `NewtonSteps`, `LinearIterations`, `EnergyEvaluations`,

@@ -2,9 +2,9 @@
 #include "Untangling/Untangling.h"
 
 #include "Energies/MeshEnergy.h"
-#include "Mesh/KRing.h"
+#include "Mesh/OwnCells.h"
 #include "Mesh/SimplicialDecomposition.h"
-#include "Mesh/SubMesh.h"
+#include "Mesh/Topology.h"
 #include "Optimization/Minimizers.h"
 
 #include <algorithm>

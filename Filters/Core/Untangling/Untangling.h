@@ -3,8 +3,8 @@
 
 #include "Energies/TargetMatrices.h"
 #include "Mesh/OwnCells.h"
+#include "Optimization/BlockCsr3f.h"
 #include "Optimization/Minimizers.h"
-#include "Optimization/NodePreconditioner.h"
 
 #include <cstdint>
 #include <vector>

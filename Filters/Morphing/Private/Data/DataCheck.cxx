@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Private/Data/DataCheck.h"
 
-#include "Mesh/Extent.h"
+#include "Mesh/Mesh.h"
 #include "Private/Data/Version.h"
 #include "Support/Error.h"
 

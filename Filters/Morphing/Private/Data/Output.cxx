@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Private/Data/Output.h"
 
-#include "Mesh/Extent.h"
+#include "Mesh/Mesh.h"
 #include "Private/Data/Arrays.h"
 #include "Private/Data/Directions.h"
 #include "Support/Error.h"

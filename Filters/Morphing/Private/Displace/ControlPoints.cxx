@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Private/Displace/ControlPoints.h"
 
-#include "Mesh/Extent.h"
+#include "Mesh/Mesh.h"
 #include "Private/Data/Arrays.h"
 #include "Support/Error.h"
 

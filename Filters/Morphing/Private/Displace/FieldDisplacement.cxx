@@ -3,7 +3,7 @@
 
 #include "BoundaryMorphing/SurfaceResidual.h"
 #include "Geometry/NearestNodes.h"
-#include "Mesh/Extent.h"
+#include "Mesh/Mesh.h"
 #include "Private/Data/DataCheck.h"
 #include "Private/Displace/ControlPoints.h"
 #include "Support/Error.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Private/Displace/InputBoundary.h"
 
-#include "Mesh/Extent.h"
 #include "Mesh/InnerFaces.h"
+#include "Mesh/Mesh.h"
 #include "Private/Data/Arrays.h"
 #include "Private/Data/GridMesh.h"
 #include "Private/Data/Surface.h"

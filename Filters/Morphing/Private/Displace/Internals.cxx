@@ -15,7 +15,7 @@
 #include "Private/Project/TargetDistance.h"
 #include "Support/Error.h"
 #include "Support/Lists.h"
-#include "Support/ProgressRange.h"
+#include "Support/Monitor.h"
 
 #include <vtkAbstractTransform.h>
 #include <vtkFieldData.h>

@@ -3,7 +3,7 @@
 #include "Private/Pipeline/Input.h"
 
 #include "BoundaryMover/Dimension.h"
-#include "Mesh/Extent.h"
+#include "Mesh/Mesh.h"
 #include "Private/Data/DataCheck.h"
 #include "Support/Error.h"
 #include "vtkDisplacementAlgorithm.h"

@@ -3,7 +3,7 @@
 
 #include "BoundaryMover/Dimension.h"
 #include "BoundaryMover/Patches.h"
-#include "Mesh/FacesOfCells.h"
+#include "Mesh/Topology.h"
 #include "Private/Data/Surface.h"
 #include "Private/Displace/Selection.h"
 #include "Support/Error.h"

@@ -2,7 +2,7 @@
 #include "Private/Displace/Views.h"
 
 #include "BoundaryMover/Choice.h"
-#include "Geometry/FarthestPoints.h"
+#include "Geometry/PointOrders.h"
 #include "Private/Data/Arrays.h"
 #include "Private/Data/Geometry.h"
 #include "Private/Data/Surface.h"

@@ -2,7 +2,7 @@
 #include "Private/Distributed/GatheredSurface.h"
 
 #include "Boundary/WholeBoundary.h"
-#include "Mesh/FacesOfCells.h"
+#include "Mesh/Topology.h"
 #include "Private/Blocks/BlockArrays.h"
 #include "Private/Data/Arrays.h"
 #include "Private/Data/GridMesh.h"

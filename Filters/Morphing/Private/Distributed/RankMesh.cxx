@@ -2,8 +2,8 @@
 #include "Private/Distributed/RankMesh.h"
 
 #include "Distributed/RankCommunicator.h"
-#include "Mesh/Extent.h"
-#include "Mesh/FacesOfCells.h"
+#include "Mesh/Mesh.h"
+#include "Mesh/Topology.h"
 #include "Morpher/SiteMethod.h"
 #include "Private/Data/Arrays.h"
 #include "Private/Data/GridMesh.h"

@@ -9,9 +9,9 @@
 #include "Private/Morph/MorphOutput.h"
 #include "Private/Pipeline/Input.h"
 #include "Private/Pipeline/Ranks.h"
+#include "Support/Communicator.h"
 #include "Support/Error.h"
-#include "Support/FirstSpeaks.h"
-#include "Support/ProgressRange.h"
+#include "Support/Monitor.h"
 #include "vtkMorphAlgorithm.h"
 
 #include <vtkAlgorithm.h>

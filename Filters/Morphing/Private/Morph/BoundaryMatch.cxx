@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Private/Morph/BoundaryMatch.h"
 
-#include "Mesh/Extent.h"
+#include "Mesh/Mesh.h"
 #include "Private/Data/AffineArrays.h"
 #include "Private/Data/Gradient.h"
 #include "Private/Morph/BoundaryPoints.h"

@@ -2,7 +2,7 @@
 #include "Private/Morph/ModeSolver.h"
 
 #include "Mesh/NodePartition.h"
-#include "Support/FirstSpeaks.h"
+#include "Support/Communicator.h"
 
 #include <utility>
 

@@ -6,9 +6,9 @@
 #include "Private/Data/Results.h"
 #include "Private/Morph/KeptMesh.h"
 #include "Private/Pipeline/Input.h"
-#include "Session/Series.h"
+#include "Session/Session.h"
 #include "Session/UndeformedMesh.h"
-#include "Support/FirstSpeaks.h"
+#include "Support/Communicator.h"
 
 #include <vtkDataObject.h>
 #include <vtkPolyData.h>

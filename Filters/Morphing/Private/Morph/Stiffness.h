@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Morpher/CellStiffness.h"
+#include "Morpher/Morpher.h"
 
 #include <string>
 #include <vector>

@@ -138,26 +138,17 @@ CrewMonitor::CrewMonitor(vtkAlgorithm* algorithm, int threads)
 
 CrewMonitor::~CrewMonitor() = default;
 
-void CrewMonitor::parallelFor(morph::Index n, morph::Index grain,
+void CrewMonitor::share(morph::Index n, morph::Index grain,
   const std::function<void(morph::Index first, morph::Index last)>& body)
 {
-  if (n <= 0)
+  if (n <= grain || !IsSequential())
   {
-    return;
-  }
-  if (this->GetThreads() == 1 || n <= grain)
-  {
-    body(0, n);
-    return;
-  }
-  if (!IsSequential())
-  {
-    this->Monitor::parallelFor(n, grain, body);
+    this->Monitor::share(n, grain, body);
     return;
   }
   if (!this->Members)
   {
-    this->Members = std::make_unique<Crew>(this->GetThreads() - 1);
+    this->Members = std::make_unique<Crew>(this->threads() - 1);
   }
   this->Members->Run(n, this->RangeLength(n, grain), body);
 }

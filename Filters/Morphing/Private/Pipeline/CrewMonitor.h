@@ -19,11 +19,11 @@ public:
   CrewMonitor(vtkAlgorithm* algorithm, int threads);
   ~CrewMonitor() override;
 
+private:
   /// As Monitor's; not to be called from within `body`.
-  void parallelFor(morph::Index n, morph::Index grain,
+  void share(morph::Index n, morph::Index grain,
     const std::function<void(morph::Index first, morph::Index last)>& body) override;
 
-private:
   class Crew;
   std::unique_ptr<Crew> Members;
 };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Mesh/Extent.h"
+#include "Mesh/Mesh.h"
 
 #include <string>
 

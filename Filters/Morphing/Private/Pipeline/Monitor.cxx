@@ -99,14 +99,10 @@ morph::Index Monitor::RangeLength(morph::Index n, morph::Index grain) const
   return std::max<morph::Index>({ grain, (n + ranges - 1) / ranges, 1 });
 }
 
-void Monitor::parallelFor(morph::Index n, morph::Index grain,
+void Monitor::share(morph::Index n, morph::Index grain,
   const std::function<void(morph::Index first, morph::Index last)>& body)
 {
-  if (n <= 0)
-  {
-    return;
-  }
-  if (this->Threads == 1 || n <= grain)
+  if (n <= grain)
   {
     body(0, n);
     return;

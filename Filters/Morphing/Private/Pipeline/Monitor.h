@@ -31,16 +31,15 @@ public:
   std::vector<std::string> TakeWarnings();
   /// Takes the warnings, and raises them as those of the algorithm.
   void TellWarnings();
+  int threads() const override { return this->Threads; }
 
+protected:
   /// Uses the backend of vtkSMPTools, or STDThread where that is Sequential (ParaView's default).
   /// STDThread starts its threads for each call, about 70 microseconds: a range not longer than
   /// `grain` runs in the caller's thread. An exception thrown by `body` arrives in the
   /// caller's thread once the other ranges have ended.
-  void parallelFor(morph::Index n, morph::Index grain,
+  void share(morph::Index n, morph::Index grain,
     const std::function<void(morph::Index first, morph::Index last)>& body) override;
-
-protected:
-  int GetThreads() const { return this->Threads; }
   /// Whether the user's backend computes with one thread only, so that this class brings its own.
   static bool IsSequential();
   /// The length of the ranges of a loop: a few ranges a thread balance the load.

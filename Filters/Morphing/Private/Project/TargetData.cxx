@@ -5,7 +5,7 @@
 #include "Private/Data/Arrays.h"
 #include "Private/Data/GridMesh.h"
 #include "Private/Data/Precision.h"
-#include "Support/ProgressRange.h"
+#include "Support/Monitor.h"
 
 #include <vtkCellArray.h>
 #include <vtkIdList.h>

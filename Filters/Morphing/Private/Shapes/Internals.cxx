@@ -13,8 +13,7 @@
 #include "Private/Pipeline/Input.h"
 #include "Session/UndeformedMesh.h"
 #include "Support/Error.h"
-#include "Support/ProgressRange.h"
-#include "Support/Stopwatch.h"
+#include "Support/Monitor.h"
 
 #include <vtkCellData.h>
 #include <vtkDoubleArray.h>

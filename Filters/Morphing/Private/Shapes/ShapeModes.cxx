@@ -6,9 +6,8 @@
 #include "Session/UndeformedMesh.h"
 #include "Support/Error.h"
 #include "Support/Lists.h"
-#include "Support/ProgressRange.h"
+#include "Support/Monitor.h"
 #include "Support/ReproducibleSum.h"
-#include "Support/Stopwatch.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 
 #include "Morpher/Blend.h"
 #include "Private/Shapes/ShapeModes.h"
-#include "Support/ProgressRange.h"
+#include "Support/Monitor.h"
 
 #include <algorithm>
 #include <cmath>
