@@ -282,8 +282,8 @@ Mesh voronoi(int n)
 
 Mesh collapsed(const CellKind& kind)
 {
-  Mesh linear = hexes(3, 3, 3);
-  const Index from = 21, into = 22, last = 63; // at (1, 1, 1), (2, 1, 1) and the end
+  Mesh linear = hexes(4, 4, 4);
+  const Index from = 31, into = 32, last = 124; // at (1, 1, 1), (2, 1, 1) and the end
   linear.points(into, 0) = 1.5;
   std::replace(linear.connectivity.begin(), linear.connectivity.end(), from, into);
   std::replace(linear.connectivity.begin(), linear.connectivity.end(), last, from);
