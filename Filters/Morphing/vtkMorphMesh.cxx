@@ -569,6 +569,7 @@ std::string vtkMorphMesh::vtkMorphing::Morph(morph::DisplacementOptions options,
     grid, this->Boundary, mesh.IsDistributed, motion, method, outputs, morphing);
   for (const char* name : { "SlideChange", "SlideForce", "ContactGaps" })
   {
+    outputs.Mesh->GetFieldData()->RemoveArray(name); // the input may be a result
     if (vtkDataArray* array = this->Boundary->GetFieldData()->GetArray(name))
     {
       outputs.Mesh->GetFieldData()->AddArray(array);

@@ -94,7 +94,7 @@ std::vector<std::string> splitLine(const std::string& line, char separator)
 std::vector<TableLine> readLines(const std::string& path)
 {
   std::ifstream file(path, std::ios::binary);
-  if (!file)
+  if (!file || std::filesystem::is_directory(path))
   {
     throw Failure("Cannot read " + path +
                   (std::filesystem::exists(path) ? ": the system does not give its content."

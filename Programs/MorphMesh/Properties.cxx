@@ -296,7 +296,8 @@ bool GivenProperties::spell(const std::vector<std::string>& listed)
       name = *found;
       isChanged = true;
     }
-    const std::string meant = found == listed.end() ? didYouMean(name, listed, 2) : "";
+    const std::size_t most = std::min<std::size_t>(2, name.size() / 3);
+    const std::string meant = found == listed.end() ? didYouMean(name, listed, most) : "";
     if (!meant.empty())
     {
       throw Failure(one.option + " names '" + name + "', which the mesh does not have." + meant);

@@ -94,6 +94,34 @@ TEST(BoundaryMover, BothSidesOfABaffleMoveUnlessOneIsHeld)
   EXPECT_EQ(one.row(22 + old), model.points().row(22));
 }
 
+TEST(BoundaryMover, AllSidesAtAPlaceMoveWhateverTheirNumbersAre)
+{
+  // Three columns of cells around an edge with nodes of their own: two baffles that meet.
+  morph::Monitor monitor;
+  for (int held = 1; held < 3; ++held)
+  {
+    morph::Mesh mesh = meshes::hexes(2, 2, 3);
+    const Index old = mesh.numberOfNodes(), edge = 4 + 9; // the middle of the box, one layer up
+    mesh.points.conservativeResize(old + 2, 3);
+    mesh.points.bottomRows(2).rowwise() = mesh.points.row(edge);
+    for (Index& node : mesh.connectivity)
+    {
+      const Index cell = (&node - mesh.connectivity.data()) / 8 % 4;
+      node = node == edge && cell > 1 ? old + cell - 2 : node;
+    }
+    const BoundaryModel model = modelOf(mesh);
+    Choice choice;
+    choice.moving = { edge };
+    choice.held = { old + held - 1 };
+    choice.isMovingFace.resize(model.faces.cells.size(), 0);
+    const Points targets = model.points().row(edge) + Row(0.1, 0, 0);
+    BoundaryMover mover;
+    const Points moved = mover.move(model, choice, targets, {}, nullptr, monitor).moved;
+    EXPECT_EQ(moved.row(old + 2 - held), targets.row(0)) << held;
+    EXPECT_EQ(moved.row(old + held - 1), model.points().row(edge)) << held;
+  }
+}
+
 TEST(BoundaryMover, OuterSurfacesAreTheSameWhereAnInterfaceIsAskedFor)
 {
   morph::Monitor monitor;

@@ -14,7 +14,7 @@ if (NOT page MATCHES "the program prints `([^`]*)`")
   message(FATAL_ERROR "${PAGE} does not say what its C++ example prints.")
 endif ()
 set(said "${CMAKE_MATCH_1}")
-file(COPY_FILE "${MODEL}" "${WORK}/part.vtu")
+configure_file("${MODEL}" "${WORK}/part.vtu" COPYONLY)
 
 function (run)
   execute_process(COMMAND ${ARGN} WORKING_DIRECTORY "${WORK}" COMMAND_ECHO STDOUT

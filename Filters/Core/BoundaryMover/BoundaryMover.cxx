@@ -101,7 +101,7 @@ void TouchingNodes::find(const BoundaryModel& model)
   }
   this->version_ = model.motionVersion;
   this->pairs_.clear();
-  this->sides_.clear();
+  this->sides_ = {};
   const auto key = [&](Index n)
   {
     const auto x = model.points().row(n);
@@ -109,21 +109,32 @@ void TouchingNodes::find(const BoundaryModel& model)
   };
   std::vector<Index> nodes = model.faces.nodes;
   std::sort(nodes.begin(), nodes.end(), [&](Index a, Index b) { return key(a) < key(b); });
-  for (std::size_t i = 1; i < nodes.size(); ++i)
+  auto first = nodes.begin(); // of those of one body at one place
+  for (auto node = nodes.begin(); node != nodes.end(); ++node)
   {
-    const Index a = nodes[i - 1], b = nodes[i];
-    if (model.points().row(a) == model.points().row(b))
+    const auto next = node + 1;
+    const bool isAtPlace =
+      next != nodes.end() && model.points().row(*node) == model.points().row(*next);
+    if (isAtPlace && model.bodyOfNode[*node] == model.bodyOfNode[*next])
     {
-      const bool isOne = model.bodyOfNode[a] == model.bodyOfNode[b];
-      (isOne ? this->sides_ : this->pairs_).push_back({ a, b });
+      continue;
     }
+    if (isAtPlace)
+    {
+      this->pairs_.push_back({ *node, *next });
+    }
+    if (next - first > 1)
+    {
+      this->sides_.add(first, next);
+    }
+    first = next;
   }
 }
 
 bool TouchingNodes::addOtherSides(const BoundaryModel& model, const Surroundings::Options& rest,
   Choice& choice, Points& targets) const
 {
-  if (this->sides_.empty())
+  if (this->sides_.values.empty())
   {
     return false;
   }
@@ -140,17 +151,16 @@ bool TouchingNodes::addOtherSides(const BoundaryModel& model, const Surroundings
   sortUnique(left);
   TargetOfNode moving = targetsOf(choice, targets);
   const std::size_t before = moving.size();
-  for (bool isChanged = true; isChanged;) // several may be at one place
+  for (std::size_t place = 0; place + 1 < this->sides_.offsets.size(); ++place)
   {
-    isChanged = false;
-    for (const auto& [a, b] : this->sides_)
+    const Index* end = this->sides_.end(static_cast<Index>(place));
+    const Index* begin = this->sides_.begin(static_cast<Index>(place));
+    const Index* from = std::find_if(begin, end, [&](Index n) { return moving.count(n) > 0; });
+    for (const Index* to = begin; to != end && from != end; ++to)
     {
-      for (const auto& [from, to] : { std::pair(a, b), std::pair(b, a) })
+      if (!std::binary_search(left.begin(), left.end(), *to))
       {
-        const auto found = moving.find(from);
-        const bool goes =
-          found != moving.end() && !std::binary_search(left.begin(), left.end(), to);
-        isChanged |= goes && moving.try_emplace(to, found->second).second;
+        moving.try_emplace(*to, moving.at(*from));
       }
     }
   }
@@ -218,7 +228,7 @@ const Surroundings::Result& BoundaryMover::move(const BoundaryModel& model, cons
   const bool hasInner = options.hasInner();
   Surroundings::Result last = std::exchange(this->result_, {}); // nothing is left if it throws
   Surroundings::Result result;
-  Choice chosen = choice; // with what zones and contact add
+  Choice chosen = choice; // with what zones, baffles, periodic sides and contact add
   Points places = targets;
   this->inner_.clear();
   if (hasInner)
@@ -247,6 +257,8 @@ const Surroundings::Result& BoundaryMover::move(const BoundaryModel& model, cons
         while (this->contact_.follow(model, result, chosen, places))
         {
           spreading.take();
+          this->movesOtherSides_ |=
+            this->touching_.addOtherSides(model, options.rest, chosen, places);
           result = this->surroundings_.spread(
             model, chosen, places, options.rest, spreading, std::move(result));
         }

@@ -8,6 +8,7 @@
 #include "BoundaryMover/PeriodicSides.h"
 #include "BoundaryMover/SlideRounds.h"
 #include "BoundaryMover/Surroundings.h"
+#include "Support/Lists.h"
 
 #include <array>
 #include <cstdint>
@@ -39,12 +40,14 @@ public:
     const BoundaryModel& model, const Surroundings::Result& result, Monitor& monitor) const;
 
 private:
-  std::int64_t version_ = -1;                       ///< BoundaryModel::motionVersion
-  std::vector<std::array<Index, 2>> pairs_, sides_; ///< of two bodies, and of one
+  std::int64_t version_ = -1;               ///< BoundaryModel::motionVersion
+  std::vector<std::array<Index, 2>> pairs_; ///< of two bodies
+  Adjacency sides_;                         ///< of each place the nodes of one body, if several
 };
 
-/// Moves a part of a boundary, the rest of the boundary with it, and zones and layers inside. What
-/// does not depend on the motion is kept from one call to the next; a result does not depend on it.
+/// Moves a part of a boundary, other sides of baffles and the rest of the boundary with it, and
+/// zones and layers inside. What does not depend on the motion is kept from one call to the next; a
+/// result does not depend on it.
 ///
 ///     const Choice choice = choosePatches(model, { "BORE" }, { "FEET" });
 ///     const auto& moved = mover.move(model, choice, targets, {}, nullptr, monitor);
