@@ -37,7 +37,6 @@ namespace morph::filters
 {
 using morph::Index;
 using morph::distributed::DistributedMesh;
-using morph::distributed::Ranks;
 
 namespace
 {
@@ -327,7 +326,6 @@ morph::InnerPieces::Columns GatheredBoundary::findLayers(
 
 void GatheredBoundary::KeepOwn(vtkPolyData* surface) const
 {
-  const int rank = this->Own.Ranks().rank();
   vtkDataArray* behind = surface->GetCellData()->GetArray(GatheredSurface::CellName);
   vtkDataArray* nodeOf = surface->GetPointData()->GetArray(Surface::IdName);
   vtkNew<vtkIdList> cells, corners;
@@ -338,7 +336,7 @@ void GatheredBoundary::KeepOwn(vtkPolyData* surface) const
       behind
         ? this->Surface.RankOfCell[static_cast<Index>(behind->GetComponent(cell, 0))]
         : this->Surface.RankOfNode[static_cast<Index>(nodeOf->GetComponent(corners->GetId(0), 0))];
-    if (owner == rank)
+    if (owner == this->Own.Ranks().rank())
     {
       cells->InsertNextId(cell);
     }
@@ -412,7 +410,7 @@ std::pair<double, double> GatheredBoundary::MaximumAndMean(
 vtkSmartPointer<vtkPolyData> GatheredBoundary::Gather(vtkPolyData* part) const
 {
   std::size_t bytes = 0;
-  const Ranks ranks = GlobalRanks();
+  const morph::distributed::Ranks ranks = GlobalRanks();
   const auto parts =
     gatherData<vtkXMLPolyDataWriter, vtkXMLPolyDataReader>(ranks, part, true, bytes);
   auto whole = vtkSmartPointer<vtkPolyData>::New();
