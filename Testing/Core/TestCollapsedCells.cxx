@@ -4,6 +4,7 @@
 #include "Mesh/SharedCorners.h"
 #include "Mesh/Topology.h"
 #include "PolyhedralMeshes.h"
+#include "Quality/BoundaryDetermined.h"
 #include "Quality/Certificate.h"
 #include "Quality/ScaledJacobian.h"
 #include "Session/Session.h"
@@ -169,6 +170,12 @@ TEST(CollapsedCells, OfHigherOrderAreMeasuredByTheirCornersWhereTheyAreNoKnownCe
       EXPECT_TRUE(morph::unrecognizedCells(mesh, { 0, 1 }).empty());
       EXPECT_EQ(morph::boundaryFaces(mesh, serial).cells.size(),
         morph::boundaryFaces(corners, serial).cells.size());
+      EXPECT_EQ(int(morph::HangingNodes().conforming(mesh).types[0]), int(morph::Polyhedron));
+      std::vector<Index> held = corners.connectivity; // no cell is inverted at rest
+      morph::sortUnique(held);
+      EXPECT_TRUE(morph::boundaryDeterminedInversions(
+        mesh, morph::partitionNodes(mesh, held), { 1, 1 }, mesh.points)
+                    .empty());
     }
   }
 }

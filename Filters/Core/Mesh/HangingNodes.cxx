@@ -494,7 +494,12 @@ void HangingNodes::divideEdges(BoundaryFaces& faces) const
 
 Mesh HangingNodes::conforming(const Mesh& mesh) const
 {
-  if (this->empty())
+  bool isCut = !this->empty(); // some cell stands for a polyhedron
+  for (Index c = 0; c < mesh.numberOfCells() && !isCut; ++c)
+  {
+    isCut = hasFaces(mesh, c) && !isPolyhedron(mesh, c);
+  }
+  if (!isCut)
   {
     return mesh;
   }
@@ -513,8 +518,7 @@ Mesh HangingNodes::conforming(const Mesh& mesh) const
     std::vector<Index> nodes(begin, end);
     const auto cover = this->covers_.lower_bound({ c, 0 });
     const bool isCovered = cover != this->covers_.end() && cover->first.first == c;
-    const bool isPolyhedron = hasFaces(mesh, c);
-    if (isPolyhedron || isCovered ||
+    if (hasFaces(mesh, c) || isCovered ||
         std::count_if(begin, end, [&](Index n) { return isEnd[n]; }) > 1)
     {
       const std::vector<Polygon> sides = sidesOf(mesh, c);
@@ -536,7 +540,7 @@ Mesh HangingNodes::conforming(const Mesh& mesh) const
           }
         }
       }
-      if (isDivided || isPolyhedron)
+      if (isDivided || hasFaces(mesh, c))
       {
         result.types[c] = Polyhedron;
         nodes.clear(); // those between its corners are in no piece
