@@ -171,7 +171,7 @@ TEST(CollapsedCells, OfHigherOrderAreMeasuredByTheirCornersWhereTheyAreNoKnownCe
       EXPECT_EQ(morph::boundaryFaces(mesh, serial).cells.size(),
         morph::boundaryFaces(corners, serial).cells.size());
       EXPECT_EQ(int(morph::HangingNodes().conforming(mesh).types[0]), int(morph::Polyhedron));
-      std::vector<Index> held = corners.connectivity; // no cell is inverted at rest
+      std::vector<Index> held = corners.connectivity; // no undeformed cell is inverted
       morph::sortUnique(held);
       EXPECT_TRUE(morph::boundaryDeterminedInversions(
         mesh, morph::partitionNodes(mesh, held), { 1, 1 }, mesh.points)

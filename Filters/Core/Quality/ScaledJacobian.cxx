@@ -574,7 +574,7 @@ double scaledJacobianBound(Shape shape, const double (*corners)[3], unsigned nod
     const double *a = corners[from], *b = corners[to];
     return { b[0] - a[0], b[1] - a[1], b[2] - a[2] };
   };
-  // The sine of the angle between two edges at a corner, all three nodes in `nodes`, the fourth not.
+  // The angle between two edges at a corner, all three nodes in `nodes` and the fourth not.
   double sine = Infinity;
   const CornerTable table = cornersOf(shape);
   for (int k = 0; k < table.size; ++k)
