@@ -21,8 +21,8 @@ STYLES = dict(zip(METHODS, (("#7f7f7f", "v"), ("#e69f00", "s"), ("#0072b2", "o")
 
 LEGEND = ("The minimum scaled Jacobian at S_F. In parentheses: inverted cells of the method's own "
           "+ those that the boundary inverts, at a folded face or a corner. t* is the t of the "
-          "last step up to which no cell of the method's own is inverted, if a series ended by one. "
-          "results.csv has all steps, also with the paper's surfaces.")
+          "last step up to which no cell of the method's own is inverted, if a series ended by "
+          "one. results.csv has all steps, also with the paper's surfaces.")
 
 SECONDS = ("## Seconds per step\n\n"
            "Relative: the first of 20 steps, prepare and evaluate, since each step prepares again. "

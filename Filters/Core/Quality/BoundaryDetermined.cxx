@@ -64,8 +64,8 @@ void addHalfSpaces(const Mesh& mesh, const std::vector<std::int8_t>& orientation
   }
 }
 
-/// Whether enough nodes are prescribed for a corner tetrahedron to have at most one free node. Cells
-/// that are taken by their faces have none.
+/// Whether enough nodes are prescribed for a corner tetrahedron to have at most one free node.
+/// Cells that are taken by their faces have none.
 bool isHeld(const Mesh& mesh, Index c, const std::vector<char>& prescribed)
 {
   if (hasFaces(mesh, c))
