@@ -200,8 +200,8 @@ private:
   std::pair<int, Series::Step> lastUntil(int number) const;
   StepResult morphStep(const Mesh& from, const BoundaryTargets& boundary,
     const AffineHandle* handle, const Options& options, Monitor& monitor);
-  /// Prepares modes_ for the handle, and returns the method that they are of; null without a handle,
-  /// or for a method that has none.
+  /// Prepares modes_ for the handle, and returns the method that they are of. Null without a
+  /// handle, or for a method that has none.
   const LinearMorpher* preparedModes(const AffineHandle* handle, Monitor& monitor);
   /// The partition with these prescribed nodes, kept while they stay.
   const NodePartition& partitionOf(const std::vector<Index>& prescribed);
