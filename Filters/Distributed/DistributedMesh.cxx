@@ -3,6 +3,7 @@
 
 #include "Distributed/RankCommunicator.h"
 #include "Mesh/CellShape.h"
+#include "Mesh/CollapsedCells.h"
 #include "Mesh/Polyhedra.h"
 #include "Mesh/Topology.h"
 #include "Support/Error.h"
@@ -220,7 +221,7 @@ struct DistributedMesh::Builder
         m.offsets.push_back(static_cast<Index>(m.connectivity.size()));
         const std::size_t end = at + 1 + stream[at];
         ++at;
-        if (type == Polyhedron && m.faceOffsets.empty())
+        if (at < end && m.faceOffsets.empty())
         {
           m.faceOffsets.assign(m.types.size(), 0); // the cells before have none
         }
@@ -385,6 +386,8 @@ void DistributedMesh::addGhosts(int layers, Monitor& monitor)
     builder.packAround(requests);
     wanted = builder.exchange();
   }
+  // Who has one of several cells with the same corners has all of them.
+  this->ranks_->together([&] { keepFirstCopies(this->mesh_, this->cellIds_, monitor); });
   this->findHanging(builder, monitor);
   this->cellHalo_ = Halo(builder.packed, builder.unpacked);
 }

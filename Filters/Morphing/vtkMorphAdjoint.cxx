@@ -309,7 +309,7 @@ void vtkMorphAdjoint::Execute(vtkMorphAlgorithm* morph, vtkUnstructuredGrid* res
   auto result = filters::Arrays::Make<vtkDoubleArray>("MorphGradient");
   morph->Transpose(rest, points, gradient, result, onRanks, monitor);
   output->ShallowCopy(points);
-  output->GetPointData()->AddArray(result);
+  filters::Arrays::Add(result, output->GetPointData());
   output->GetPointData()->SetActiveVectors("MorphGradient");
 }
 

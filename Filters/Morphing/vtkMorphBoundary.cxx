@@ -160,8 +160,8 @@ void writeMotion(const morph::Points& rest, const morph::Points& moved,
   points->SetData(makeArray("Points", to, isFloat));
   output->SetPoints(points);
   filters::Directions::RemoveNormals(output);
-  output->GetPointData()->AddArray(
-    makeArray("MorphDisplacement", to - rest(nodes, morph::allColumns), isFloat));
+  filters::Arrays::Add(makeArray("MorphDisplacement", to - rest(nodes, morph::allColumns), isFloat),
+    output->GetPointData());
   output->GetPointData()->SetActiveVectors("MorphDisplacement");
 }
 
@@ -180,7 +180,7 @@ std::vector<Index> writeQuality(
       folded.push_back(static_cast<Index>(cell));
     }
   }
-  output->GetCellData()->AddArray(values);
+  filters::Arrays::Add(values, output->GetCellData());
   output->GetCellData()->SetActiveScalars("ScaledJacobian");
   // Viewers would color by an active point array.
   output->GetPointData()->SetActiveScalars(nullptr);

@@ -215,7 +215,7 @@ Mesh withNodesBetween(const Mesh& linear, const std::map<std::uint8_t, CellKind>
 {
   Mesh mesh;
   mesh.points = linear.points;
-  std::map<std::vector<std::pair<Index, long>>, Index> known; // by shares of corners
+  std::map<std::map<Index, long>, Index> known; // by shares of corners
   for (Index c = 0; c < linear.numberOfCells(); ++c)
   {
     std::vector<Index> nodes(linear.cell(c), linear.cell(c) + linear.cellSize(c));
@@ -232,17 +232,21 @@ Mesh withNodesBetween(const Mesh& linear, const std::map<std::uint8_t, CellKind>
     {
       double N[8];
       morph::shapeFunctions(shape.shape, shape.extraNodes[k - shape.numberOfCorners], N, nullptr);
-      std::vector<std::pair<Index, long>> between;
+      std::map<Index, long> between;
       Eigen::RowVector3d place = Eigen::RowVector3d::Zero();
       for (int a = 0; a < shape.numberOfCorners; ++a)
       {
         if (N[a] != 0)
         {
-          between.emplace_back(nodes[a], std::lround(1e6 * N[a]));
+          between[nodes[a]] += std::lround(1e6 * N[a]);
           place += N[a] * linear.points.row(nodes[a]);
         }
       }
-      std::sort(between.begin(), between.end());
+      if (between.size() == 1) // an edge without length
+      {
+        nodes.push_back(between.begin()->first);
+        continue;
+      }
       const auto [found, isNew] = known.emplace(between, mesh.numberOfNodes());
       if (isNew)
       {

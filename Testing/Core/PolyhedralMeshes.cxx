@@ -2,6 +2,7 @@
 #include "PolyhedralMeshes.h"
 
 #include "Mesh/CellShape.h"
+#include "Mesh/CollapsedCells.h"
 #include "Mesh/Topology.h"
 
 #include <Eigen/Geometry>
@@ -279,6 +280,18 @@ Mesh voronoi(int n)
   return mesh;
 }
 
+Mesh collapsed(const CellKind& kind)
+{
+  Mesh linear = hexes(4, 4, 4);
+  const Index from = 31, into = 32, last = 124; // at (1, 1, 1), (2, 1, 1) and the end
+  linear.points(into, 0) = 1.5;
+  std::replace(linear.connectivity.begin(), linear.connectivity.end(), from, into);
+  std::replace(linear.connectivity.begin(), linear.connectivity.end(), last, from);
+  linear.points.row(from) = linear.points.row(last);
+  linear.points.conservativeResize(last, 3);
+  return withNodesBetween(linear, { { Hexahedron, kind } });
+}
+
 std::vector<std::pair<std::string, Mesh>> polyhedral()
 {
   const auto isEven = [](Index cell) { return cell % 2 == 0; };
@@ -286,9 +299,13 @@ std::vector<std::pair<std::string, Mesh>> polyhedral()
                                                          asPolyhedra(hexes(4, 4, 4)) },
     { "every other hex", asPolyhedra(hexes(4, 4, 4), isEven) },
     { "mixed", asPolyhedra(hexesAndPyramids(4, 4, 4), isEven) }, { "honeycomb", honeycomb(4) },
-    { "refined layer", refinedLayer(2) } };
+    { "refined layer", refinedLayer(2) },
+    { "collapsed hex20", collapsed({ QuadraticHexahedron, 20 }) },
+    { "collapsed hex27", collapsed({ TriquadraticHexahedron, 27 }) } };
+  Monitor serial;
   for (auto& [name, mesh] : result)
   {
+    recognizeCells(mesh, serial);
     jitterAllInside(mesh, 0.08);
   }
   return result;

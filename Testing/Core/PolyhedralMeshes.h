@@ -22,6 +22,8 @@ Mesh honeycomb(int n);
 Mesh refinedLayer(int n);
 /// The Voronoi cells of n x n x n random points in a box, each in a unit cube of its own.
 Mesh voronoi(int n);
+/// 4 x 4 x 4 hexahedra of a kind; an edge inside has no length, so that four have seven corners.
+Mesh collapsed(const CellKind& kind);
 /// All of the others, jittered inside, with a name for the message.
 std::vector<std::pair<std::string, Mesh>> polyhedral();
 }

@@ -3,7 +3,9 @@
 #include "Mesh/CollapsedCells.h"
 #include "Mesh/SharedCorners.h"
 #include "Mesh/Topology.h"
-#include "Meshes.h"
+#include "PolyhedralMeshes.h"
+#include "Quality/BoundaryDetermined.h"
+#include "Quality/Certificate.h"
 #include "Quality/ScaledJacobian.h"
 #include "Session/Session.h"
 
@@ -138,16 +140,52 @@ TEST(CollapsedCells, WithoutVolumeAreNoVolumeCells)
   }
 }
 
-TEST(CollapsedCells, QuadraticOnesThatAreNoKnownCellAreNamed)
+TEST(CollapsedCells, OfHigherOrderAreMeasuredByTheirCornersWhereTheyAreNoKnownCell)
 {
-  // The bottom edge at y = 0 has no length.
-  Mesh mesh = meshes::quadraticHexes(2, 1, 1, false);
-  const std::vector<Index> cell(mesh.cell(0), mesh.cell(0) + 20);
-  for (Index& node : mesh.connectivity)
+  // The bottom edge at y = 0 has no length, and in the second mesh that at y = 1 neither.
+  Mesh seven = meshes::hexes(2, 1, 1), wedge = seven;
+  std::replace(seven.connectivity.begin(), seven.connectivity.end(), 0, 1);
+  wedge.connectivity = seven.connectivity;
+  std::replace(wedge.connectivity.begin(), wedge.connectivity.end(), 3, 4);
+  const meshes::CellKind kinds[] = { { morph::QuadraticHexahedron, 20 },
+    { morph::BiquadraticQuadraticHexahedron, 24 }, { morph::TriquadraticHexahedron, 27 },
+    { morph::LagrangeHexahedron, 64 } };
+  for (const auto& [linear, first] : { std::pair(seven, 0), { wedge, 1 } })
   {
-    node = node == cell[0] || node == cell[8] ? cell[1] : node;
+    const Mesh corners = first == 0 ? recognized(linear) : meshes::asPolyhedra(recognized(linear));
+    ASSERT_EQ(int(corners.types[0]), int(morph::Polyhedron));
+    for (int k = first; k < 4; ++k) // of 20 nodes the wedge is one
+    {
+      const Mesh mesh =
+        recognized(meshes::withNodesBetween(linear, { { morph::Hexahedron, kinds[k] } }));
+      EXPECT_EQ(mesh.types[0], kinds[k].type);
+      EXPECT_EQ(mesh.cellSize(0), kinds[k].nodes);
+      const morph::Quality quality = qualityOf(mesh);
+      EXPECT_NEAR(quality.scaledJacobian[0], qualityOf(corners).scaledJacobian[0], 1e-14);
+      EXPECT_EQ(quality.degenerate, 0);
+      morph::Monitor serial;
+      EXPECT_EQ(
+        morph::certify(mesh, mesh.points, {}, {}, serial).cells[0], morph::Certificate::Undecided);
+      EXPECT_EQ(morph::unmappedCells(mesh).front(), 0);
+      EXPECT_TRUE(morph::unrecognizedCells(mesh, { 0, 1 }).empty());
+      EXPECT_EQ(morph::boundaryFaces(mesh, serial).cells.size(),
+        morph::boundaryFaces(corners, serial).cells.size());
+      EXPECT_EQ(int(morph::HangingNodes().conforming(mesh).types[0]), int(morph::Polyhedron));
+      std::vector<Index> held = corners.connectivity; // no undeformed cell is inverted
+      morph::sortUnique(held);
+      EXPECT_TRUE(morph::boundaryDeterminedInversions(
+        mesh, morph::partitionNodes(mesh, held), { 1, 1 }, mesh.points)
+                    .empty());
+    }
   }
-  mesh = recognized(mesh);
+}
+
+TEST(CollapsedCells, OfNoClosedShapeAreNamed)
+{
+  Mesh mesh = meshes::hexes(2, 1, 1);
+  mesh.connectivity[6] = mesh.connectivity[0]; // across the first cell
+  mesh =
+    recognized(meshes::withNodesBetween(mesh, { { Hexahedron, { QuadraticHexahedron, 20 } } }));
   EXPECT_EQ(morph::unrecognizedCells(mesh, { 0, 1 }), std::vector<Index>{ 0 });
   meshes::ThreadedMonitor monitor;
   morph::Session session;

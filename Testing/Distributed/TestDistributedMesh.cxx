@@ -2,6 +2,7 @@
 #include "Boundary/WholeBoundary.h"
 #include "Distributed/DistributedMesh.h"
 #include "Distributed/RankCommunicator.h"
+#include "Mesh/CellShape.h"
 #include "Mesh/Topology.h"
 #include "Meshes.h"
 #include "Pieces.h"
@@ -99,6 +100,31 @@ TEST(DistributedMesh, OwnsEachNodeOnceAndHasAllCellsAroundItsNodes)
       std::set<std::int64_t> cells(mesh.cellIds().begin(), mesh.cellIds().end());
       EXPECT_EQ(cells.size(), mesh.cellIds().size()) << name;
     }
+  }
+}
+
+TEST(DistributedMesh, OfACellThatTwoRanksHaveTheOneWithTheLowestIdCounts)
+{
+  const Ranks ranks = pieces::world();
+  const Mesh once = meshes::hexes(4, 3, 3);
+  const Index cell = 17, copy = once.numberOfCells();
+  Mesh whole = once;
+  const Index* n = once.cell(cell);
+  meshes::add(whole, morph::Hexahedron, { n[1], n[2], n[3], n[0], n[5], n[6], n[7], n[4] });
+  std::vector<int> owners = pieces::randomOwners(whole, ranks.count(), meshes::seed());
+  owners[cell] = ranks.count() - 1;
+  owners[copy] = 0;
+  Monitor monitor;
+
+  const DistributedMesh mesh(ranks, pieces::pieceOf(whole, owners, ranks.rank()), 1, monitor);
+
+  const auto rest = pieces::undeformed(mesh);
+  EXPECT_EQ(rest->repeatedCells(), (std::vector<Index>{ cell, copy }));
+  EXPECT_EQ(ranks.sum(static_cast<Index>(rest->outerFaces().cells.size())),
+    static_cast<Index>(morph::boundaryFaces(once, monitor).cells.size()));
+  for (Index c = 0; c < mesh.mesh().numberOfCells(); ++c)
+  {
+    EXPECT_EQ(mesh.mesh().types[c] == morph::PolyVertex, mesh.cellId(c) == copy);
   }
 }
 

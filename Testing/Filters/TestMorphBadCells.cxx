@@ -112,6 +112,23 @@ TEST_F(MorphBadCells, DegenerateCellsAreAmongThem)
   expectBadCellsOf(this->Filter);
 }
 
+TEST_F(MorphBadCells, ArraysInPlaceOfActiveOnesOfAnotherSizeAreNotActive)
+{
+  for (const char* name : { "MorphPointId", "MorphDisplacement" })
+  {
+    grids::addNumbers(this->Grid->GetPointData(), name, this->Grid->GetNumberOfPoints(), 1, 9);
+    this->Grid->GetPointData()->SetActiveTensors(name);
+    this->Filter->Modified();
+    this->Filter->Update();
+    ASSERT_GT(badCells(this->Filter)->GetNumberOfCells(), 0);
+    for (vtkDataSet* output : { this->Filter->GetOutput(), badCells(this->Filter) })
+    {
+      vtkDataArray* tensors = output->GetPointData()->GetTensors();
+      EXPECT_TRUE(!tensors || tensors->GetNumberOfComponents() == 9) << name;
+    }
+  }
+}
+
 TEST_F(MorphBadCells, ValidMeshesHaveNoneButTheirArrays)
 {
   this->Filter->SetScaleFactor(0);

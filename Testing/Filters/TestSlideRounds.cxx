@@ -89,6 +89,77 @@ morph::Mesh quarterPipe()
     });
   return mesh;
 }
+
+/// A cylinder of two polyhedra, each as high as it is: three rings of nodes make two of faces.
+/// The face between them is a chord, whole or in two quadrilaterals.
+morph::Mesh cylinder(bool isWhole)
+{
+  constexpr int Around = 24;
+  morph::Mesh mesh;
+  mesh.points.resize(3 * Around, 3);
+  for (int i = 0; i < 3 * Around; ++i)
+  {
+    const double phi = 2 * M_PI * (i % Around) / Around;
+    mesh.points.row(i) << std::cos(phi), std::sin(phi), i / Around;
+  }
+  const auto arc = [](Index first, Index last)
+  {
+    std::vector<Index> nodes;
+    for (Index i = first; i <= last; ++i)
+    {
+      nodes.push_back(i % Around);
+    }
+    return nodes;
+  };
+  using Faces = std::vector<std::vector<Index>>;
+  for (const std::vector<Index>& ring : { arc(0, 9), arc(9, Around) })
+  {
+    Faces faces = { { ring.rbegin(), ring.rend() }, ring };
+    for (Index& node : faces[1])
+    {
+      node += 2 * Around;
+    }
+    for (std::size_t k = 0; k < ring.size(); ++k)
+    {
+      const Index a = ring[k], b = ring[(k + 1) % ring.size()];
+      const bool isChord = k + 1 == ring.size();
+      if (isChord && isWhole)
+      {
+        faces.push_back({ a, b, b + Around, b + 2 * Around, a + 2 * Around, a + Around });
+        continue;
+      }
+      for (const Index up : { 0, Around })
+      {
+        faces.push_back({ a + up, b + up, b + up + Around, a + up + Around });
+      }
+    }
+    meshes::addPolyhedron(mesh, faces);
+  }
+  return mesh;
+}
+}
+
+// Else its center would have to be put back onto the surface, which leaves a force.
+TEST(SlideRounds, AFaceInsideWhoseNodesAreAllOnTheSurfaceDoesNotSlide)
+{
+  double force[2];
+  for (const bool isWhole : { false, true })
+  {
+    auto grid = grids::make(cylinder(isWhole));
+    vtkNew<vtkMorphMesh> filter;
+    configure(filter, grid,
+      [](const Row& x)
+      {
+        const double phi = std::atan2(x[1], x[0]), to = phi + 0.3 * std::sin(phi);
+        return isAt(x[2], 0) ? Row(std::cos(to) - x[0], std::sin(to) - x[1], 0) : Row(0, 0, 0);
+      });
+    const auto isOfOneFace = [](const Row& x) { return x[1] > 1e-9 && x[1] < 0.51 && x[0] > 0; };
+    filter->AddSlidingSurface(surface(grid, isOfOneFace).c_str());
+    filter->SetSlideRounds(1);
+    grids::update(filter);
+    force[isWhole] = ofRounds(filter->GetOutput(), "SlideForce").at(0);
+  }
+  EXPECT_LT(force[true], 2 * force[false]);
 }
 
 TEST(SlideRounds, APlaneOfSymmetryGivesHalfOfTheWholeMesh)

@@ -30,6 +30,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <set>
 #include <sstream>
 
 namespace fuzz
@@ -129,7 +130,7 @@ bool mayImprove(const Case& made, double motion)
   return made.filter.name == "SmoothingMorph" || method == vtkMorphMesh::METHOD_SMOOTHING ||
          value("PostSmooth") != 0 || value("Validity") >= vtkMorphAlgorithm::VALIDITY_REPAIR_ALL ||
          (isInversionFree &&
-           (motion > 0 || !made.grid.isAsMesh || made.choices.value("mesh.order") != 0 ||
+           (motion > 0 || !made.grid.isAsMesh || made.choices.value("with.order") != 0 ||
              !isValid(mesh, mesh.points, 0)));
 }
 
@@ -306,15 +307,17 @@ Quality qualityOf(vtkAlgorithm* filter)
     morph->GetMinScaledJacobian() };
 }
 
-/// Whether two minima are the same within 2 %. Where inverted cells remain in both, the objective
-/// has no bound or many minima, and rounding decides at which a search ends.
+/// Whether two minima are the same within 2 %, or 0.001. A search ends by its energy, and so leaves
+/// nodes in their places to a part of an edge, however near the minimum is to 0. Where inverted
+/// cells remain in both, the objective has no bound or many minima, and rounding decides at which a
+/// search ends.
 bool areAlike(const Quality& one, const Quality& other)
 {
   if (one.bad > 0 || other.bad > 0)
   {
     return one.bad > 0 && other.bad > 0;
   }
-  const double size = std::max(std::abs(one.least), std::abs(other.least));
+  const double size = std::max({ std::abs(one.least), std::abs(other.least), 0.05 });
   return (std::isnan(one.least) && std::isnan(other.least)) ||
          std::abs(one.least - other.least) <= 0.02 * size;
 }
@@ -452,6 +455,38 @@ Finding checkAttached(const Case& made, vtkAlgorithm* filter, const Run& run)
       {
         return { "attached", "node " + std::to_string(node) + " is off by " + text(off) };
       }
+    }
+  }
+  return {};
+}
+
+Finding checkBetween(const Case& made, vtkAlgorithm* filter, const Run& run)
+{
+  auto* output = vtkPointSet::SafeDownCast(run.outputs.front());
+  const Known& known = made.grid.known;
+  if (known.between.empty() || !vtkMorphAlgorithm::SafeDownCast(filter) || !run.errors.empty() ||
+      !run.fromExecutive.empty() || !isExact(made, filter) || !made.grid.isAsMesh ||
+      made.grid.hasGhosts || !made.boundary.isRight || !output || !isOfType(output, VTK_DOUBLE) ||
+      output->GetNumberOfPoints() != made.grid.mesh.numberOfNodes())
+  {
+    return {};
+  }
+  std::set<Index> given;
+  for (const auto& [node, target] : made.boundary.targets)
+  {
+    given.insert(node);
+  }
+  const morph::Points& rest = made.grid.mesh.points;
+  const morph::Points x = pointsOf(output), moved = x - rest;
+  const double allowed = 1e-9 * made.grid.size + 1e3 * (rounding(x, false) + rounding(rest, false));
+  for (const Known::Between& own : known.between)
+  {
+    const Row wanted = (1 - own.at) * moved.row(own.ends[0]) + own.at * moved.row(own.ends[1]);
+    const double off = (moved.row(own.node) - wanted).norm();
+    if (given.count(own.node) == 0 && !(off <= allowed))
+    {
+      return { "between", "node " + std::to_string(own.node) + " is off by " +
+                            text(off / made.grid.size) + " sizes" };
     }
   }
   return {};

@@ -15,6 +15,10 @@ Finding checkNothing(const Case& made, vtkAlgorithm* filter, const Run& run);
 /// cells and in the minimum.
 Finding checkFrame(Case& made, vtkAlgorithm* filter, const Run& first);
 
+/// Nodes between two corners that are not prescribed divide the displacements of these as they
+/// divided their edge.
+Finding checkBetween(const Case& made, vtkAlgorithm* filter, const Run& run);
+
 /// Nodes that hang on one node of the volume by shells or beams are as far from it and from one
 /// another as before, and those that hang on none stay.
 Finding checkAttached(const Case& made, vtkAlgorithm* filter, const Run& run);

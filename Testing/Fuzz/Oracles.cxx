@@ -212,6 +212,7 @@ Verdict judge(
       [&] { return checkOutput(made, algorithm, run); },
       [&] { return checkNothing(made, algorithm, run); },
       [&] { return checkAttached(made, algorithm, run); },
+      [&] { return checkBetween(made, algorithm, run); },
       [&] { return checkAgain(made, algorithm, run); },
       [&] { return checkFrame(made, algorithm, run); }, [&] { return checkParts(made, algorithm); },
       [&] { return checkRanges(made, algorithm, run); }, inputsChanged })

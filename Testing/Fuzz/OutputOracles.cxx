@@ -393,7 +393,7 @@ Finding checkAccepted(const Case& made, vtkMorphAlgorithm* filter, const Run& ru
 {
   const std::string& name = made.filter.name;
   const bool mayRefuse = filter->GetValidity() > vtkMorphAlgorithm::VALIDITY_REPORT;
-  const bool mayInvert = name == "SmoothingMorph" || made.choices.value("mesh.order") != 0;
+  const bool mayInvert = name == "SmoothingMorph" || made.choices.value("with.order") != 0;
   const bool isAlways = made.filter.isLinear && !mayRefuse && filter->GetFixUnnamedBoundary() &&
                         made.choices.value("with.mask") == 0;
   const bool isMild = isMildAffine(made, filter) && !(mayRefuse && mayInvert);

@@ -62,7 +62,7 @@ Mesh quadratic(const Mesh& mesh, int order, double part, Random random)
 {
   Mesh result;
   std::vector<Eigen::RowVector3d> places;
-  std::map<std::vector<std::pair<Index, long>>, Index> known; // by shares of corners
+  std::map<std::map<Index, long>, Index> known; // by shares of corners
   const std::uint64_t sameForm = random.bits();
   for (Index c = 0; c < mesh.numberOfCells(); ++c)
   {
@@ -77,17 +77,21 @@ Mesh quadratic(const Mesh& mesh, int order, double part, Random random)
     {
       double N[8];
       morph::shapeFunctions(shape.shape, shape.extraNodes[k - shape.numberOfCorners], N, nullptr);
-      std::vector<std::pair<Index, long>> between;
+      std::map<Index, long> between;
       Eigen::RowVector3d place = Eigen::RowVector3d::Zero();
       for (int a = 0; a < shape.numberOfCorners; ++a)
       {
         if (N[a] > 0)
         {
-          between.emplace_back(nodes[a], std::lround(N[a] * 1e6));
+          between[nodes[a]] += std::lround(N[a] * 1e6);
           place += N[a] * mesh.points.row(nodes[a]);
         }
       }
-      std::sort(between.begin(), between.end());
+      if (between.size() == 1) // an edge without length
+      {
+        nodes.push_back(between.begin()->first);
+        continue;
+      }
       const auto [found, isNew] =
         known.emplace(between, mesh.numberOfNodes() + static_cast<Index>(places.size()));
       if (isNew)

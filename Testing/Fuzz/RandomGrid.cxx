@@ -6,6 +6,7 @@
 #include "Mesh/FaceTable.h"
 #include "PolyhedralMeshes.h"
 #include "RandomMesh.h"
+#include "Recount.h"
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
@@ -101,6 +102,14 @@ void addPolyhedron(
     std::for_each(nodes.begin(), nodes.end(), [&](vtkIdType id) { stream->InsertNextId(id); });
   }
   grid->InsertNextCell(VTK_POLYHEDRON, stream);
+}
+
+/// Whether some cells have no volume, or are inverted alone.
+bool hasNoVolumes(const morph::Mesh& mesh)
+{
+  morph::Points mirrored = mesh.points;
+  mirrored.col(0) *= -1;
+  return !isValid(mesh, mesh.points, 0) && !isValid(mesh, mirrored, 0);
 }
 
 /// What displacements and zones ask for by name: the vectors "Displacement", and 1 in a part of the
@@ -326,8 +335,8 @@ vtkSmartPointer<vtkUnstructuredGrid> makeGrid(
     { morph::Tetra, { 0, 1, 2, 2, 3, 3, 3, 3 } }, { morph::Pyramid, { 0, 1, 2, 3, 4, 4, 4, 4 } },
     { morph::Wedge, { 0, 1, 2, 2, 3, 4, 5, 5 } }
   };
-  const bool areDisguised = choices.chance("cells.asHexahedra", 0.06);
-  Random random = choices.stream("cells.asHexahedra");
+  const bool areDisguised = choices.chance("with.disguised", 0.06);
+  Random random = choices.stream("with.disguised");
   for (Index c = 0; c < mesh.numberOfCells(); ++c)
   {
     if (mesh.types[c] == morph::Polyhedron)
@@ -462,9 +471,10 @@ RandomGrid randomGrid(Choices& choices)
   {
     result.isAsMesh = false; // coordinates of few digits leave the plane, or nearly so
   }
-  if (!(result.known.gap(result.mesh.points) < 1e-9 * result.size))
+  // Coordinates of few digits put nodes off their faces, or nearly so, or leave faces no area.
+  if (!(result.known.gap(result.mesh.points) < 1e-9 * result.size) ||
+      (!result.known.hanging.empty() && hasNoVolumes(result.mesh)))
   {
-    // Coordinates of few digits put nodes off their faces, or nearly so, or all at one place.
     result.isAsMesh = false;
   }
   result.outer = result.known.outer.empty() ? outerNodes(result.mesh) : result.known.outer;

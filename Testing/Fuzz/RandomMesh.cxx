@@ -177,30 +177,67 @@ void wind(Choices& choices, Mesh& mesh)
   }
 }
 
-/// Makes the sides at the ends of x images of each other, or the one at x = 0 a plane of symmetry.
-void nameSides(Choices& choices, const Mesh& mesh, Known& known)
+enum Sides
 {
-  const int sides = choices.pick("with.sides", { "none", "periodic", "symmetry" }, { 20, 1, 1 });
+  Periodic = 1,
+  Symmetric,
+  Layer ///< front and back of a mesh that is one cell thick
+};
+
+/// Makes the sides at the ends of x, or of z, images of each other, or the one at x = 0 a plane of
+/// symmetry.
+void nameSides(int sides, const Mesh& mesh, Known& known)
+{
+  const int across = sides == Layer ? 2 : 0, along = 2 - across;
   const std::vector<Index> outer = outerNodes(mesh);
-  const double end = mesh.points.col(0).maxCoeff();
+  const double end = mesh.points.col(across).maxCoeff();
   std::map<std::pair<double, double>, Index> image;
   for (const Index n : outer)
   {
-    if (mesh.points(n, 0) == end)
+    if (mesh.points(n, across) == end)
     {
-      image[{ mesh.points(n, 1), mesh.points(n, 2) }] = n;
+      image[{ mesh.points(n, 1), mesh.points(n, along) }] = n;
     }
   }
   for (const Index n : outer)
   {
-    const auto found = image.find({ mesh.points(n, 1), mesh.points(n, 2) });
-    if (sides == 1 && mesh.points(n, 0) == 0 && found != image.end())
+    const auto found = image.find({ mesh.points(n, 1), mesh.points(n, along) });
+    if (sides != Symmetric && mesh.points(n, across) == 0 && found != image.end())
     {
       known.images.emplace_back(n, found->second);
     }
-    if (sides == 2 && mesh.points(n, 0) == 0)
+    if (sides == Symmetric && mesh.points(n, 0) == 0)
     {
       known.plane.push_back(n);
+    }
+  }
+}
+
+/// Lets nodes on edges lie anywhere in the middle third.
+void shiftMiddles(Random random, const Mesh& mesh, Known& known)
+{
+  std::set<Index> done;
+  for (Index c = 0; c < mesh.numberOfCells(); ++c)
+  {
+    const morph::CellShape* shape = morph::cellShape(mesh, c);
+    for (int k = shape->numberOfCorners; k < shape->numberOfNodes; ++k)
+    {
+      double N[8];
+      morph::shapeFunctions(
+        shape->shape, shape->extraNodes[k - shape->numberOfCorners], N, nullptr);
+      std::vector<Index> ends;
+      for (int a = 0; a < shape->numberOfCorners; ++a)
+      {
+        if (N[a] == 0.5)
+        {
+          ends.push_back(mesh.cell(c)[a]);
+        }
+      }
+      if (ends.size() == 2 && done.insert(mesh.cell(c)[k]).second)
+      {
+        known.between.push_back(
+          { mesh.cell(c)[k], { ends[0], ends[1] }, random.between(1. / 3, 2. / 3) });
+      }
     }
   }
 }
@@ -212,7 +249,7 @@ Mesh faces(Choices& choices, Known& known)
   const int kind =
     choices.pick("faces.cells", { "quadrilaterals", "triangles", "both" }, { 2, 2, 1 });
   const bool isQuadratic = choices.chance("faces.quadratic", 0.2);
-  choices.whole("mesh.order", 0, [isQuadratic](Random&) { return isQuadratic ? 1 : 0; });
+  choices.whole("with.order", 0, [isQuadratic](Random&) { return isQuadratic ? 1 : 0; });
   const auto length = [](Random& random) { return 2 + random.below(4); };
   const int nx = choices.whole("mesh.nx", 3, length), ny = choices.whole("mesh.ny", 3, length);
   const int steps = isQuadratic ? 2 : 1; // half a cell
@@ -279,7 +316,7 @@ Mesh lattice(Choices& choices, Known& known)
   if (const int order =
         choices.pick("with.octree", { "none", "linear", "quadratic" }, { 20, 1.2, 0.8 }))
   {
-    choices.whole("mesh.order", 0, [order](Random&) { return order - 1; });
+    choices.whole("with.order", 0, [order](Random&) { return order - 1; });
     return octree(choices, order, known);
   }
   const int kind = choices.pick("mesh.cells",
@@ -289,7 +326,7 @@ Mesh lattice(Choices& choices, Known& known)
   const int order =
     kind == 5 || kind == 8
       ? 0
-      : choices.pick("mesh.order",
+      : choices.pick("with.order",
           { "linear", "quadratic", "fully quadratic", "quadratic-linear", "any order" },
           { 7, 1, 1, 0.5, 0.5 });
   // Quadratic cells bring many nodes.
@@ -299,22 +336,32 @@ Mesh lattice(Choices& choices, Known& known)
   };
   const int nx = choices.whole("mesh.nx", 2, length);
   const int ny = choices.whole("mesh.ny", 2, length);
-  const int nz = choices.whole("mesh.nz", 2, length);
+  const bool mayBeLayer = kind == 0 || kind == 2;
+  const int sides = kind < 7
+                      ? choices.pick("with.sides", { "none", "periodic", "symmetry", "layer" },
+                          { 20, 1, 1, mayBeLayer ? 1. : 0. })
+                      : 0;
+  const int nz = sides == Layer ? 1 : choices.whole("mesh.nz", 2, length);
   using Maker = Mesh (*)(int, int, int);
   constexpr Maker makers[] = { meshes::hexes, meshes::tets, meshes::wedges,
     meshes::hexesAndPyramids, meshes::hexesAndWedges, voxels, pyramids, finned };
   Mesh mesh = kind == 8 ? soup(choices.stream("mesh.soup")) : makers[kind](nx, ny, nz);
   // In part: mid-side nodes that the neighbor does not have.
   const double part = order > 0 && choices.chance("mesh.partlyQuadratic", 0.1) ? 0.5 : 1;
-  mesh = order == 0 ? mesh : quadratic(mesh, order, part, choices.stream("mesh.quadraticCells"));
-  known.isCollapsed = kind == 0 && order == 0 && choices.chance("with.collapsed", 0.15);
+  known.isCollapsed = kind == 0 && sides == 0 && choices.chance("with.collapsed", 0.15);
   if (known.isCollapsed)
   {
     collapse(choices, mesh);
   }
-  else if (kind < 7 && part == 1)
+  mesh = order == 0 ? mesh : quadratic(mesh, order, part, choices.stream("mesh.quadraticCells"));
+  if (order > 0 && order < 4 && sides == 0 && !known.isCollapsed &&
+      choices.chance("with.offMiddle", 0.3))
   {
-    nameSides(choices, mesh, known);
+    shiftMiddles(choices.stream("mesh.offMiddle"), mesh, known);
+  }
+  if (sides != 0 && part == 1)
+  {
+    nameSides(sides, mesh, known);
   }
   return mesh;
 }
@@ -406,7 +453,9 @@ void changeCells(Choices& choices, Mesh& mesh, bool hostile, bool isWhole, bool 
       }
     }
   }
-  if (!isShell && choices.chance("cells.lowerDimensions", 0.1) && mesh.numberOfNodes() > 0)
+  const bool isAttached = !isShell && choices.chance("with.attached", 0.05);
+  const bool isAmong = !isShell && choices.chance("cells.lowerDimensions", 0.05);
+  if ((isAttached || isAmong) && mesh.numberOfNodes() > 0)
   {
     constexpr std::uint8_t types[] = { morph::Vertex, morph::PolyVertex, morph::Line,
       morph::PolyLine, morph::Triangle, morph::TriangleStrip, morph::Polygon, morph::Pixel,
@@ -414,7 +463,7 @@ void changeCells(Choices& choices, Mesh& mesh, bool hostile, bool isWhole, bool 
       morph::BiquadraticQuad, morph::QuadraticLinearQuad, morph::BiquadraticTriangle,
       morph::EmptyCell };
     const int more = 1 + random.below(5);
-    if (choices.chance("cells.attached", 0.5))
+    if (isAttached)
     {
       const Index before = mesh.numberOfNodes();
       const Row middle = mesh.points.row(random.below(static_cast<int>(before)));
@@ -473,6 +522,11 @@ void jitter(Choices& choices, Mesh& mesh, bool hostile, const Known& known)
   {
     mesh.points.col(2).setZero();
   }
+  for (const Known::Between& own : known.between)
+  {
+    mesh.points.row(own.node) =
+      (1 - own.at) * mesh.points.row(own.ends[0]) + own.at * mesh.points.row(own.ends[1]);
+  }
   // What a node hangs on may hang itself, a level above.
   for (int level = 0; level < 3; ++level)
   {
@@ -513,6 +567,12 @@ void addTwin(Choices& choices, Mesh& mesh, Known& known)
   for (const auto& own : hanging)
   {
     known.hanging.push_back({ own.node + nodes, shifted(own.masters), own.weights });
+  }
+  const std::vector<Known::Between> between = known.between;
+  for (const Known::Between& own : between)
+  {
+    known.between.push_back(
+      { own.node + nodes, { own.ends[0] + nodes, own.ends[1] + nodes }, own.at });
   }
 }
 
@@ -599,6 +659,10 @@ void spoilPoints(Choices& choices, Mesh& mesh, bool hostile, Known& known)
     {
       node = order[node];
       image = order[image];
+    }
+    for (Known::Between& own : known.between)
+    {
+      own = { order[own.node], { order[own.ends[0]], order[own.ends[1]] }, own.at };
     }
     rename(known.outer);
     rename(known.plane);

@@ -6,6 +6,7 @@
 #include "../Core/Octree.h"
 #include "Mesh/Mesh.h"
 
+#include <array>
 #include <utility>
 #include <vector>
 
@@ -27,11 +28,18 @@ struct Known
   std::vector<std::pair<morph::Index, morph::Index>> images;
   std::vector<morph::Index> plane; ///< the nodes of a plane of symmetry
   bool isCollapsed = false;        ///< hexahedra have a corner twice, and are polyhedra or wedges
+  struct Between
+  {
+    morph::Index node;
+    std::array<morph::Index, 2> ends; ///< corners
+    double at;                        ///< which part of the way to the second one
+  };
+  std::vector<Between> between; ///< nodes on edges, anywhere in the middle third
 
   bool isAny() const
   {
     return this->faces != None || !this->outer.empty() || !this->images.empty() ||
-           !this->plane.empty() || this->isCollapsed;
+           !this->plane.empty() || this->isCollapsed || !this->between.empty();
   }
   /// The largest distance of a node that hangs from its place.
   double gap(const morph::Points& points) const;

@@ -420,9 +420,9 @@ bool isValid(const Mesh& mesh, const Points& points, double least)
   for (Index c = 0; c < mesh.numberOfCells(); ++c)
   {
     hasVolume = hasVolume || isVolume(mesh, c);
-    const bool isPolyhedron = mesh.types[c] == morph::Polyhedron;
-    if (isVolume(mesh, c) && !((isPolyhedron ? leastOfPolyhedron(mesh, points, c)
-                                             : determinants(mesh, points, c, unit).least) > least))
+    if (isVolume(mesh, c) &&
+        !((morph::hasFaces(mesh, c) ? leastOfPolyhedron(mesh, points, c)
+                                    : determinants(mesh, points, c, unit).least) > least))
     {
       return false;
     }

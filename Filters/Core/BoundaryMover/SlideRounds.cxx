@@ -2,6 +2,7 @@
 #include "BoundaryMover/SlideRounds.h"
 
 #include "Boundary/NodesBetween.h"
+#include "Mesh/HangingNodes.h"
 #include "Morpher/PolyhedralMorpher.h"
 #include "Support/Error.h"
 #include "Support/Monitor.h"
@@ -106,16 +107,25 @@ struct Slide
   Surfaces on;
 };
 
-/// Adds the centers of faces that have all nodes on one of the surfaces. `prescribed`: of the
-/// pieces, and what they are if sliding nodes are, too. `marks`: 1 at the nodes of a surface, else
-/// 0.
-void addCenters(const CellPieces& pieces, const std::vector<Index>& prescribed,
-  const std::vector<Index>& withSliding, const Surfaces& surfaces,
-  const std::function<Points(Index surface)>& marks, std::map<Index, Slide>& slides)
+/// Returns the centers of outer faces among nodes of the pieces.
+std::vector<Index> outerCenters(
+  const CellPieces& pieces, std::vector<Index> nodes, Monitor& monitor)
 {
-  std::vector<Index> centers;
-  std::set_difference(withSliding.begin(), withSliding.end(), prescribed.begin(), prescribed.end(),
-    std::back_inserter(centers));
+  Points isOuter = Points::Zero(pieces.mesh().numberOfNodes(), 3);
+  isOuter(facesOfOneCell(pieces.mesh(), monitor).nodes, 0).setOnes();
+  pieces.processes()->update(isOuter); // of the process that has all cells around a node
+  nodes.erase(
+    std::remove_if(nodes.begin(), nodes.end(), [&](Index node) { return isOuter(node, 0) == 0; }),
+    nodes.end());
+  return nodes;
+}
+
+/// Adds those centers of faces that have all nodes on one of the surfaces. `marks`: 1 at the nodes
+/// of a surface, else 0.
+void addCenters(const CellPieces& pieces, const std::vector<Index>& centers,
+  const Surfaces& surfaces, const std::function<Points(Index surface)>& marks,
+  std::map<Index, Slide>& slides)
+{
   for (const Index s : surfaces)
   {
     const Points isOn = pieces.extend(marks(s));
@@ -160,8 +170,15 @@ void SlideRounds::prepare(const Volume& volume, std::int64_t version,
   if (volume.needsPieces)
   {
     this->pieces_ = cutCells(volume.mesh, volume.hanging, all, 1, silent);
-    method->prepare(
-      this->pieces_->mesh(), this->pieces_->extend(partition), silent, this->pieces_->processes());
+    const NodePartition ofPieces = this->pieces_->extend(partition);
+    method->prepare(this->pieces_->mesh(), ofPieces, silent, this->pieces_->processes());
+    std::vector<Index> given, centers;
+    std::set_union(prescribed.begin(), prescribed.end(), sliding.begin(), sliding.end(),
+      std::back_inserter(given));
+    given = this->pieces_->extend(volume.partition(given)).prescribed;
+    std::set_difference(given.begin(), given.end(), ofPieces.prescribed.begin(),
+      ofPieces.prescribed.end(), std::back_inserter(centers));
+    this->centers_ = outerCenters(*this->pieces_, std::move(centers), silent);
   }
   else
   {
@@ -239,9 +256,6 @@ void SlideRounds::run(const BoundaryModel& model, const std::vector<Index>& held
   }
   if (this->pieces_)
   {
-    std::vector<Index> given;
-    std::set_union(
-      prescribed.begin(), prescribed.end(), own.begin(), own.end(), std::back_inserter(given));
     const auto marks = [&](Index s)
     {
       Points isOn = Points::Zero(places.rows(), 3);
@@ -254,8 +268,7 @@ void SlideRounds::run(const BoundaryModel& model, const std::vector<Index>& held
       }
       return isOn;
     };
-    addCenters(*this->pieces_, this->method_->partition().prescribed,
-      this->pieces_->extend(volume.partition(given)).prescribed, surfaces, marks, slides);
+    addCenters(*this->pieces_, this->centers_, surfaces, marks, slides);
   }
   std::vector<Index> ofMethod;
   std::vector<const Slide*> ordered;

@@ -21,9 +21,9 @@ public:
   /// Moves the nodes of `surfaces` in `result`, which Surroundings made, and gives them the role
   /// Follows. A node slides if all of its surfaces do, and if it neither moves, nor is held, nor is
   /// of a zone or layer. Mid-side nodes move with their corners, and back onto the surface; nodes
-  /// that hang, with what they hang on. Centers of faces of polyhedra on such a surface slide for
-  /// the method. Throws Error for a model without cells. `pieces`: of a mesh on several processes,
-  /// of which `inner` has the inner nodes; else null. Then this is collective.
+  /// that hang, with what they hang on. Centers of outer faces of polyhedra on such a surface slide
+  /// for the method. Throws Error for a model without cells. `pieces`: of a mesh on several
+  /// processes, of which `inner` has the inner nodes; else null. Then this is collective.
   void run(const BoundaryModel& model, const std::vector<Index>& held,
     const std::vector<Index>& surfaces, const SlidingWarp::Limits& limits, Surroundings& shapes,
     const InnerPieces* pieces, const InnerNodes& inner, Surroundings::Result& result,
@@ -53,7 +53,8 @@ private:
     const std::vector<Index>& prescribed, Monitor& monitor);
 
   std::shared_ptr<const CellPieces> pieces_; ///< that the method works on, or null
-  std::unique_ptr<SlidingWarp> method_;      ///< prepared, or null
+  std::vector<Index> centers_; ///< of outer faces of pieces, whose nodes slide or are prescribed
+  std::unique_ptr<SlidingWarp> method_; ///< prepared, or null
   std::int64_t methodVersion_ = -1;
   std::shared_ptr<const Communicator> processes_;
   std::vector<Index> prescribed_, sliding_; ///< that it was prepared for

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <functional>
 #include <iterator>
 #include <map>
 #include <set>
@@ -23,7 +24,7 @@ struct Replacement
 {
   std::uint8_t type = EmptyCell; ///< EmptyCell: none is known
   NodeList nodes;
-  NodeList faces = {}; ///< of a polyhedron, as in Mesh::faces
+  NodeList faces = {}; ///< as in Mesh::faces
 };
 
 NodeList ascending(NodeList nodes)
@@ -210,7 +211,8 @@ bool repeatsCorners(const CellShape& shape, const Index* cell)
     cell, end, [&](const Index& node) { return std::find(&node + 1, end, node) != end; });
 }
 
-Replacement replacementOf(const CellShape& shape, const Index* cell)
+/// `type`: the cell's own.
+Replacement replacementOf(std::uint8_t type, const CellShape& shape, const Index* cell)
 {
   NodeList corners;
   for (int k = 0; k < shape.numberOfCorners; ++k)
@@ -227,13 +229,18 @@ Replacement replacementOf(const CellShape& shape, const Index* cell)
       distinct };
   }
   const bool isLinear = shape.numberOfNodes == shape.numberOfCorners;
-  if (replacement.type == EmptyCell && isLinear)
-  {
-    replacement = polyhedronWith(faces, distinct);
-  }
   if (replacement.type != EmptyCell && !isLinear)
   {
     addMidNodes(shape, cell, corners, replacement);
+  }
+  if (replacement.type == EmptyCell)
+  {
+    replacement = polyhedronWith(faces, distinct);
+    if (replacement.type != EmptyCell && !isLinear)
+    {
+      replacement.type = type;
+      replacement.nodes.assign(cell, cell + shape.numberOfNodes);
+    }
   }
   return replacement;
 }
@@ -246,7 +253,7 @@ void replace(const std::map<Index, Replacement>& replaced, Mesh& mesh)
   }
   const bool hasFaces =
     hasPolyhedra(mesh) || std::any_of(replaced.begin(), replaced.end(),
-                            [](const auto& cell) { return cell.second.type == Polyhedron; });
+                            [](const auto& cell) { return !cell.second.faces.empty(); });
   const auto add = [](std::vector<Index>& to, const Index* first, const Index* last)
   { to.insert(to.end(), first, last); };
   Mesh result;
@@ -292,7 +299,7 @@ std::map<Index, Replacement> collapsedCells(const Mesh& mesh)
     {
       continue;
     }
-    Replacement replacement = replacementOf(*shape, mesh.cell(c));
+    Replacement replacement = replacementOf(mesh.types[c], *shape, mesh.cell(c));
     if (replacement.type != EmptyCell)
     {
       result.emplace(c, std::move(replacement));
@@ -301,12 +308,16 @@ std::map<Index, Replacement> collapsedCells(const Mesh& mesh)
   return result;
 }
 
-/// All but the first of volume cells with the same corners, as poly-vertices of these.
-std::map<Index, Replacement> laterCopies(const Mesh& mesh, Monitor& monitor)
+/// All but the first of volume cells with the same corners, as poly-vertices of these. `isBefore`:
+/// the order.
+template <typename Order>
+std::map<Index, Replacement> laterCopies(const Mesh& mesh, const Order& isBefore, Monitor& monitor)
 {
   std::map<Index, Replacement> result;
   std::set<NodeList> known;
-  for (const Index cell : repeatedCells(mesh, monitor))
+  NodeList cells = repeatedCells(mesh, monitor);
+  std::sort(cells.begin(), cells.end(), isBefore);
+  for (const Index cell : cells)
   {
     const NodeList corners = cornersOf(mesh, cell);
     if (mesh.types[cell] != PolyVertex && !known.insert(corners).second)
@@ -321,15 +332,22 @@ std::map<Index, Replacement> laterCopies(const Mesh& mesh, Monitor& monitor)
 void recognizeCells(Mesh& mesh, Monitor& monitor)
 {
   replace(collapsedCells(mesh), mesh);
-  replace(laterCopies(mesh, monitor), mesh);
+  replace(laterCopies(mesh, std::less<Index>(), monitor), mesh);
   orientPolyhedra(mesh);
+}
+
+void keepFirstCopies(Mesh& mesh, const std::vector<std::int64_t>& ids, Monitor& monitor)
+{
+  const auto isBefore = [&ids](Index a, Index b) { return ids[a] < ids[b]; };
+  replace(laterCopies(mesh, isBefore, monitor), mesh);
 }
 
 std::vector<Index> unrecognizedCells(const Mesh& mesh, const std::vector<Index>& cells)
 {
   std::vector<Index> result;
   std::copy_if(cells.begin(), cells.end(), std::back_inserter(result),
-    [&](Index cell) { return repeatsCorners(*cellShape(mesh, cell), mesh.cell(cell)); });
+    [&](Index cell)
+    { return !hasFaces(mesh, cell) && repeatsCorners(*cellShape(mesh, cell), mesh.cell(cell)); });
   return result;
 }
 }

@@ -4,6 +4,7 @@
 #include "Mesh/Mesh.h"
 #include "Support/Monitor.h"
 
+#include <cstdint>
 #include <vector>
 
 namespace morph
@@ -15,8 +16,10 @@ namespace morph
 ///   are wedges, pyramids or tetrahedra, wedges that are pyramids or tetrahedra, pyramids that are
 ///   tetrahedra. So do their quadratic forms, whose nodes on an edge without length are its corner.
 ///   Other linear ones become polyhedra if their faces are closed, as a hexahedron of seven nodes;
-///   a face with its opposite corners merged is none. Cells whose faces cover one another have no
-///   volume, and become polygons, lines or vertices.
+///   a face with its opposite corners merged is none. Other cells of higher order stay, with the
+///   faces of this polyhedron of their corners, by which they are cut and measured; the nodes
+///   between corners follow these. Cells whose faces cover one another have no volume, and become
+///   polygons, lines or vertices.
 ///   The rest stay as they are; see unrecognizedCells().
 /// - Of volume cells with the same corners the first one counts; the others become poly-vertices of
 ///   these corners.
@@ -25,7 +28,11 @@ namespace morph
 /// Cost: a pass, and that of repeatedCells().
 void recognizeCells(Mesh& mesh, Monitor& monitor);
 
-/// Returns those of `cells` that name a corner more than once after recognizeCells(): corners
-/// across the cell, or a quadratic cell that is no wedge, pyramid or tetrahedron.
+/// Lets the one of lowest id count of volume cells with the same corners, as recognizeCells() lets
+/// the first one. `ids`: #cells, all different.
+void keepFirstCopies(Mesh& mesh, const std::vector<std::int64_t>& ids, Monitor& monitor);
+
+/// Returns those of `cells` that name a corner more than once and are no closed shape, as corners
+/// across the cell. `mesh`: after recognizeCells().
 std::vector<Index> unrecognizedCells(const Mesh& mesh, const std::vector<Index>& cells);
 }

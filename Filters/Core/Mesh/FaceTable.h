@@ -29,7 +29,8 @@ struct FaceTable
 };
 
 /// Calls visit(nodes, size) for each face of a volume cell, with its corners, of which collapsed
-/// cells repeat some. Other cells have none.
+/// cells repeat some. Of a quadrilateral that goes to a corner and back, and so covers itself, two
+/// are visited. Other cells have none.
 template <typename Visit>
 void forEachSide(const Mesh& mesh, Index cell, Visit&& visit)
 {
@@ -45,7 +46,8 @@ void forEachSide(const Mesh& mesh, Index cell, Visit&& visit)
     const FaceShape& face = shape->faces[f];
     std::transform(face.corner, face.corner + face.size, nodes,
       [&](int k) { return mesh.cell(cell)[shape->cornerNode[k]]; });
-    visit(nodes, face.size);
+    const bool isCovered = face.size == 4 && (nodes[0] == nodes[2] || nodes[1] == nodes[3]);
+    visit(nodes, isCovered ? 2 : face.size);
   }
 }
 

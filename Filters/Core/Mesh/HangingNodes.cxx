@@ -4,7 +4,6 @@
 #include "Mesh/CellShape.h"
 #include "Mesh/DividedFaces.h"
 #include "Mesh/FaceTable.h"
-#include "Mesh/HigherOrderNodes.h"
 #include "Mesh/Polyhedra.h"
 #include "Mesh/Topology.h"
 #include "Support/Lists.h"
@@ -86,6 +85,17 @@ std::vector<std::vector<Index>> sidesOf(const Mesh& mesh, Index cell)
         [&](Index node)
         { return std::find(corners.begin(), corners.end(), node) == corners.end(); });
     });
+  if (hasFaces(mesh, cell) && !isPolyhedron(mesh, cell))
+  {
+    // A side that is not among the cell's own faces covers itself or another side.
+    std::set<std::vector<Index>> own;
+    forEachFace(
+      mesh, cell, [&](const Index* nodes, Index size) { own.emplace(nodes, nodes + size); });
+    for (std::vector<Index>& corners : sides)
+    {
+      corners.resize(own.count(corners) > 0 ? corners.size() : 0);
+    }
+  }
   return sides;
 }
 
@@ -238,7 +248,8 @@ bool HangingNodes::mayBeAmong(const Mesh& mesh, const BoundaryFaces& faces,
   return std::find(isDivided.begin(), isDivided.end(), 1) != isDivided.end();
 }
 
-HangingNodes HangingNodes::following(const HigherOrderNodes& followers) const
+HangingNodes HangingNodes::following(
+  const std::function<std::map<Index, double>(Index node)>& weightsOf) const
 {
   std::map<Index, Tie> ties = this->ties();
   std::vector<Index> open = this->ids_, added;
@@ -248,7 +259,7 @@ HangingNodes HangingNodes::following(const HigherOrderNodes& followers) const
     open.pop_back();
     for (const auto& [master, weight] : tie)
     {
-      Tie own = followers.weightsOf(master);
+      Tie own = weightsOf(master);
       if (!own.empty() && ties.emplace(master, std::move(own)).second)
       {
         open.push_back(master);
@@ -483,7 +494,12 @@ void HangingNodes::divideEdges(BoundaryFaces& faces) const
 
 Mesh HangingNodes::conforming(const Mesh& mesh) const
 {
-  if (this->empty())
+  bool isCut = !this->empty(); // some cell stands for a polyhedron
+  for (Index c = 0; c < mesh.numberOfCells() && !isCut; ++c)
+  {
+    isCut = hasFaces(mesh, c) && !isPolyhedron(mesh, c);
+  }
+  if (!isCut)
   {
     return mesh;
   }
@@ -502,8 +518,7 @@ Mesh HangingNodes::conforming(const Mesh& mesh) const
     std::vector<Index> nodes(begin, end);
     const auto cover = this->covers_.lower_bound({ c, 0 });
     const bool isCovered = cover != this->covers_.end() && cover->first.first == c;
-    const bool isPolyhedron = mesh.types[c] == Polyhedron;
-    if (isPolyhedron || isCovered ||
+    if (hasFaces(mesh, c) || isCovered ||
         std::count_if(begin, end, [&](Index n) { return isEnd[n]; }) > 1)
     {
       const std::vector<Polygon> sides = sidesOf(mesh, c);
@@ -525,7 +540,7 @@ Mesh HangingNodes::conforming(const Mesh& mesh) const
           }
         }
       }
-      if (isDivided || isPolyhedron)
+      if (isDivided || hasFaces(mesh, c))
       {
         result.types[c] = Polyhedron;
         nodes.clear(); // those between its corners are in no piece

@@ -9,6 +9,7 @@
 #include <Eigen/SparseCore>
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <set>
 #include <utility>
@@ -16,8 +17,6 @@
 
 namespace morph
 {
-class HigherOrderNodes;
-
 /// Faces that are divided on one side alone, as where a cell meets cells of half its size (2:1
 /// refinement, octree meshes). Faces of other cells then lie in one, have its corners, and fill it.
 /// All of them are inside the mesh. The nodes of the small faces that are no nodes of the large one
@@ -58,8 +57,9 @@ public:
   std::vector<Index> tiedTo(const std::vector<Index>& nodes) const;
   /// Returns the ids of nodes that do not hang.
   std::vector<Index> without(const std::vector<Index>& ids) const;
-  /// The same with ties to what the followers among their nodes follow.
-  HangingNodes following(const HigherOrderNodes& followers) const;
+  /// The same with ties to what the followers among their nodes follow. `weightsOf`: as
+  /// HigherOrderNodes has them.
+  HangingNodes following(const std::function<std::map<Index, double>(Index node)>& weightsOf) const;
 
   /// Fills the rows of `displacement`, #nodes x 3, of nodes that hang from those of the others.
   void apply(Points& displacement) const;

@@ -37,9 +37,9 @@ struct Mesh
   std::vector<std::uint8_t> types;    ///< #cells, VTK cell types (see CellShape.h)
   std::vector<Index> offsets = { 0 }; ///< #cells + 1, start of each cell in `connectivity`
   std::vector<Index> connectivity;    ///< node ids of all cells, one cell after another
-  /// #cells + 1, start of each polyhedron's faces in `faces`; empty in a mesh without polyhedra
+  /// #cells + 1, start of each cell's faces in `faces`; empty where none hasFaces() (Polyhedra.h)
   std::vector<Index> faceOffsets;
-  /// each face of a polyhedron: its number of nodes, then their ids, outward (see Polyhedra.h)
+  /// each face, as of a polyhedron: its number of nodes, then their ids, outward
   std::vector<Index> faces;
   ShellLayer layer;
 

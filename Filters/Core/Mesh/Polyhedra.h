@@ -16,7 +16,14 @@ inline bool isPolyhedron(const Mesh& mesh, Index cell)
   return mesh.types[cell] == Polyhedron;
 }
 
-/// Calls visit(nodes, size) for each face of a polyhedron: `size` node ids, outward by the
+/// Whether the mesh has the cell's faces, by which it is cut and measured: those of a polyhedron,
+/// or of the corners of a cell of higher order that names one twice; see recognizeCells().
+inline bool hasFaces(const Mesh& mesh, Index cell)
+{
+  return hasPolyhedra(mesh) && mesh.faceOffsets[cell] < mesh.faceOffsets[cell + 1];
+}
+
+/// Calls visit(nodes, size) for each face of a cell that hasFaces(): `size` ids, outward by the
 /// right-hand rule where the cell is valid. There are none in a mesh without the arrays of faces.
 template <typename Visit>
 void forEachFace(const Mesh& mesh, Index cell, Visit&& visit)

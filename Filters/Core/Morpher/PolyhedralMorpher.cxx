@@ -6,8 +6,10 @@
 #include "Mesh/PolyhedronPieces.h"
 #include "Morpher/Morpher.h"
 #include "Support/Error.h"
+#include "Support/Lists.h"
 
 #include <algorithm>
+#include <map>
 #include <utility>
 #include <vector>
 
@@ -139,14 +141,8 @@ private:
   void findTies(const Mesh& rest, const NodePartition& partition, const Communicator& processes)
   {
     this->ties_ = this->hanging_;
-    if (!processes.bodies())
+    if (processes.all(this->hanging_.empty()))
     {
-      if (!this->hanging_.empty())
-      {
-        HigherOrderNodes followers;
-        followers.prepare(rest, partition);
-        this->ties_ = this->hanging_.following(followers);
-      }
       return;
     }
     // A process that does not have all cells around a node may take it for a follower, or has
@@ -154,21 +150,82 @@ private:
     Points follows = Points::Zero(this->nodes_, 3);
     follows(partition.higherOrderNodes, allColumns).setOnes();
     this->copies_->update(follows);
-    std::vector<Index> followers;
+    std::vector<Index> nodes;
     for (Index n = 0; n < this->nodes_; ++n)
     {
       if (follows(n, 0) != 0)
       {
-        followers.push_back(n);
+        nodes.push_back(n);
       }
     }
-    const std::vector<Index> loose = this->hanging_.tiedTo(followers);
-    if (!loose.empty())
+    std::map<Index, std::map<Index, double>> known =
+      weightsOf(this->hanging_.tiedTo(nodes), rest, processes);
+    this->ties_ = this->hanging_.following([&known](Index node) { return known[node]; });
+  }
+
+  /// Returns the weights of these followers, by the process that has all cells around each.
+  static std::map<Index, std::map<Index, double>> weightsOf(
+    const std::vector<Index>& nodes, const Mesh& rest, const Communicator& processes)
+  {
+    NodePartition own;
+    for (const Index node : processes.nodesOf(processes.idsOf(nodes)))
     {
-      throw Error("Nodes hang on faces of quadratic cells whose middle nodes are no corners of the "
-                  "small cells, which several MPI processes cannot treat: point ids " +
-                  listIds(processes.idsOf(loose)) + ". Run on one process.");
+      if (processes.owns(node))
+      {
+        own.higherOrderNodes.push_back(node);
+      }
     }
+    HigherOrderNodes followers;
+    followers.prepare(rest, own);
+    std::vector<double> rows; // of each follower and corner the ids, and the weight
+    for (const Index node : own.higherOrderNodes)
+    {
+      for (const auto& [corner, weight] : followers.weightsOf(node))
+      {
+        const std::vector<Index> ids = processes.idsOf({ node, corner });
+        rows.insert(
+          rows.end(), { static_cast<double>(ids[0]), static_cast<double>(ids[1]), weight });
+      }
+    }
+    rows = processes.gather(rows);
+    std::vector<Index> corners;
+    for (std::size_t k = 1; k < rows.size(); k += 3)
+    {
+      corners.push_back(static_cast<Index>(rows[k]));
+    }
+    std::map<Index, Index> numberOf;
+    for (const Index node : processes.nodesOf(corners))
+    {
+      numberOf[processes.idsOf({ node }).front()] = node;
+    }
+    std::map<Index, Index> followerOf;
+    for (const Index node : nodes)
+    {
+      followerOf[processes.idsOf({ node }).front()] = node;
+    }
+    std::map<Index, std::map<Index, double>> result;
+    std::vector<Index> missing;
+    for (std::size_t k = 0; k < rows.size(); k += 3)
+    {
+      const auto follower = followerOf.find(static_cast<Index>(rows[k]));
+      const auto corner = numberOf.find(static_cast<Index>(rows[k + 1]));
+      if (follower != followerOf.end() && corner != numberOf.end())
+      {
+        result[follower->second][corner->second] = rows[k + 2];
+      }
+      else if (follower != followerOf.end())
+      {
+        missing.push_back(follower->first);
+      }
+    }
+    if (!missing.empty())
+    {
+      sortUnique(missing);
+      throw Error("Nodes hang on curved faces of quadratic cells, on middle nodes that follow "
+                  "corners which an MPI process does not have: point ids " +
+                  listIds(missing) + ". Run on one process.");
+    }
+    return result;
   }
 
   void setStiffness(StiffMethod& method, const Communicator& processes) const

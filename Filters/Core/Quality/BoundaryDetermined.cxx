@@ -3,6 +3,7 @@
 
 #include "Geometry/ExactPredicates.h"
 #include "Mesh/CellShape.h"
+#include "Mesh/Polyhedra.h"
 #include "Mesh/SimplicialDecomposition.h"
 #include "Mesh/Topology.h"
 #include "Quality/InvertedBefore.h"
@@ -64,8 +65,13 @@ void addHalfSpaces(const Mesh& mesh, const std::vector<std::int8_t>& orientation
 }
 
 /// Whether enough nodes are prescribed for a corner tetrahedron to have at most one free node.
+/// Cells that are taken by their faces have none.
 bool isHeld(const Mesh& mesh, Index c, const std::vector<char>& prescribed)
 {
+  if (hasFaces(mesh, c))
+  {
+    return false;
+  }
   const Index* nodes = mesh.cell(c);
   const int corners = cellShape(mesh, c)->numberOfCorners;
   return std::count_if(nodes, nodes + corners, [&](Index n) { return prescribed[n] != 0; }) >= 3;

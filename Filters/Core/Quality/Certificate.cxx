@@ -3,6 +3,7 @@
 
 #include "Geometry/ExactPredicates.h"
 #include "Mesh/CellShape.h"
+#include "Mesh/Polyhedra.h"
 #include "Mesh/SimplicialDecomposition.h"
 #include "Mesh/StandingCells.h"
 #include "Quality/CellMap.h"
@@ -377,7 +378,7 @@ std::vector<Index> unmappedCells(const Mesh& mesh)
   for (Index c = 0; c < mesh.numberOfCells(); ++c)
   {
     const CellShape* shape = volumeShape(mesh, c);
-    if (shape && !shape->isMapped)
+    if (shape && (!shape->isMapped || (hasFaces(mesh, c) && !isPolyhedron(mesh, c))))
     {
       cells.push_back(c);
     }
@@ -405,12 +406,12 @@ CertificateReport certify(const Mesh& mesh, const ConstPoints& points,
     {
       return {};
     }
-    if (shape && shape->shape == Shape::Polyhedron)
+    if (shape && isPolyhedron(mesh, c))
     {
       thread_local PolyhedronPlaces measure; // for its memory
       report.cells[c] = measure.certify(mesh, c, points, orientation.empty() ? 1 : orientation[c]);
     }
-    else if (shape && shape->isMapped)
+    else if (shape && shape->isMapped && !hasFaces(mesh, c))
     {
       Vector x[MostNodesOfVolume];
       for (int k = 0; k < shape->numberOfNodes; ++k)

@@ -111,6 +111,11 @@ public:
   }
 
   const CellShape* shape(Index cell) const { return cellShape(this->mesh_, cell); }
+  /// Whether corners of the cell are at one place by their numbers: it is no hexahedron.
+  bool isCollapsed(Index cell) const
+  {
+    return hasFaces(this->mesh_, cell) && !isPolyhedron(this->mesh_, cell);
+  }
   const Vector& center(Index cell) const { return this->centers_[cell]; }
   double sign(Index cell) const
   {
@@ -135,7 +140,7 @@ public:
       face.area *= this->sign(cell);
       result.push_back(std::move(face));
     };
-    if (shape.shape == Shape::Polyhedron)
+    if (shape.shape == Shape::Polyhedron || (this->isCollapsed(cell) && this->neighbor_.empty()))
     {
       forEachFace(this->mesh_, cell,
         [&](const Index* nodes, Index size) { add(std::vector<Index>(nodes, nodes + size)); });
@@ -277,6 +282,10 @@ double warpage(const CellGeometry& geometry, Index cell)
 
 double jacobianRatio(const CellGeometry& geometry, Index cell)
 {
+  if (geometry.isCollapsed(cell))
+  {
+    return NaN; // as of a polyhedron
+  }
   const std::vector<Vector> x = geometry.corners(cell);
   const CellShape& shape = *geometry.shape(cell);
   double least = Infinity, largest = -Infinity;

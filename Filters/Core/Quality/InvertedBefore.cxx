@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Quality/InvertedBefore.h"
 
+#include "Mesh/Polyhedra.h"
 #include "Mesh/StandingCells.h"
 #include "Quality/MeasuredPlaces.h"
 #include "Quality/PolyhedronQuality.h"
@@ -46,7 +47,7 @@ std::vector<bool> InvertedBefore::placesOf(
   };
   const Index* nodes = this->mesh_->cell(cell);
   const CellShape& shape = *cellShape(*this->mesh_, cell);
-  if (shape.shape == Shape::Polyhedron)
+  if (hasFaces(*this->mesh_, cell))
   {
     std::vector<Vector> x;
     std::transform(nodes, nodes + this->mesh_->cellSize(cell), std::back_inserter(x),

@@ -2,6 +2,7 @@
 #include "Quality/ScaledJacobian.h"
 
 #include "Mesh/CellShape.h"
+#include "Mesh/Polyhedra.h"
 #include "Mesh/StandingCells.h"
 #include "Quality/Certificate.h"
 #include "Quality/MeasuredPlaces.h"
@@ -420,7 +421,7 @@ Quality measureCells(const Mesh& mesh, const ConstPoints& points,
         }
         // Measures a cell in mirrored order as its mirror image.
         const double sign = signOf(c);
-        if (shape->shape == Shape::Polyhedron)
+        if (hasFaces(mesh, c))
         {
           bool isFlat = false;
           values[c] = polyhedra.scaledJacobian(mesh, c, points, sign, isFlat);

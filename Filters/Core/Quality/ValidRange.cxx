@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Quality/ValidRange.h"
 
+#include "Mesh/Polyhedra.h"
 #include "Quality/Bernstein.h"
 #include "Quality/CellMap.h"
 #include "Quality/Certificate.h"
@@ -181,8 +182,10 @@ public:
     {
       return false;
     }
+    this->cell_ = cell;
     this->positive_ = this->before_.positivePlaces(cell);
-    const bool isQuadratic = isQuadraticVolume(*this->shape_) && !this->positive_;
+    const bool isQuadratic =
+      isQuadraticVolume(*this->shape_) && !this->positive_ && !this->hasFaces();
     this->map_ = isQuadratic ? CellMap::find(this->mesh_.types[cell]) : nullptr;
     this->sign_ = sign;
     this->gather(this->fields_[0], cell, this->motion_.base, this->motion_.straight, this->unit_);
@@ -191,10 +194,9 @@ public:
       const NodeMotion::Turn& turn = this->motion_.turns[t];
       this->gather(this->fields_[1 + t], cell, turn.first, turn.second, 1);
     }
-    this->cell_ = cell;
     this->observer_.setZero();
     this->place(0);
-    if (this->isPolyhedron() && !this->findWeights())
+    if (this->hasFaces() && !this->findWeights())
     {
       return false;
     }
@@ -210,7 +212,7 @@ public:
     return true;
   }
 
-  bool isPolyhedron() const { return this->shape_->shape == Shape::Polyhedron; }
+  bool hasFaces() const { return morph::hasFaces(this->mesh_, this->cell_); }
 
   /// Calls act(determinant, lengths, isPlace) for each that is followed, from `factor` on. Not a
   /// place is a coefficient of a quadratic cell. A polyhedron has the centers that are found at
@@ -219,7 +221,7 @@ public:
   void forEachBound(double factor, const Act& act)
   {
     this->place(factor);
-    if (factor != 0 && this->isPolyhedron())
+    if (factor != 0 && this->hasFaces())
     {
       this->findWeights();
       this->bends_ =
@@ -315,7 +317,7 @@ private:
         act(a, b, c);
       }
     };
-    if (this->isPolyhedron())
+    if (this->hasFaces())
     {
       this->polyhedron_.forEach(x.data(), add);
       return;
@@ -593,7 +595,7 @@ ValidRange validRange(const Mesh& mesh, const NodeMotion& given,
           });
         const double pace = cell.unitHere();
         const auto endOf = [&](Step& step)
-        { return cell.isPolyhedron() ? followPolyhedron(cell, step, pace) : follow(cell, step); };
+        { return cell.hasFaces() ? followPolyhedron(cell, step, pace) : follow(cell, step); };
         const double below = isValid ? endOf(down) : 0;
         const double above = isValid ? endOf(up) : 0;
         if (below < Infinity || above < Infinity)

@@ -239,10 +239,8 @@ void warnOfShared(const std::vector<Index>& repeatedCells, const std::vector<Ind
 {
   if (!repeatedCells.empty())
   {
-    monitor.warn(
-      "Cells are there twice: cell ids " + listIds(repeatedCells) +
-      ". The first of each counts, on several MPI ranks the first of each rank. Remove the "
-      "others.");
+    monitor.warn("Cells are there twice: cell ids " + listIds(repeatedCells) +
+                 ". The first of each counts. Remove the others.");
   }
   if (!touchingNodes.empty())
   {

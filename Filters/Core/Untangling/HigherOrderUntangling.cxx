@@ -2,6 +2,7 @@
 #include "Untangling/HigherOrderUntangling.h"
 
 #include "Mesh/CellShape.h"
+#include "Mesh/Polyhedra.h"
 #include "Mesh/SimplicialDecomposition.h"
 #include "Mesh/Topology.h"
 #include "Optimization/Minimizers.h"
@@ -188,8 +189,8 @@ void untangleHigherOrder(const Mesh& mesh, const NodePartition& partition,
   for (Index c = 0; c < mesh.numberOfCells(); ++c)
   {
     const CellShape* shape = cellShape(mesh, c);
-    skip[c] =
-      !shape || !isQuadraticVolume(*shape) || !(straightVolume(mesh, orientation, c, points) > 0);
+    skip[c] = !shape || !isQuadraticVolume(*shape) || hasFaces(mesh, c) ||
+              !(straightVolume(mesh, orientation, c, points) > 0);
   }
   const std::vector<Index> before = invertedCells(mesh, orientation, skip, points, monitor);
   std::vector<Index> free = nodesOf(mesh, before, partition.higherOrderNodes);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <vtkAbstractArray.h>
+#include <vtkDataSetAttributes.h>
 #include <vtkPoints.h>
 #include <vtkSmartPointer.h>
 #include <vtkType.h>
@@ -16,6 +18,18 @@ vtkSmartPointer<Array> Make(const char* name, vtkIdType tuples = 0, int componen
   array->SetNumberOfComponents(components);
   array->SetNumberOfTuples(tuples);
   return array;
+}
+
+/// Adds an array in place of one of its name, which may have been active: as tensors, say. With
+/// other components than that it is not.
+inline void Add(vtkAbstractArray* array, vtkDataSetAttributes* to)
+{
+  vtkAbstractArray* before = to->GetAbstractArray(array->GetName());
+  if (before && before->GetNumberOfComponents() != array->GetNumberOfComponents())
+  {
+    to->RemoveArray(array->GetName());
+  }
+  to->AddArray(array);
 }
 
 /// Points of that data type. Their coordinates are not set.

@@ -275,16 +275,17 @@ void AddPointArrays(const morph::Classification& geometry, const std::vector<mor
     // Not NaN elsewhere: VTK writes that to ASCII files, and cannot read it.
     parameter->SetValue(k, geometry.dimension[nodes[i]] == 1 ? geometry.parameter[nodes[i]] : 0);
   }
-  output->AddArray(dimension);
-  output->AddArray(id);
-  output->AddArray(parameter);
+  Arrays::Add(dimension, output);
+  Arrays::Add(id, output);
+  Arrays::Add(parameter, output);
 }
 
 void AddSurfaceIds(const morph::Classification& geometry, const std::vector<morph::Index>& faceOf,
   vtkPolyData* output)
 {
-  output->GetCellData()->AddArray(Arrays::MakeOf<vtkIdTypeArray>(IdName, faceOf,
-    [&](Index face) { return geometry.surfaces[geometry.surfaceOfFace[face]].id; }));
+  Arrays::Add(Arrays::MakeOf<vtkIdTypeArray>(IdName, faceOf,
+                [&](Index face) { return geometry.surfaces[geometry.surfaceOfFace[face]].id; }),
+    output->GetCellData());
 }
 
 void WriteCurves(

@@ -91,7 +91,7 @@ void writePoints(vtkUnstructuredGrid* input, const morph::Points& rest, const mo
   points->SetData(written.Coordinates);
   output->SetPoints(points);
   Directions::RemoveNormals(output);
-  output->GetPointData()->AddArray(written.Displacement);
+  Arrays::Add(written.Displacement, output->GetPointData());
   output->GetPointData()->SetActiveVectors("MorphDisplacement");
 }
 

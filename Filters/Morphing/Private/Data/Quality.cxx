@@ -196,8 +196,9 @@ morph::CertificateReport Certify(const morph::Mesh& mesh, vtkUnstructuredGrid* o
 
 void Write(const morph::Quality& quality, vtkUnstructuredGrid* output)
 {
-  output->GetCellData()->AddArray(Arrays::MakeOf<vtkDoubleArray>(
-    "ScaledJacobian", quality.scaledJacobian, [](double value) { return value; }));
+  Arrays::Add(Arrays::MakeOf<vtkDoubleArray>(
+                "ScaledJacobian", quality.scaledJacobian, [](double value) { return value; }),
+    output->GetCellData());
   output->GetCellData()->SetActiveScalars("ScaledJacobian");
   // Viewers prefer active point scalars to active cell scalars.
   output->GetPointData()->SetActiveScalars(nullptr);
@@ -205,8 +206,9 @@ void Write(const morph::Quality& quality, vtkUnstructuredGrid* output)
 
 void Write(const morph::CertificateReport& report, vtkUnstructuredGrid* output)
 {
-  output->GetCellData()->AddArray(Arrays::MakeOf<vtkSignedCharArray>("JacobianCertificate",
-    report.cells, [](morph::Certificate found) { return static_cast<signed char>(found); }));
+  Arrays::Add(Arrays::MakeOf<vtkSignedCharArray>("JacobianCertificate", report.cells,
+                [](morph::Certificate found) { return static_cast<signed char>(found); }),
+    output->GetCellData());
 }
 
 std::vector<OfCriterion> ReadCriteria(const std::string& text)
@@ -275,7 +277,7 @@ void Measure(OfCriterion& criterion, const morph::Mesh& mesh, vtkUnstructuredGri
       criterion.WorstCell = id;
     }
   }
-  output->GetCellData()->AddArray(array);
+  Arrays::Add(array, output->GetCellData());
 }
 
 void Write(const std::vector<OfCriterion>& criteria, vtkUnstructuredGrid* output)

@@ -31,7 +31,7 @@ void copyTuples(
     to->CopyData(from, ids->GetId(i), i);
     numbers->InsertNextValue(ids->GetId(i));
   }
-  to->AddArray(numbers);
+  Arrays::Add(numbers, to);
 }
 
 /// The nodes of a grid's cells, in the order in which the cells first name them.

@@ -79,8 +79,8 @@ void writePoints(
     rest->SetTypedTuple(i, x);
     to->CopyData(from, nodes[i], i);
   }
-  to->AddArray(ids);
-  to->AddArray(rest);
+  Arrays::Add(ids, to);
+  Arrays::Add(rest, to);
   output->SetPoints(points);
 }
 
@@ -150,7 +150,7 @@ std::vector<morph::Index> writePolygons(vtkUnstructuredGrid* grid, const morph::
       writePolygon(face);
     }
   }
-  to->AddArray(owners);
+  Arrays::Add(owners, to);
   output->SetPolys(polygons);
   return faceOf;
 }

@@ -46,7 +46,7 @@ void writePoints(const morph::Points& rest, const morph::Points& moved, vtkPolyD
   points->SetData(coordinates);
   output->SetPoints(points);
   Directions::RemoveNormals(output);
-  output->GetPointData()->AddArray(displacement);
+  Arrays::Add(displacement, output->GetPointData());
   output->GetPointData()->SetActiveVectors("BoundaryDisplacement");
 }
 
@@ -75,8 +75,8 @@ void writeRoles(
     const signed char mixed = isMoving ? Surroundings::Follows : Surroundings::Stays;
     ofCells->SetValue(cell, isMixed || only > Surroundings::IsFree ? mixed : only);
   }
-  output->GetPointData()->AddArray(ofPoints);
-  output->GetCellData()->AddArray(ofCells);
+  Arrays::Add(ofPoints, output->GetPointData());
+  Arrays::Add(ofCells, output->GetCellData());
   // Viewers prefer active point scalars, and would blend the categories.
   output->GetPointData()->SetActiveScalars(nullptr);
   output->GetCellData()->SetActiveScalars("Role");
@@ -108,7 +108,7 @@ void writeFree(
   output->GetPointData()->RemoveArray(Surface::FreeName);
   if (any)
   {
-    output->GetPointData()->AddArray(free);
+    Arrays::Add(free, output->GetPointData());
   }
 }
 
