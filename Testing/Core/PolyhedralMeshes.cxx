@@ -2,7 +2,6 @@
 #include "PolyhedralMeshes.h"
 
 #include "Mesh/CellShape.h"
-#include "Mesh/CollapsedCells.h"
 #include "Mesh/Topology.h"
 
 #include <Eigen/Geometry>
@@ -299,13 +298,9 @@ std::vector<std::pair<std::string, Mesh>> polyhedral()
                                                          asPolyhedra(hexes(4, 4, 4)) },
     { "every other hex", asPolyhedra(hexes(4, 4, 4), isEven) },
     { "mixed", asPolyhedra(hexesAndPyramids(4, 4, 4), isEven) }, { "honeycomb", honeycomb(4) },
-    { "refined layer", refinedLayer(2) },
-    { "collapsed hex20", collapsed({ QuadraticHexahedron, 20 }) },
-    { "collapsed hex27", collapsed({ TriquadraticHexahedron, 27 }) } };
-  Monitor serial;
+    { "refined layer", refinedLayer(2) } };
   for (auto& [name, mesh] : result)
   {
-    recognizeCells(mesh, serial);
     jitterAllInside(mesh, 0.08);
   }
   return result;

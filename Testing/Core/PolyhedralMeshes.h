@@ -24,6 +24,6 @@ Mesh refinedLayer(int n);
 Mesh voronoi(int n);
 /// 4 x 4 x 4 hexahedra of a kind; an edge inside has no length, so that four have seven corners.
 Mesh collapsed(const CellKind& kind);
-/// All of the others, jittered inside, with a name for the message.
+/// Some of the others, jittered inside, with a name for the message.
 std::vector<std::pair<std::string, Mesh>> polyhedral();
 }

@@ -7,6 +7,7 @@
 #include "Quality/BoundaryDetermined.h"
 #include "Quality/Certificate.h"
 #include "Quality/ScaledJacobian.h"
+#include "Quality/ValidRange.h"
 #include "Session/Session.h"
 
 #include <gtest/gtest.h>
@@ -176,6 +177,10 @@ TEST(CollapsedCells, OfHigherOrderAreMeasuredByTheirCornersWhereTheyAreNoKnownCe
       EXPECT_TRUE(morph::boundaryDeterminedInversions(
         mesh, morph::partitionNodes(mesh, held), { 1, 1 }, mesh.points)
                     .empty());
+      Points flatter = Points::Zero(mesh.numberOfNodes(), 3);
+      flatter.col(2) = -0.25 * mesh.points.col(2);
+      const morph::NodeMotion motion = { &mesh.points, &flatter, {} };
+      EXPECT_NEAR(morph::validRange(mesh, motion, { 1, 1 }, {}, serial).highest, 4, 1e-9);
     }
   }
 }

@@ -307,7 +307,7 @@ Quality qualityOf(vtkAlgorithm* filter)
     morph->GetMinScaledJacobian() };
 }
 
-/// Whether two minima are the same within 2 %, or 0.001. A search ends by its energy, and so leaves
+/// Whether two minima are the same within 2 %, or 0.0002. A search ends by its energy, and so leaves
 /// nodes in their places to a part of an edge, however near the minimum is to 0. Where inverted
 /// cells remain in both, the objective has no bound or many minima, and rounding decides at which a
 /// search ends.
@@ -317,7 +317,7 @@ bool areAlike(const Quality& one, const Quality& other)
   {
     return one.bad > 0 && other.bad > 0;
   }
-  const double size = std::max({ std::abs(one.least), std::abs(other.least), 0.05 });
+  const double size = std::max({ std::abs(one.least), std::abs(other.least), 0.01 });
   return (std::isnan(one.least) && std::isnan(other.least)) ||
          std::abs(one.least - other.least) <= 0.02 * size;
 }

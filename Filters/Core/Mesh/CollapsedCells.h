@@ -28,8 +28,8 @@ namespace morph
 /// Cost: a pass, and that of repeatedCells().
 void recognizeCells(Mesh& mesh, Monitor& monitor);
 
-/// Lets the one of lowest id count of volume cells with the same corners, as recognizeCells() lets
-/// the first one. `ids`: #cells, all different.
+/// Lets the one of lowest id count of volume cells with the same corners. `ids`: #cells, all
+/// different. `mesh`: after recognizeCells(), joined of the pieces of several processes.
 void keepFirstCopies(Mesh& mesh, const std::vector<std::int64_t>& ids, Monitor& monitor);
 
 /// Returns those of `cells` that name a corner more than once and are no closed shape, as corners

@@ -193,23 +193,25 @@ private:
     {
       corners.push_back(static_cast<Index>(rows[k]));
     }
-    std::map<Index, Index> numberOf;
-    for (const Index node : processes.nodesOf(corners))
+    const auto byId = [&processes](const std::vector<Index>& local)
     {
-      numberOf[processes.idsOf({ node }).front()] = node;
-    }
-    std::map<Index, Index> followerOf;
-    for (const Index node : nodes)
-    {
-      followerOf[processes.idsOf({ node }).front()] = node;
-    }
+      const std::vector<Index> ids = processes.idsOf(local);
+      std::map<Index, Index> result;
+      for (std::size_t k = 0; k < ids.size(); ++k)
+      {
+        result[ids[k]] = local[k];
+      }
+      return result;
+    };
+    const std::map<Index, Index> cornerOf = byId(processes.nodesOf(corners)),
+                                 followerOf = byId(nodes);
     std::map<Index, std::map<Index, double>> result;
     std::vector<Index> missing;
     for (std::size_t k = 0; k < rows.size(); k += 3)
     {
       const auto follower = followerOf.find(static_cast<Index>(rows[k]));
-      const auto corner = numberOf.find(static_cast<Index>(rows[k + 1]));
-      if (follower != followerOf.end() && corner != numberOf.end())
+      const auto corner = cornerOf.find(static_cast<Index>(rows[k + 1]));
+      if (follower != followerOf.end() && corner != cornerOf.end())
       {
         result[follower->second][corner->second] = rows[k + 2];
       }

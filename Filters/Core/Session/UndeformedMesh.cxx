@@ -260,8 +260,7 @@ void warnOfUnrecognized(const std::vector<Index>& cells, Monitor& monitor)
                  "cell ids " +
                  listIds(cells) +
                  ". They count as degenerate, however they move, and methods see them "
-                 "approximately. Divide them into other cells or, if they are quadratic, make them "
-                 "linear.");
+                 "approximately. Divide them into other cells.");
   }
 }
 
