@@ -161,7 +161,8 @@ Finding checkCounts(const Case& made, vtkUnstructuredGrid* output)
   for (Index c = 0; quality && c < mesh.numberOfCells(); ++c)
   {
     const morph::CellShape* shape = morph::cellShape(mesh.types[c]);
-    const bool isQuadratic = shape && shape->numberOfNodes > shape->numberOfCorners;
+    const bool isQuadratic =
+      shape && shape->numberOfNodes > shape->numberOfCorners && !morph::hasFaces(mesh, c);
     isPositive[c] = isQuadratic && quality->GetComponent(c, 0) > 0;
   }
   const Index wrong =
