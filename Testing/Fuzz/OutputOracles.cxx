@@ -425,7 +425,7 @@ Finding checkKnown(const Case& made, vtkPointSet* output, vtkDataArray* ids, con
     moved.row(ids ? static_cast<Index>(ids->GetComponent(p, 0)) : p) = points.row(p);
   }
   const double farthest = std::max(rest.cwiseAbs().maxCoeff(), moved.cwiseAbs().maxCoeff());
-  const double allowed = 1e-12 * made.grid.size + 1e-13 * farthest; // many steps round
+  const double allowed = 1e-12 * made.grid.size + 1e-12 * farthest; // many steps round
   const auto found = [&](const char* oracle, double off)
   {
     std::ostringstream text;
@@ -455,12 +455,14 @@ Finding checkKnown(const Case& made, vtkPointSet* output, vtkDataArray* ids, con
   return found("plane of symmetry", known.offPlane(rest, moved));
 }
 
-/// If the middle of a hexahedron of one body is deep in a valid one of the other, faces cross.
+/// If the middle of a hexahedron of one body is deep in a valid one of the other, faces cross. Not if
+/// these are far longer than wide: then bodies are as near each other as if they were in contact.
 Finding checkOverlap(const Case& made, vtkUnstructuredGrid* output)
 {
   const std::vector<Index>& twin = made.grid.known.twin;
+  const bool isCompact = !twin.empty() && made.choices.value("place.stretched") == 0;
   std::vector<vtkIdType> cells[2]; // of the bodies
-  for (vtkIdType c = 0; c < output->GetNumberOfCells() && !twin.empty(); ++c)
+  for (vtkIdType c = 0; c < output->GetNumberOfCells() && isCompact; ++c)
   {
     const bool isTwin =
       std::binary_search(twin.begin(), twin.end(), output->GetCell(c)->GetPointId(0));
