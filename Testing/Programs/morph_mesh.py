@@ -682,6 +682,10 @@ class MorphMesh(unittest.TestCase):
         self.fails(1, "'Surface 99', which the boundary does not have; it has Surface 0", "--move",
                    "Surface 99", "--translate", "0,0,1", BORE, flat)
         self.fails(2, "The commands are move, fit, bake, list")
+        self.fails(2, "no file convert-boundary. The commands are move", "convert-boundary", BORE,
+                   flat)
+        self.fails(2, "Try morph-mesh list --help.", "list")
+        self.fails(2, "Try morph-mesh --help.", BORE)
 
     def test_repair_and_check(self):
         """A cell that was inverted before is mended; the boundary stays."""
