@@ -117,7 +117,7 @@ def source_of(test):
     if file.endswith("CMakeLists.txt"):
         pattern = rf"^add_test\(NAME {re.escape(name)}\s.*?\)\n"
     else:  # a shell script, without what its usage says
-        text = re.sub(r"<<END\n.*?^END$|#.*$", "", text, flags=re.MULTILINE | re.DOTALL)
+        text = re.sub(r"<<END\n.*?^END$|^\s*#[^\n]*", "", text, flags=re.MULTILINE | re.DOTALL)
         pattern = rf"^    {name}\).*?;;" if name else r".*"
     return "".join(re.findall(pattern, text, re.MULTILINE | re.DOTALL))
 
