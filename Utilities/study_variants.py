@@ -5,11 +5,11 @@ exact surfaces, meshes of the paper's size. Takes some minutes, most of it Gmsh'
 
     pvpython Utilities/study_variants.py
 
-Writes Documentation/Study/variants.csv, a row for each mesh, of minimum scaled Jacobians and numbers
-of inverted cells: linear_*, our simplex-linear; ties_*, that of a tessellation whose ties are divided
-as the numbering has it (Qhull's; of five numberings the lowest and the highest minimum, and the most
-inverted cells); smoothing_*, ours; undeformed_*, smoothing that starts with the interior where it
-was."""
+Writes Documentation/Study/variants.csv, a row for each mesh, of minimum scaled Jacobians and
+numbers of inverted cells: linear_*, our simplex-linear; ties_*, that of a tessellation whose ties
+are divided as the numbering has it (Qhull's; of five numberings the lowest and the highest minimum,
+and the most inverted cells); smoothing_*, ours; undeformed_*, smoothing that starts with the
+interior where it was."""
 
 import argparse
 import csv
