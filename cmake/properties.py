@@ -454,7 +454,7 @@ def property_xml(row, find, more=""):
             "flag": "Int", "choice": "Int"}.get(row.kind, "String")
     if row.kind in LISTS:
         what = (f'command="Set{row.name[:-1]}Status" clean_command="RemoveAll{row.name}" '
-                'information_property="SurfaceList" repeat_command="1" '
+                f'information_property="{LISTS[row.kind]}List" repeat_command="1" '
                 'number_of_elements_per_command="2" element_types="2 0"')
         what += ' panel_widget="ZoneList"' if row.kind == "zones" else ""
     else:

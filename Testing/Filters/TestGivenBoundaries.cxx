@@ -156,6 +156,36 @@ TEST_F(GivenBoundaries, PointsWithoutAValueAreFree)
   EXPECT_TRUE(names(this->Errors, "No point of the boundary has a displacement"));
 }
 
+TEST_F(GivenBoundaries, NodesBetweenAFreeCornerAndOneThatStaysDivideTheirEdge)
+{
+  const morph::Mesh mesh = meshes::quadraticHexes(2, 2, 2, false);
+  auto grid = grids::make(mesh);
+  std::vector<morph::Index> corners; // of the end at x = 2
+  for (morph::Index n = 0; n < 27; ++n)
+  {
+    if (mesh.points(n, 0) == 2)
+    {
+      corners.push_back(n);
+    }
+  }
+  auto boundary = grids::cloud(mesh.points(corners, morph::allColumns));
+  grids::addIds(boundary, "MorphPointId", corners);
+  morph::Points by = morph::Points::Constant(static_cast<morph::Index>(corners.size()), 3, 0.1);
+  const morph::Index free = corners.front(); // on the edge at y = z = 0
+  by(0, 0) = NaN;
+  grids::addVectors(boundary, "By", by);
+  this->Filter->SetDisplacementArray("By");
+  const morph::Points step = this->Run(grid, boundary) - mesh.points;
+  EXPECT_GT(step.row(free).norm(), 1e-3);
+  for (morph::Index n = 27; n < mesh.numberOfNodes(); ++n)
+  {
+    if (mesh.points.row(n) == Row(1.5, 0, 0))
+    {
+      EXPECT_LT((step.row(n) - step.row(free) / 2).norm(), 1e-12);
+    }
+  }
+}
+
 TEST_F(GivenBoundaries, NodesWithoutAValueAreFreeInMorphMesh)
 {
   auto grid = grids::hexes(4);

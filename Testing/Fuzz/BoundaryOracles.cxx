@@ -296,6 +296,35 @@ Finding checkBodies(const Case& made, vtkPointSet* output, vtkDataArray* roles, 
   }
   return {};
 }
+
+/// The sides of a slit part only if one of them is held, free, in a zone or a layer.
+Finding checkSlit(const Case& made, vtkPointSet* output, vtkDataArray* roles, vtkDataArray* ids)
+{
+  std::map<Index, vtkIdType> pointOf;
+  for (vtkIdType p = 0; p < output->GetNumberOfPoints(); ++p)
+  {
+    pointOf[static_cast<Index>(ids->GetComponent(p, 0))] = p;
+  }
+  for (const auto& [node, copy] : made.grid.known.slit)
+  {
+    if (pointOf.count(node) + pointOf.count(copy) < 2)
+    {
+      continue; // ghosts
+    }
+    const double role = roles->GetComponent(pointOf.at(node), 0);
+    const double other = roles->GetComponent(pointOf.at(copy), 0);
+    Row x, y;
+    output->GetPoint(pointOf.at(node), x.data());
+    output->GetPoint(pointOf.at(copy), y.data());
+    const auto isMoved = [](double r) { return r == 1 || r == 3; };
+    if ((role == 1 || other == 1) && isMoved(role) && isMoved(other) &&
+        (x - y).cwiseAbs().maxCoeff() > 10 * roundingOf(output, x))
+    {
+      return { "slit", nodeText(node) + " parts from node " + std::to_string(copy) };
+    }
+  }
+  return {};
+}
 }
 
 Finding checkDisplaced(const Case& made, vtkPointSet* output)
@@ -327,6 +356,11 @@ Finding checkDisplaced(const Case& made, vtkPointSet* output)
       return { "displaced boundary", nodeText(node) + " is to stay, and moves" };
     }
   }
-  return isGrid && made.grid.isAsMesh ? checkBodies(made, output, roles, ids) : Finding{};
+  if (!isGrid || !made.grid.isAsMesh)
+  {
+    return {};
+  }
+  const Finding parted = checkSlit(made, output, roles, ids);
+  return parted ? parted : checkBodies(made, output, roles, ids);
 }
 }

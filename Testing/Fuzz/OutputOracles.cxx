@@ -5,6 +5,7 @@
 #include "Mesh/CellShape.h"
 #include "Mesh/CollapsedCells.h"
 #include "Mesh/HangingNodes.h"
+#include "Mesh/Polyhedra.h"
 #include "RandomMesh.h"
 #include "Recount.h"
 #include "vtkDisplacementAlgorithm.h"
@@ -13,6 +14,7 @@
 #include "vtkMorphMesh.h"
 #include "vtkMorphShapes.h"
 
+#include <vtkCell.h>
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkDoubleArray.h>
@@ -161,7 +163,8 @@ Finding checkCounts(const Case& made, vtkUnstructuredGrid* output)
   for (Index c = 0; quality && c < mesh.numberOfCells(); ++c)
   {
     const morph::CellShape* shape = morph::cellShape(mesh.types[c]);
-    const bool isQuadratic = shape && shape->numberOfNodes > shape->numberOfCorners;
+    const bool isQuadratic =
+      shape && shape->numberOfNodes > shape->numberOfCorners && !morph::hasFaces(mesh, c);
     isPositive[c] = isQuadratic && quality->GetComponent(c, 0) > 0;
   }
   const Index wrong =
@@ -422,7 +425,7 @@ Finding checkKnown(const Case& made, vtkPointSet* output, vtkDataArray* ids, con
     moved.row(ids ? static_cast<Index>(ids->GetComponent(p, 0)) : p) = points.row(p);
   }
   const double farthest = std::max(rest.cwiseAbs().maxCoeff(), moved.cwiseAbs().maxCoeff());
-  const double allowed = 1e-12 * made.grid.size + 1e-13 * farthest; // many steps round
+  const double allowed = 1e-12 * made.grid.size + 1e-12 * farthest; // many steps round
   const auto found = [&](const char* oracle, double off)
   {
     std::ostringstream text;
@@ -450,6 +453,43 @@ Finding checkKnown(const Case& made, vtkPointSet* output, vtkDataArray* ids, con
     return images;
   }
   return found("plane of symmetry", known.offPlane(rest, moved));
+}
+
+/// If the middle of a hexahedron of one body is deep in a valid one of the other, faces cross. Not if
+/// these are far longer than wide: then bodies are as near each other as if they were in contact.
+Finding checkOverlap(const Case& made, vtkUnstructuredGrid* output)
+{
+  const std::vector<Index>& twin = made.grid.known.twin;
+  const bool isCompact = !twin.empty() && made.choices.value("place.stretched") == 0;
+  std::vector<vtkIdType> cells[2]; // of the bodies
+  for (vtkIdType c = 0; c < output->GetNumberOfCells() && isCompact; ++c)
+  {
+    const bool isTwin =
+      std::binary_search(twin.begin(), twin.end(), output->GetCell(c)->GetPointId(0));
+    if (output->GetCellType(c) == VTK_HEXAHEDRON &&
+        output->GetCellData()->GetArray("ScaledJacobian")->GetComponent(c, 0) > 0.2)
+    {
+      cells[isTwin].push_back(c);
+    }
+  }
+  for (const vtkIdType other : cells[1])
+  {
+    double middle[3] = { 0.5, 0.5, 0.5 }, x[3], weights[8], r[3], distance;
+    int sub = 0;
+    output->GetCell(other)->EvaluateLocation(sub, middle, x, weights);
+    for (const vtkIdType c : cells[0])
+    {
+      const bool isIn =
+        output->GetCell(c)->EvaluatePosition(x, nullptr, sub, r, distance, weights) == 1;
+      if (isIn && std::all_of(r, r + 3, [](double at) { return at > 0.3 && at < 0.7; }) &&
+          fieldValue(output, "CrossingFaces") == 0)
+      {
+        return { "crossings", "none, but cell " + std::to_string(c) + " has the middle of cell " +
+                                std::to_string(other) + " of another body" };
+      }
+    }
+  }
+  return {};
 }
 
 bool hasAdvice(vtkAlgorithm* filter)
@@ -489,7 +529,8 @@ Finding checkMesh(const Case& made, F* filter, const Run& run)
     return {};
   }
   for (const auto& found : { checkCells(made.grid.grid(), output), checkCounts(made, output),
-         checkMirrored(made, output, run), checkKnown(made, output, nullptr, run) })
+         checkMirrored(made, output, run), checkKnown(made, output, nullptr, run),
+         checkOverlap(made, output) })
   {
     if (found)
     {

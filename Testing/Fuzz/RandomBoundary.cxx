@@ -45,9 +45,10 @@ constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
 /// Where the boundary goes. Lengths are in units of the mesh's size.
 Map motion(Choices& choices, const RandomGrid& grid, bool hostile, RandomBoundary& boundary)
 {
+  const bool isApart = !grid.known.twin.empty() && choices.value("twin.gap") != 0;
   const int kind = choices.pick("motion",
-    { "none", "affine", "turn", "twist", "bulge", "noise", "collapse", "huge" },
-    { 1, 3, 1, 2, 2, 2, hostile ? 0.8 : 0, hostile ? 1.5 : 0 });
+    { "none", "affine", "turn", "twist", "bulge", "noise", "collapse", "huge", "into the other" },
+    { 1, 3, 1, 2, 2, 2, hostile ? 0.8 : 0, hostile ? 1.5 : 0, isApart ? 8. : 0. });
   auto random = std::make_shared<Random>(choices.stream("motion"));
   Row middle = Row::Zero();
   for (const Index n : grid.outer)
@@ -108,6 +109,26 @@ Map motion(Choices& choices, const RandomGrid& grid, bool hostile, RandomBoundar
     {
       const double factor = random->power(3, random->happens(0.5) ? 12 : 300);
       return [=](const Row& x) -> Row { return middle + factor * (x - middle); };
+    }
+    case 8:
+    {
+      std::set<std::vector<double>> places;
+      Row step = Row::Zero(); // from a body to the other, a copy
+      for (const Index n : grid.outer)
+      {
+        const Row x = grid.mesh.points.row(n);
+        const std::vector<Index>& twin = grid.known.twin;
+        const bool isTwin = std::binary_search(twin.begin(), twin.end(), n);
+        step += (isTwin ? 2. : -2.) / static_cast<double>(grid.outer.size()) * x;
+        if (isTwin)
+        {
+          places.insert({ x[0], x[1], x[2] });
+        }
+      }
+      const Row into = -random->between(0.3, 0.7) * step;
+      return [=](const Row& x) -> Row {
+        return places.count({ x[0], x[1], x[2] }) > 0 ? Row(x + into) : x;
+      };
     }
     default:
       boundary.isNothing = boundary.isAffine = true;

@@ -242,6 +242,31 @@ void shiftMiddles(Random random, const Mesh& mesh, Known& known)
   }
 }
 
+/// Lets the cells on one side of a node inside have a copy of it, so that faces part there.
+void openSlit(Random random, Mesh& mesh, Known& known)
+{
+  const std::vector<Index> outer = outerNodes(mesh);
+  std::vector<Index> inside(mesh.numberOfNodes());
+  std::iota(inside.begin(), inside.end(), Index{ 0 });
+  inside.erase(std::remove_if(inside.begin(), inside.end(),
+                 [&](Index n) { return std::binary_search(outer.begin(), outer.end(), n); }),
+    inside.end());
+  const Index node = inside[random.below(static_cast<int>(inside.size()))];
+  const Index copy = mesh.numberOfNodes();
+  mesh.points.conservativeResize(copy + 1, 3);
+  mesh.points.row(copy) = mesh.points.row(node);
+  known.slit.emplace_back(node, copy);
+  for (Index c = 0; c < mesh.numberOfCells(); ++c)
+  {
+    const std::vector<Index> nodes(mesh.cell(c), mesh.cell(c) + mesh.cellSize(c));
+    if (mesh.points(nodes, 0).mean() > mesh.points(node, 0))
+    {
+      std::replace(mesh.connectivity.begin() + mesh.offsets[c],
+        mesh.connectivity.begin() + mesh.offsets[c + 1], node, copy);
+    }
+  }
+}
+
 /// A rectangle in the plane z = 0, or a saddle on it, of quadrilaterals, triangles or both, linear
 /// or quadratic.
 Mesh faces(Choices& choices, Known& known)
@@ -334,21 +359,26 @@ Mesh lattice(Choices& choices, Known& known)
   const auto length = [large](Random& random) {
     return random.happens(large) ? 3 + random.below(2) : random.happens(0.05) ? 1 : 2;
   };
-  const int nx = choices.whole("mesh.nx", 2, length);
-  const int ny = choices.whole("mesh.ny", 2, length);
+  const bool isSlit = kind < 5 && order == 0 && choices.chance("with.slit", 0.05);
+  const int nx = isSlit ? 3 : choices.whole("mesh.nx", 2, length);
+  const int ny = isSlit ? 3 : choices.whole("mesh.ny", 2, length);
   const bool mayBeLayer = kind == 0 || kind == 2;
-  const int sides = kind < 7
+  const int sides = kind < 7 && !isSlit
                       ? choices.pick("with.sides", { "none", "periodic", "symmetry", "layer" },
                           { 20, 1, 1, mayBeLayer ? 1. : 0. })
                       : 0;
-  const int nz = sides == Layer ? 1 : choices.whole("mesh.nz", 2, length);
+  const int nz = isSlit ? 3 : sides == Layer ? 1 : choices.whole("mesh.nz", 2, length);
   using Maker = Mesh (*)(int, int, int);
   constexpr Maker makers[] = { meshes::hexes, meshes::tets, meshes::wedges,
     meshes::hexesAndPyramids, meshes::hexesAndWedges, voxels, pyramids, finned };
   Mesh mesh = kind == 8 ? soup(choices.stream("mesh.soup")) : makers[kind](nx, ny, nz);
   // In part: mid-side nodes that the neighbor does not have.
   const double part = order > 0 && choices.chance("mesh.partlyQuadratic", 0.1) ? 0.5 : 1;
-  known.isCollapsed = kind == 0 && sides == 0 && choices.chance("with.collapsed", 0.15);
+  if (isSlit)
+  {
+    openSlit(choices.stream("mesh.slit"), mesh, known);
+  }
+  known.isCollapsed = kind == 0 && sides == 0 && !isSlit && choices.chance("with.collapsed", 0.15);
   if (known.isCollapsed)
   {
     collapse(choices, mesh);
@@ -522,6 +552,10 @@ void jitter(Choices& choices, Mesh& mesh, bool hostile, const Known& known)
   {
     mesh.points.col(2).setZero();
   }
+  for (const auto& [node, copy] : known.slit)
+  {
+    mesh.points.row(copy) = mesh.points.row(node);
+  }
   for (const Known::Between& own : known.between)
   {
     mesh.points.row(own.node) =
@@ -556,6 +590,8 @@ void addTwin(Choices& choices, Mesh& mesh, Known& known)
   twin.points.col(0).array() += size * (gap == 0 ? 1 : gap == 1 ? 1.01 : 1.5);
   const Index nodes = mesh.numberOfNodes();
   mesh = shapes::together(mesh, twin);
+  known.twin.resize(nodes);
+  std::iota(known.twin.begin(), known.twin.end(), nodes);
   const auto shifted = [nodes](std::vector<Index> ids)
   {
     std::for_each(ids.begin(), ids.end(), [nodes](Index& id) { id += nodes; });
@@ -660,13 +696,20 @@ void spoilPoints(Choices& choices, Mesh& mesh, bool hostile, Known& known)
       node = order[node];
       image = order[image];
     }
+    for (auto& [node, copy] : known.slit)
+    {
+      node = order[node];
+      copy = order[copy];
+    }
     for (Known::Between& own : known.between)
     {
       own = { order[own.node], { order[own.ends[0]], order[own.ends[1]] }, own.at };
     }
-    rename(known.outer);
-    rename(known.plane);
-    std::sort(known.outer.begin(), known.outer.end());
+    for (std::vector<Index>* ids : { &known.outer, &known.plane, &known.twin })
+    {
+      rename(*ids);
+      std::sort(ids->begin(), ids->end());
+    }
   }
   if (!hostile || mesh.numberOfNodes() == 0)
   {
@@ -728,6 +771,10 @@ std::vector<Index> outerNodes(const Mesh& mesh)
     {
       vtkIdList* ids = cell->GetFace(f)->GetPointIds();
       std::vector<vtkIdType> nodes(ids->begin(), ids->end());
+      if (shape->faces[f].size == 4 && (nodes[0] == nodes[2] || nodes[1] == nodes[3]))
+      {
+        continue; // it goes to a corner and back
+      }
       // Corners come first.
       std::set<vtkIdType> corners(
         nodes.begin(), nodes.begin() + std::min<std::size_t>(nodes.size(), shape->faces[f].size));

@@ -34,12 +34,15 @@ struct Known
     std::array<morph::Index, 2> ends; ///< corners
     double at;                        ///< which part of the way to the second one
   };
-  std::vector<Between> between; ///< nodes on edges, anywhere in the middle third
+  std::vector<Between> between;   ///< nodes on edges, anywhere in the middle third
+  std::vector<morph::Index> twin; ///< nodes of a copy beside the mesh, ascending
+  std::vector<std::pair<morph::Index, morph::Index>> slit; ///< nodes at one place, of two sides
 
   bool isAny() const
   {
     return this->faces != None || !this->outer.empty() || !this->images.empty() ||
-           !this->plane.empty() || this->isCollapsed || !this->between.empty();
+           !this->plane.empty() || this->isCollapsed || !this->between.empty() ||
+           !this->slit.empty();
   }
   /// The largest distance of a node that hangs from its place.
   double gap(const morph::Points& points) const;

@@ -116,6 +116,24 @@ class HandTasks(unittest.TestCase):
         self.assertTrue(done(status(wider)))
         hands.wait(STATUS, status(wider).__eq__)
 
+    def test_an_interface_of_blocks_moves(self):
+        hands, parts = self.hands, self.folder / "parts.vtm"
+        sides = [simple.AppendDatasets(Input=simple.Wavelet(WholeExtent=[*along, 0, 4, 0, 4]))
+                 for along in ((0, 4), (4, 8))]
+        blocks = simple.GroupDatasets(Input=sides, BlockNames=["Soft", "Stiff"])
+        simple.SaveData(str(parts), blocks)
+        moved = MorphMesh(Input=blocks, Surfaces=["Soft | Stiff"])
+        moved.Transform.Translate = [0.5, 0, 0]
+        self.open(parts)
+        hands.button("Morph Mesh")
+        hands.tick(ROWS, "Soft | Stiff")
+        hands.fill(MOVED[0], "0.5")
+        hands.key("Tab")  # else ParaView's box takes the first press elsewhere
+        hands.button("Apply")
+        self.assertEqual(self.ended(), status(moved))
+        self.assertEqual(hands.messages(), "")  # the zones' lists have both blocks
+        picture("an interface moves")
+
     def test_tab_behind_a_handle_adds_no_row(self):
         hands = self.hands
         self.open(CANISTER)

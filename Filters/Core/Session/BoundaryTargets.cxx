@@ -158,8 +158,8 @@ Index takeFree(NamedPoints& named, std::vector<Index>& row)
 }
 
 /// Marks the outer nodes without a row as held, but for mid-side and face nodes between corners one
-/// of which moves: those follow their cell, or edges would bend where corners alone are named. A
-/// motion of rounding is none: rotation about a node leaves such. ScaleFactor does not matter, so
+/// of which moves or is free: those follow their cell, or edges would bend where corners alone are
+/// named. A motion of rounding is none: rotation about a node leaves such. ScaleFactor does not matter, so
 /// that changing it does not prepare again.
 void holdUnnamed(const BoundaryFaces& outer, const Mesh& rest, double size, const Points& targets,
   std::vector<Index>& row)
@@ -168,7 +168,8 @@ void holdUnnamed(const BoundaryFaces& outer, const Mesh& rest, double size, cons
   {
     const auto from = rest.points.row(node);
     const double rounding = 1e-12 * size + 1e-15 * from.cwiseAbs().maxCoeff();
-    return row[node] >= 0 && (targets.row(row[node]) - from).norm() > rounding;
+    return row[node] == Free ||
+           (row[node] >= 0 && (targets.row(row[node]) - from).norm() > rounding);
   };
   for (std::size_t i = 0; i < outer.nodes.size(); ++i)
   {
