@@ -4,11 +4,11 @@
 
     Testing/Benchmark/install.py    # after apt-get update, as root
 
-Writes this release's row of results/install.csv. Of the packages of install-packages.sh --use,
-without those that the smallest system has: megabytes to download, and on the disk, as the index of
-apt has them. In a bare system that other-debian.sh makes: minutes until these packages are
-installed, downloads included, and minutes of processor time, of all cores in sum, that build.sh
-takes from nothing."""
+Writes this release's rows. results/install.csv: of the packages of install-packages.sh --use,
+without those that the smallest system has, megabytes to download and on the disk, as the index of
+apt has them. results/install-minutes.csv: in a bare system that other-debian.sh makes, minutes
+until these packages are installed, downloads included, and minutes of processor time, of all cores
+in sum, that build.sh takes from nothing."""
 
 import csv
 import os
@@ -21,12 +21,9 @@ import time
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent.parent
-DATA = ROOT / "Testing/Benchmark/results/install.csv"
+RESULTS = ROOT / "Testing/Benchmark/results"
 sys.path.insert(0, str(ROOT / "Utilities"))
-from study_pieces import commit  # noqa: E402  (needs the path above)
-
-FIELDS = ("release", "download_MB", "disk_MB", "install_minutes", "build_processor_minutes",
-          "commit")
+from study_pieces import commit, machine  # noqa: E402  (needs the path above)
 
 
 def apt(program, folder, *arguments):
@@ -79,18 +76,27 @@ def minutes_row(suite):
     return {"install_minutes": installed, "build_processor_minutes": built}
 
 
+def write(name, row):
+    """Takes the place of this release's row."""
+    path = RESULTS / name
+    others = []
+    if path.exists():
+        with open(path, encoding="utf-8") as file:
+            others = [one for one in csv.DictReader(file) if one["release"] != row["release"]]
+    with open(path, "w", encoding="utf-8", newline="") as file:
+        table = csv.DictWriter(file, list(row), lineterminator="\n")
+        table.writeheader()
+        table.writerows(sorted([*others, row], key=lambda one: one["release"]))
+
+
 def main():
     text = Path("/etc/os-release").read_text(encoding="utf-8")
     system = dict(re.findall(r'^(\w+)="?(.*?)"?$', text, re.MULTILINE))
-    release = system["ID"] + " " + system.get("VERSION_ID", "unstable")
-    row = {"release": release, "commit": commit(), **packages_row(),
-           **minutes_row(system["VERSION_CODENAME"])}
-    with open(DATA, encoding="utf-8") as file:
-        others = [other for other in csv.DictReader(file) if other["release"] != release]
-    with open(DATA, "w", encoding="utf-8", newline="") as file:
-        table = csv.DictWriter(file, FIELDS, lineterminator="\n")
-        table.writeheader()
-        table.writerows(sorted([*others, row], key=lambda one: one["release"]))
+    release = {"release": system["ID"] + " " + system.get("VERSION_ID", "unstable")}
+    state = commit()
+    write("install.csv", {**release, **packages_row(), "commit": state})
+    write("install-minutes.csv", {**release, **minutes_row(system["VERSION_CODENAME"]),
+                                  "machine": machine(), "commit": state})
 
 
 if __name__ == "__main__":
