@@ -397,12 +397,8 @@ void DistributedMesh::addGhosts(int layers, Monitor& monitor)
 void DistributedMesh::findHanging(Builder& builder, Monitor& monitor)
 {
   const Ranks& ranks = *this->ranks_;
-  struct Side
-  {
-    std::int64_t cell, side;
-  };
-  std::vector<Side> sides;
-  std::vector<Index> ofSides; // own cells
+  std::vector<std::array<std::int64_t, 2>> sides; // ids of cells, and their sides
+  std::vector<Index> ofSides;                     // own cells
   bool mayBe = false;
   ranks.together(
     [&]
@@ -439,9 +435,9 @@ void DistributedMesh::findHanging(Builder& builder, Monitor& monitor)
     numberOf.emplace(all.cellIds_[c], c);
   }
   std::vector<std::pair<Index, int>> places;
-  for (const Side& side : ranks.gather(sides))
+  for (const auto& [cell, side] : ranks.gather(sides))
   {
-    places.emplace_back(numberOf.at(side.cell), static_cast<int>(side.side));
+    places.emplace_back(numberOf.at(cell), static_cast<int>(side));
   }
   std::sort(places.begin(), places.end());
   HangingNodes hanging;

@@ -211,6 +211,55 @@ TEST(RankComposite, AllMethodsMoveBlocksAsOnOneRank)
   }
 }
 
+TEST(RankComposite, AShellAndABeamOfOtherBlocksComeAlong)
+{
+  const Ranks ranks = pieces::world();
+  const morph::Mesh solid = meshes::hexes(4, 3, 3);
+  morph::Mesh shell, beam; // the shell stands on the solid, the beam on the shell
+  shell.points.resize(10, 3);
+  for (Index i = 0; i < 5; ++i)
+  {
+    shell.points.row(i) << static_cast<double>(i), 1, 3;
+    shell.points.row(5 + i) << static_cast<double>(i), 1, 4.5;
+  }
+  for (Index i = 0; i < 4; ++i)
+  {
+    shell.add(morph::Quad, { i, i + 1, i + 6, i + 5 });
+  }
+  beam.points.resize(2, 3);
+  beam.points << 2, 1, 4.5, 2, 1, 6;
+  beam.add(morph::Line, { 0, 1 });
+  vtkNew<vtkMultiBlockDataSet> tree;
+  Index first = 0;
+  for (const morph::Mesh& mesh : { beam, shell, solid })
+  {
+    const auto grid = grids::make(mesh);
+    std::vector<Index> numbers = morph::consecutive(mesh.numberOfNodes());
+    std::for_each(numbers.begin(), numbers.end(), [&](Index& number) { number += first; });
+    grids::addIds(grid, "Number", numbers);
+    tree->SetBlock(tree->GetNumberOfBlocks(), grid);
+    first += mesh.numberOfNodes();
+  }
+  const grids::Map turned = [](const Row& x)
+  { return Row(0.6 * x[0] - 0.8 * x[2], x[1] + 2, 0.8 * x[0] + 0.6 * x[2]); };
+  std::map<vtkIdType, Row> expected = blocks::pointsByNumber(tree);
+  for (auto& [number, x] : expected)
+  {
+    x = turned(x);
+  }
+
+  const Tree part = rank_trees::part(ranks, tree, meshes::seed());
+  auto filter = vtkSmartPointer<vtkFEMWarpMorph>::New();
+  filter->SetInputDataObject(part);
+  filter->SetBoundaryData(moved(part, turned));
+  const grids::Run listener(filter);
+
+  EXPECT_TRUE(listener.Errors.empty()) << listener.Errors[0];
+  EXPECT_TRUE(listener.Warnings.empty()) << listener.Warnings[0];
+  EXPECT_LT(distance(ranks, filter->GetOutputDataObject(0), expected), 1e-9);
+  EXPECT_EQ(filter->GetAttachedPoints(), 6);
+}
+
 TEST(RankComposite, SetsAreNamesAndFollowNodesOfOtherRanks)
 {
   const Ranks ranks = pieces::world();

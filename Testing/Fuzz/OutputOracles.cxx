@@ -455,8 +455,8 @@ Finding checkKnown(const Case& made, vtkPointSet* output, vtkDataArray* ids, con
   return found("plane of symmetry", known.offPlane(rest, moved));
 }
 
-/// If the middle of a hexahedron of one body is deep in a valid one of the other, faces cross. Not if
-/// these are far longer than wide: then bodies are as near each other as if they were in contact.
+/// If the middle of a hexahedron of one body is deep in a valid one of the other, faces cross. Not
+/// if these are far longer than wide: then bodies are as near as if they were in contact.
 Finding checkOverlap(const Case& made, vtkUnstructuredGrid* output)
 {
   const std::vector<Index>& twin = made.grid.known.twin;

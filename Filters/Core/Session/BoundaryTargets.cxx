@@ -159,8 +159,8 @@ Index takeFree(NamedPoints& named, std::vector<Index>& row)
 
 /// Marks the outer nodes without a row as held, but for mid-side and face nodes between corners one
 /// of which moves or is free: those follow their cell, or edges would bend where corners alone are
-/// named. A motion of rounding is none: rotation about a node leaves such. ScaleFactor does not matter, so
-/// that changing it does not prepare again.
+/// named. A motion of rounding is none: rotation about a node leaves such. ScaleFactor does not
+/// matter, so that changing it does not prepare again.
 void holdUnnamed(const BoundaryFaces& outer, const Mesh& rest, double size, const Points& targets,
   std::vector<Index>& row)
 {

@@ -69,9 +69,9 @@ void gatherPoints(const Communicator& processes, NamedPoints& named);
 /// meshSize(). A node that is named more than once goes where it is named first. Nodes of free
 /// points are solved with the interior, unless another point names them. With `fixUnnamedBoundary`
 /// all other outer nodes are held, except those in the middle of an edge or face one of whose
-/// corners moves or is free. Throws Error, naming ids, where NamedPoints::rest is not at the nodes, for
-/// targets that are not finite or beyond 1e50, and where points of one node part. `globalIds`: of
-/// the nodes, for a part of a mesh that is distributed over processes. Messages name these then.
+/// corners moves or is free. Throws Error, naming ids, where NamedPoints::rest is not at the nodes,
+/// for targets that are not finite or beyond 1e50, and where points of one node part. `globalIds`:
+/// of the nodes, for a part of a mesh that is distributed over processes. Messages name these then.
 /// Cost: a pass over the points, and one over the nodes.
 BoundaryTargets findTargets(NamedPoints named, const Mesh& rest, const BoundaryFaces& outer,
   double size, const TargetOptions& options, const std::vector<std::int64_t>* globalIds = nullptr);

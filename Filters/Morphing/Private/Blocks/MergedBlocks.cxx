@@ -137,11 +137,11 @@ bool areRounded(
 
 /// Blocks of lower dimension, such as shells and beams, become parts of the mesh where they hang on
 /// it by some of their points, and so on with those that hang on these. A block that is on it with
-/// all of its points is a set of its faces, edges or nodes.
+/// all of its points is a set of its faces, edges or nodes. On ranks options.Attached tells which.
 void attachParts(const std::vector<Leaves::Leaf>& leaves, const MergedBlocks::Options& options,
   SharedNodes& nodes, std::vector<Part>& parts, MergedBlocks& merged)
 {
-  for (bool isAny = options.Merges && !options.AreOnRanks; isAny;)
+  for (bool isAny = options.Merges; isAny;)
   {
     isAny = false;
     for (std::size_t i = 0; i < leaves.size(); ++i)
@@ -156,7 +156,10 @@ void attachParts(const std::vector<Leaves::Leaf>& leaves, const MergedBlocks::Op
       const morph::Points points = BlockCells::ReadPoints(data);
       const std::vector<Index> found = nodes.Find({ points, {} });
       const auto missing = std::count(found.begin(), found.end(), -1);
-      if (missing == 0 || missing == points.rows() || areRounded(parts, points, found))
+      block.MayHang = missing == 0 || !areRounded(parts, points, found);
+      const bool hangs = options.AreOnRanks ? options.Attached.count(leaves[i].Path) > 0
+                                            : missing > 0 && missing < points.rows();
+      if (!hangs || !block.MayHang)
       {
         continue;
       }
@@ -497,7 +500,7 @@ std::vector<Part> readParts(const std::vector<Leaves::Leaf>& leaves,
   std::map<std::string, Index> groups;
   for (std::size_t i = 0; i < leaves.size(); ++i)
   {
-    merged.All.push_back({ leaves[i].Name, {}, {}, dimensions[i] == highest, {} });
+    merged.All.push_back({ leaves[i].Name, {}, {}, dimensions[i] == highest, {}, false });
     if (dimensions[i] == highest)
     {
       auto* data = vtkDataSet::SafeDownCast(leaves[i].Data);

@@ -8,6 +8,7 @@
 
 #include <functional>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,8 @@ struct MergedBlocks
     /// Of each cell, where the block is on the mesh but no part of it: the mesh's cells that have
     /// all of its points.
     std::vector<std::vector<morph::Index>> Behind;
+    /// On ranks: of lines or faces, none of whose points is next to a node, as rounded ones are.
+    bool MayHang = false;
   };
   struct Options
   {
@@ -39,6 +42,8 @@ struct MergedBlocks
     /// Set where other MPI processes have blocks of the same mesh; see RankBlocks.
     bool AreOnRanks = false;
     int Dimension = 0; ///< cells of the mesh have it at least
+    /// On ranks: paths of the blocks of lower dimension that hang on the mesh; see Leaves::Leaf.
+    std::set<std::string> Attached;
   };
 
   /// The nodes and cells, with the arrays that all blocks have and the cell array MorphBlockId, the

@@ -382,17 +382,12 @@ vtkSmartPointer<vtkPolyData> GatheredBoundary::OfPiece(vtkPolyData* surface) con
 std::pair<double, double> GatheredBoundary::MaximumAndMean(
   const std::vector<Index>& points, const std::vector<double>& values) const
 {
-  struct Value
-  {
-    std::int64_t id;
-    double value;
-  };
-  std::vector<Value> mine;
+  std::vector<std::array<double, 2>> mine; // ids below 2^52, and values
   for (std::size_t i = 0; i < points.size(); ++i)
   {
-    mine.push_back({ this->Whole().nodeId(points[i]), values[i] });
+    mine.push_back({ static_cast<double>(this->Whole().nodeId(points[i])), values[i] });
   }
-  std::map<std::int64_t, double> all;
+  std::map<double, double> all;
   for (const auto& [id, value] : this->Own.Ranks().gather(mine))
   {
     double& known = all.try_emplace(id, value).first->second;

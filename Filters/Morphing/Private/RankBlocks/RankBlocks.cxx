@@ -149,8 +149,9 @@ void takeSomeNode(const Ranks& ranks, morph::distributed::Piece& piece)
 }
 }
 
-MergedBlocks Make(vtkDataObjectTree* tree, MergedBlocks::Options options)
+MergedBlocks Make(vtkDataObjectTree* tree, MergedBlocks::Options given)
 {
+  MergedBlocks::Options options = given;
   const Ranks ranks = GlobalRanks();
   const vtkNew<vtkMultiBlockDataSet> none;
   tree = tree ? tree : none.Get();
@@ -193,7 +194,15 @@ MergedBlocks Make(vtkDataObjectTree* tree, MergedBlocks::Options options)
   merged.CellIds = SharedCells::Ids(ranks, merged.Grid);
 
   const RankSets sets{ ranks, leaves, numbers, static_cast<Index>(allPaths.size()), places };
-  sets.Follow(options.ByIds, merged, warnings);
+  const std::vector<Index> hanging = sets.Follow(options.ByIds, merged, warnings);
+  if (given.Merges && !hanging.empty()) // others may hang on these
+  {
+    for (const Index block : hanging)
+    {
+      given.Attached.insert(allPaths[block]);
+    }
+    return Make(tree, given);
+  }
   sets.Name(merged);
   const auto behind = std::make_shared<RankBehind>(ranks, leaves, places, merged);
   merged.WorstBehind = [behind](vtkDataArray* values) { return behind->Worst(values); };

@@ -16,7 +16,7 @@ namespace morph::filters::RankBlocks
 /// process has become ghost cells. The grid of a process has also the nodes of its sets that only
 /// other processes' cells have. `tree`: null where this process has none. Warnings are on the first
 /// process alone.
-MergedBlocks Make(vtkDataObjectTree* tree, MergedBlocks::Options options);
+MergedBlocks Make(vtkDataObjectTree* tree, MergedBlocks::Options given);
 
 /// The solid of this process's piece of a mesh of faces. Its front has the nodes of the piece and,
 /// behind these, those of other processes' cells that methods see; see morph::thicken().

@@ -78,7 +78,8 @@ void addPoints(const std::vector<SharedPlaces::Position>& added, vtkUnstructured
 }
 }
 
-void RankSets::Follow(bool byIds, MergedBlocks& merged, std::vector<std::string>& warnings) const
+std::vector<Index> RankSets::Follow(
+  bool byIds, MergedBlocks& merged, std::vector<std::string>& warnings) const
 {
   std::vector<SharedPlaces::Place> places;
   this->Ranks.together(
@@ -103,7 +104,7 @@ void RankSets::Follow(bool byIds, MergedBlocks& merged, std::vector<std::string>
         }
       }
     });
-  this->Warn(this->FindNodes(places, merged), merged, warnings);
+  return this->Warn(this->FindNodes(places, merged), merged, warnings);
 }
 
 /// `places`: of the points of all sets of this process, one after another.
@@ -117,7 +118,8 @@ RankSets::Counts RankSets::FindNodes(
     nodeOf.emplace(merged.NodeIds[n], static_cast<Index>(n));
   }
   std::vector<SharedPlaces::Position> added;
-  Counts counts = { std::vector<Index>(this->Blocks, 0), std::vector<Index>(this->Blocks, 0) };
+  const std::vector<Index> none(this->Blocks, 0);
+  Counts counts = { none, none, none };
   std::size_t next = 0;
   for (std::size_t i = 0; i < this->Mine.size(); ++i)
   {
@@ -126,9 +128,7 @@ RankSets::Counts RankSets::FindNodes(
     vtkPointSet* set = setOf(this->Mine[i], block);
     if (!set)
     {
-      const bool cannot = cannotFollow(this->Mine[i], block);
-      counts.Missing[number] += cannot;
-      counts.Points[number] += cannot;
+      counts.Missing[number] += cannotFollow(this->Mine[i], block);
       continue;
     }
     Index missing = 0;
@@ -149,8 +149,9 @@ RankSets::Counts RankSets::FindNodes(
       }
       block.Nodes.push_back(known->second);
     }
+    counts.NoPart[number] += !block.MayHang;
     counts.Missing[number] += missing;
-    counts.Points[number] += set->GetNumberOfPoints();
+    counts.Found[number] += set->GetNumberOfPoints() - missing;
     if (missing == set->GetNumberOfPoints())
     {
       block.Nodes.clear();
@@ -163,11 +164,13 @@ RankSets::Counts RankSets::FindNodes(
   return counts;
 }
 
-void RankSets::Warn(
+std::vector<Index> RankSets::Warn(
   Counts counts, const MergedBlocks& merged, std::vector<std::string>& warnings) const
 {
-  this->Ranks.sum(counts.Missing.data(), counts.Missing.size());
-  this->Ranks.sum(counts.Points.data(), counts.Points.size());
+  for (std::vector<Index>* numbers : { &counts.Found, &counts.Missing, &counts.NoPart })
+  {
+    this->Ranks.sum(numbers->data(), numbers->size());
+  }
   std::vector<std::string> mine;
   for (std::size_t i = 0; i < this->Mine.size(); ++i)
   {
@@ -179,9 +182,10 @@ void RankSets::Warn(
     names.try_emplace(std::stoll(text), text.substr(text.find(' ') + 1));
   }
   std::vector<std::string> unchanged;
+  std::vector<Index> hanging;
   for (const auto& [number, name] : names)
   {
-    const Index missing = counts.Missing[number], points = counts.Points[number];
+    const Index missing = counts.Missing[number], points = missing + counts.Found[number];
     if (missing > 0 && missing == points)
     {
       unchanged.push_back(name);
@@ -189,12 +193,17 @@ void RankSets::Warn(
     else if (missing > 0)
     {
       warnings.push_back(BlockWarnings::Missing(name, missing, points));
+      if (counts.NoPart[number] == 0)
+      {
+        hanging.push_back(number);
+      }
     }
   }
   if (const std::string text = BlockWarnings::Unchanged(unchanged); !text.empty())
   {
     warnings.push_back(text);
   }
+  return hanging;
 }
 
 void RankSets::Name(MergedBlocks& merged) const

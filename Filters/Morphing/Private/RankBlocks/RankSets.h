@@ -23,20 +23,24 @@ public:
   const morph::distributed::SharedPlaces& Places;
 
   /// Finds the nodes of these blocks. Nodes of other processes alone are added to the grid, without
-  /// cells, and to NodeIds. `warnings`: receives those of the whole data.
-  void Follow(bool byIds, MergedBlocks& merged, std::vector<std::string>& warnings) const;
+  /// cells, and to NodeIds. `warnings`: receives those of the whole data. Returns the numbers of
+  /// the blocks of lines or faces that hang on the mesh by some of their points.
+  std::vector<morph::Index> Follow(
+    bool byIds, MergedBlocks& merged, std::vector<std::string>& warnings) const;
 
   /// BlockSets::Name() with the names of all processes.
   void Name(MergedBlocks& merged) const;
 
 private:
-  /// How many points of each block are on no node, of how many.
+  /// How many points of each block are on a node, and on none. NoPart: above 0 if the block cannot
+  /// hang on the mesh.
   struct Counts
   {
-    std::vector<morph::Index> Missing, Points;
+    std::vector<morph::Index> Found, Missing, NoPart;
   };
   Counts FindNodes(
     const std::vector<morph::distributed::SharedPlaces::Place>& places, MergedBlocks& merged) const;
-  void Warn(Counts counts, const MergedBlocks& merged, std::vector<std::string>& warnings) const;
+  std::vector<morph::Index> Warn(
+    Counts counts, const MergedBlocks& merged, std::vector<std::string>& warnings) const;
 };
 }
