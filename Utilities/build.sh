@@ -20,7 +20,7 @@ targets=()
 while [ $# -gt 0 ]; do
   case "$1" in
     -h | --help) usage; exit 0 ;;
-    --tests) testing=(-DMESHMORPHING_BUILD_TESTING=ON) ;;
+    --tests) testing=(-DMESHMORPHING_BUILD_TESTING=ON -DMESHMORPHING_TEST_GROUPS="") ;;
     -j) shift; jobs=${1:?"-j needs a number"} ;;
     -*) usage >&2; exit 2 ;;
     *) targets+=("$1") ;;
@@ -35,6 +35,5 @@ if command -v ccache > /dev/null; then
   # The presets share what they compile alike, such as the core, whatever their build folder is.
   export CCACHE_BASEDIR=$PWD
 fi
-cmake --preset paraview -DMESHMORPHING_UNITY_BUILD=ON -DMESHMORPHING_TEST_GROUPS="" \
-  ${testing[@]+"${testing[@]}"}
+cmake --preset paraview -DMESHMORPHING_UNITY_BUILD=ON ${testing[@]+"${testing[@]}"}
 cmake --build --preset paraview -j "$jobs" ${targets[@]+--target "${targets[@]}"}

@@ -8,9 +8,9 @@ usage() {
   cat <<END
 Usage: other-debian.sh SUITE [test|demo|package|shell] [OPTION...]
        other-debian.sh SUITE --clean
-Tries MeshMorphing in another Debian (SUITE: trixie or sid) without a machine of its own. Makes a
-root file system in build/SUITE with mmdebstrap, from the registry that this machine uses, copies
-the project's sources into it, and runs there
+Tries MeshMorphing in another Debian (SUITE: trixie or sid), or in a bare one (bookworm, too),
+without a machine of its own. Makes a root file system in build/SUITE with mmdebstrap, from the
+registry that this machine uses, copies the project's sources into it, and runs there
   test    Utilities/test.sh (default)
   demo    Utilities/demo.sh
   package Utilities/package.sh; then the packages are installed, tried and removed
@@ -23,7 +23,7 @@ END
 
 case "${1:-}" in
   -h | --help) usage; exit 0 ;;
-  trixie | sid) suite=$1; shift ;;
+  bookworm | trixie | sid) suite=$1; shift ;;
   *) usage >&2; exit 2 ;;
 esac
 root=$here/build/$suite

@@ -180,8 +180,8 @@ def check_limits():
 def check_smoothing():
     """Smoothing should fail where the boundary passes through several layers of cells.
 
-    It starts with the interior where it was: in absolute steps on the undeformed mesh, in relative
-    ones a step behind. It has to untangle what the boundary has passed through by then."""
+    It starts from the affine map nearest to the boundary's motion, and has to untangle what the
+    boundary passes through beside that."""
     print("\nSmoothing, hexahedra, absolute, small meshes: inverted cells with the boundary moved "
           "alone, and after smoothing")
     for name in ("bore", "pipe"):

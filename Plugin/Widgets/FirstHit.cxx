@@ -45,8 +45,14 @@ void moveUp(QListWidget* hits)
 
 void FirstHit::startup()
 {
-  QObject::connect(
-    pqApplicationCore::instance(), SIGNAL(aboutToShowQuickLaunch()), this, SLOT(aboutToShow()));
+  // The application that loads the plugin from PV_PLUGIN_PATH is still under construction, and has
+  // this signal only when it is whole.
+  QTimer::singleShot(0, this,
+    [this]
+    {
+      QObject::connect(
+        pqApplicationCore::instance(), SIGNAL(aboutToShowQuickLaunch()), this, SLOT(aboutToShow()));
+    });
 }
 
 void FirstHit::aboutToShow()

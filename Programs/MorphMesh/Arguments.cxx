@@ -549,28 +549,31 @@ const Option* takeOption(const std::vector<Option>& options, const std::string& 
   return option;
 }
 
-/// The command that the first argument is; null if that is an option or a file.
-const Command* commandOf(int argc, char* argv[])
+/// The command that the first argument is; null if that is no command.
+const Command* findCommand(int argc, char* argv[])
 {
+  const auto found = std::find_if(Commands.begin(), Commands.end(),
+    [&](const Command& one) { return argc > 1 && one.name == std::string(argv[1]); });
+  return found == Commands.end() ? nullptr : &*found;
+}
+
+/// Throws UsageError if the first argument is no command, no option, and by its name no file.
+void requireCommandOrFile(int argc, char* argv[])
+{
+  const std::string known =
+    " The commands are " + vtksys::SystemTools::Join(namesOfAll(Commands), ", ") + ".";
   if (argc < 2)
   {
-    throw UsageError("No command and no file is given. The commands are " +
-                     vtksys::SystemTools::Join(namesOfAll(Commands), ", ") + ".");
+    throw UsageError("No command and no file is given." + known);
   }
   const std::string first = argv[1];
-  const auto found = std::find_if(
-    Commands.begin(), Commands.end(), [&](const Command& one) { return one.name == first; });
-  if (found != Commands.end())
+  const std::string meant = didYouMean(first, namesOfAll(Commands), 2);
+  const bool isWord = first.find_first_of("./") == std::string::npos;
+  if (first[0] != '-' && (isWord || !meant.empty()) && !std::filesystem::exists(first))
   {
-    return &*found;
+    throw UsageError(
+      "There is no command and no file " + first + "." + (meant.empty() ? known : meant));
   }
-  const std::string meant =
-    first.substr(0, 1) == "-" ? "" : didYouMean(first, namesOfAll(Commands), 2);
-  if (!meant.empty() && !std::filesystem::exists(first))
-  {
-    throw UsageError("There is no command and no file " + first + "." + meant);
-  }
-  return nullptr;
 }
 
 /// Throws UsageError for options that have no effect.
@@ -595,6 +598,12 @@ bool Arguments::wantsValid() const
   return this->requireValid || vtkMorphAlgorithm::VALIDITY_REPORT < validity;
 }
 
+std::string helpCommand(int argc, char* argv[])
+{
+  const Command* command = findCommand(argc, argv);
+  return "morph-mesh " + (command ? command->name + std::string(" ") : "") + "--help";
+}
+
 Arguments parseArguments(int argc, char* argv[])
 {
   Arguments result;
@@ -603,7 +612,11 @@ Arguments parseArguments(int argc, char* argv[])
   std::vector<const Option*> given;
   bool onlyFiles = false;
   bool isAfterShapes = false; // the option with more than one value
-  const Command* command = commandOf(argc, argv);
+  const Command* command = findCommand(argc, argv);
+  if (!command)
+  {
+    requireCommandOrFile(argc, argv);
+  }
   result.task = command ? command->task : result.task;
   for (int i = command ? 2 : 1; i < argc; ++i)
   {

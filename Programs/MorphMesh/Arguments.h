@@ -59,4 +59,7 @@ struct UsageError : std::runtime_error
 
 /// Parses the command line. Throws UsageError.
 Arguments parseArguments(int argc, char* argv[]);
+
+/// Returns the call that shows the help of this command line's command, or of all.
+std::string helpCommand(int argc, char* argv[]);
 }

@@ -402,7 +402,7 @@ int main(int argc, char* argv[])
   }
   catch (const UsageError& error)
   {
-    std::cerr << "morph-mesh: " << error.what() << "\nTry morph-mesh --help.\n";
+    std::cerr << "morph-mesh: " << error.what() << "\nTry " << helpCommand(argc, argv) << ".\n";
     return fail(2);
   }
   catch (const std::exception& error)

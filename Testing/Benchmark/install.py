@@ -1,26 +1,29 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the packages of install-packages.sh --use take on this Debian, without those that its
-smallest system has, as the index of apt has them.
+"""What the installation takes on this Debian.
 
-    Testing/Benchmark/install.py    # after apt-get update
+    Testing/Benchmark/install.py    # after apt-get update, as root
 
-Writes this release's row of results/install.csv: megabytes to download, and on the disk."""
+Writes this release's rows. results/install.csv: of the packages of install-packages.sh --use,
+without those that the smallest system has, megabytes to download and on the disk, as the index of
+apt has them. results/install-minutes.csv: in a bare system that other-debian.sh makes, minutes
+until these packages are installed, downloads included, and minutes of processor time, of all cores
+in sum, that build.sh takes from nothing."""
 
 import csv
 import os
 import re
+import resource
 import subprocess
 import sys
 import tempfile
+import time
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent.parent
-DATA = ROOT / "Testing/Benchmark/results/install.csv"
+RESULTS = ROOT / "Testing/Benchmark/results"
 sys.path.insert(0, str(ROOT / "Utilities"))
-from study_pieces import commit  # noqa: E402  (needs the path above)
-
-FIELDS = ("release", "download_MB", "disk_MB", "commit")
+from study_pieces import commit, machine  # noqa: E402  (needs the path above)
 
 
 def apt(program, folder, *arguments):
@@ -53,17 +56,47 @@ def packages_row():
     return {"download_MB": round(all_[0] - less[0]), "disk_MB": round(all_[1] - less[1])}
 
 
+def used():
+    """Seconds (passed, of processor time that ended processes have had)."""
+    children = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return time.monotonic(), children.ru_utime + children.ru_stime
+
+
+def minutes_row(suite):
+    def in_bare_system(*arguments):
+        before = used()
+        subprocess.run([ROOT / "Utilities/other-debian.sh", suite, *arguments], check=True)
+        return [round((now - then) / 60, 1) for then, now in zip(before, used())]
+
+    in_bare_system("--clean")
+    in_bare_system("shell", "true")
+    installed, _ = in_bare_system("shell", "Utilities/install-packages.sh", "--use")
+    _, built = in_bare_system("shell", "Utilities/build.sh")
+    in_bare_system("--clean")
+    return {"install_minutes": installed, "build_processor_minutes": built}
+
+
+def write(name, row):
+    """Takes the place of this release's row."""
+    path = RESULTS / name
+    others = []
+    if path.exists():
+        with open(path, encoding="utf-8") as file:
+            others = [one for one in csv.DictReader(file) if one["release"] != row["release"]]
+    with open(path, "w", encoding="utf-8", newline="") as file:
+        table = csv.DictWriter(file, list(row), lineterminator="\n")
+        table.writeheader()
+        table.writerows(sorted([*others, row], key=lambda one: one["release"]))
+
+
 def main():
     text = Path("/etc/os-release").read_text(encoding="utf-8")
     system = dict(re.findall(r'^(\w+)="?(.*?)"?$', text, re.MULTILINE))
-    release = system["ID"] + " " + system.get("VERSION_ID", "unstable")
-    row = {"release": release, "commit": commit(), **packages_row()}
-    with open(DATA, encoding="utf-8") as file:
-        others = [other for other in csv.DictReader(file) if other["release"] != release]
-    with open(DATA, "w", encoding="utf-8", newline="") as file:
-        table = csv.DictWriter(file, FIELDS, lineterminator="\n")
-        table.writeheader()
-        table.writerows(sorted([*others, row], key=lambda one: one["release"]))
+    release = {"release": system["ID"] + " " + system.get("VERSION_ID", "unstable")}
+    state = commit()
+    write("install.csv", {**release, **packages_row(), "commit": state})
+    write("install-minutes.csv", {**release, **minutes_row(system["VERSION_CODENAME"]),
+                                  "machine": machine(), "commit": state})
 
 
 if __name__ == "__main__":

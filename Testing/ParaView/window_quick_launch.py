@@ -19,7 +19,8 @@ def watch():
     """In ParaView's window: writes the names of the pipeline's sources whenever there is a new
     one."""
     from paraview import servermanager, simple
-    simple.LoadPlugin(os.environ["MESHMORPHING_PLUGIN"], remote=False, ns=globals())
+    if "PV_PLUGIN_PATH" not in os.environ:
+        simple.LoadPlugin(os.environ["MESHMORPHING_PLUGIN"], remote=False, ns=globals())
     simple.Show(simple.OpenDataFile(str(Path(os.environ["MORPH_SOURCE"]) / MESH)))
     simple.ResetCamera()
     manager = servermanager.ProxyManager()
@@ -32,7 +33,14 @@ def watch():
 
 
 class QuickLaunch(unittest.TestCase):
-    def test_morph_mesh_is_the_first_hit(self):
+    def test_of_a_plugin_that_is_loaded_in_the_window(self):
+        self.expect_morph_mesh_first({})
+
+    def test_of_a_plugin_that_is_loaded_at_the_start(self):
+        folder = Path(os.environ["MESHMORPHING_PLUGIN"]).parents[1]
+        self.expect_morph_mesh_first({"PV_PLUGIN_PATH": str(folder)})
+
+    def expect_morph_mesh_first(self, environment):
         from window_events import Events, picture
         from window_keys import Keyboard
         try:
@@ -45,6 +53,7 @@ class QuickLaunch(unittest.TestCase):
             how = Events().prepare(Path(name), script=script, environment={
                 "MORPH_SOURCE": str(script.parents[2]), "MORPH_SEEN": str(seen)})
             how["stdout"] = subprocess.DEVNULL
+            how["env"].update(environment)
             with subprocess.Popen(how.pop("args"), **how) as paraview:
                 try:
                     self.assertIn("Reader", self.wait(seen, "Reader", 150))

@@ -682,17 +682,22 @@ class MorphMesh(unittest.TestCase):
         self.fails(1, "'Surface 99', which the boundary does not have; it has Surface 0", "--move",
                    "Surface 99", "--translate", "0,0,1", BORE, flat)
         self.fails(2, "The commands are move, fit, bake, list")
+        self.fails(2, "no file convert-boundary. The commands are move", "convert-boundary", BORE,
+                   flat)
+        self.fails(2, "Try morph-mesh list --help.", "list")
+        self.fails(2, "Try morph-mesh --help.", BORE)
 
     def test_repair_and_check(self):
         """A cell that was inverted before is mended; the boundary stays."""
         tangled, mended = self.folder / "tangled.vtu", self.folder / "mended.vtu"
-        self.assertEqual(self.morph("--scale-factor", "-5", "--validity=none").returncode, 0)
-        os.rename(self.folder / "out.vtu", tangled)
-        self.assertEqual(run("check", "--require-valid", tangled).returncode, 3)
-        result = run("repair", tangled, mended)
-        self.assertIn(result.returncode, (0, 1), result.stderr)
-        if result.returncode == 0:
+        for way, status in (("0.9,0,0", 0), ("2.5,0,0", 1)):  # the second folds the boundary
+            moved = run("--move", "Surface 1", "--translate", way, "--validity", "none", BORE,
+                        tangled)
+            self.assertEqual(moved.returncode, 0, moved.stderr)
+            self.assertEqual(run("check", "--require-valid", tangled).returncode, 3)
+            self.assertEqual(run("repair", tangled, mended).returncode, status)
             self.assertEqual(run("check", "--require-valid", mended).returncode, 0)
+        self.fails(1, "The boundary itself inverts", "repair", tangled, mended)
 
     def marked(self):
         """A tetrahedron, two of whose nodes are the zone Clamp."""
