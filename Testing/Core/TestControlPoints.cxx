@@ -218,8 +218,7 @@ TEST(LatticeMotion, OfAnAffineMotionIsAffineInside)
         lattice.low;
       places.row(0) = lattice.low;
       places.row(1) = lattice.high;
-      EXPECT_LT(
-        motions::difference(at(lattice, places), valuesAt(places, affineStep)), 1e-10 * 7);
+      EXPECT_LT(motions::difference(at(lattice, places), valuesAt(places, affineStep)), 1e-10 * 7);
     }
   }
 }
