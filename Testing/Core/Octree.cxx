@@ -14,7 +14,7 @@ namespace
 using Place = Octree::Place;
 
 /// The nodes of a hexahedron in VTK's order, in halves of its edges.
-constexpr Place Nodes[20] = { { 0, 0, 0 }, { 2, 0, 0 }, { 2, 2, 0 }, { 0, 2, 0 }, { 0, 0, 2 },
+constexpr Place NodePlaces[20] = { { 0, 0, 0 }, { 2, 0, 0 }, { 2, 2, 0 }, { 0, 2, 0 }, { 0, 0, 2 },
   { 2, 0, 2 }, { 2, 2, 2 }, { 0, 2, 2 }, { 1, 0, 0 }, { 2, 1, 0 }, { 1, 2, 0 }, { 0, 1, 0 },
   { 1, 0, 2 }, { 2, 1, 2 }, { 1, 2, 2 }, { 0, 1, 2 }, { 0, 0, 1 }, { 2, 0, 1 }, { 2, 2, 1 },
   { 0, 2, 1 } };
@@ -75,7 +75,7 @@ Octree::Octree(unsigned seed, int order, const Place& cubes)
     std::vector<Index> nodes;
     for (int k = 0; k < nodesOf(order); ++k)
     {
-      nodes.push_back(this->node(at(low, Nodes[k], size, 2)));
+      nodes.push_back(this->node(at(low, NodePlaces[k], size, 2)));
     }
     add(this->mesh, order == 2 ? morph::QuadraticHexahedron : morph::Hexahedron, nodes);
   }
@@ -135,9 +135,9 @@ void Octree::findHanging(const Place& low, int size, int order)
     Hanging own = { found->second, {}, {} };
     for (int a = 0; a < nodesOf(order); ++a)
     {
-      if (const double weight = shapeFunction(order, Nodes[a], x); weight != 0)
+      if (const double weight = shapeFunction(order, NodePlaces[a], x); weight != 0)
       {
-        own.masters.push_back(this->nodeAt.at(at(low, Nodes[a], size, 2)));
+        own.masters.push_back(this->nodeAt.at(at(low, NodePlaces[a], size, 2)));
         own.weights.push_back(weight);
       }
     }
