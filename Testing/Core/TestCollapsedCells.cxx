@@ -6,6 +6,7 @@
 #include "PolyhedralMeshes.h"
 #include "Quality/BoundaryDetermined.h"
 #include "Quality/Certificate.h"
+#include "Quality/Criteria.h"
 #include "Quality/ScaledJacobian.h"
 #include "Quality/ValidRange.h"
 #include "Session/Session.h"
@@ -177,6 +178,18 @@ TEST(CollapsedCells, OfHigherOrderAreMeasuredByTheirCornersWhereTheyAreNoKnownCe
       EXPECT_TRUE(morph::boundaryDeterminedInversions(
         mesh, morph::partitionNodes(mesh, held), { 1, 1 }, mesh.points)
                     .empty());
+      for (const morph::Criterion& criterion : morph::criteria())
+      {
+        const bool isOfCorners =
+          !criterion.measure || criterion.name == std::string("JacobianRatio");
+        const auto measured = [&](const Mesh& of) {
+          return morph::measureCriterion(criterion, of, of.points, { 1, 1 }, { 0, 0 }, {}, serial);
+        };
+        for (std::size_t c = 0; c < 2 && !isOfCorners; ++c)
+        {
+          EXPECT_NEAR(measured(mesh)[c], measured(corners)[c], 1e-12) << criterion.name << " " << c;
+        }
+      }
       Points flatter = Points::Zero(mesh.numberOfNodes(), 3);
       flatter.col(2) = -0.25 * mesh.points.col(2);
       const morph::NodeMotion motion = { &mesh.points, &flatter, {} };

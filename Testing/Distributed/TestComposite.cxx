@@ -240,6 +240,15 @@ TEST(RankComposite, AShellAndABeamOfOtherBlocksComeAlong)
     tree->SetBlock(tree->GetNumberOfBlocks(), grid);
     first += mesh.numberOfNodes();
   }
+  const auto withIds = [&tree] // other ones at the same places
+  {
+    for (unsigned int block = 0; block < 3; ++block)
+    {
+      vtkPointData* data = vtkDataSet::SafeDownCast(tree->GetBlock(block))->GetPointData();
+      data->SetGlobalIds(data->GetArray("Number"));
+    }
+    return tree.Get();
+  };
   const grids::Map turned = [](const Row& x)
   { return Row(0.6 * x[0] - 0.8 * x[2], x[1] + 2, 0.8 * x[0] + 0.6 * x[2]); };
   std::map<vtkIdType, Row> expected = blocks::pointsByNumber(tree);
@@ -248,16 +257,18 @@ TEST(RankComposite, AShellAndABeamOfOtherBlocksComeAlong)
     x = turned(x);
   }
 
-  const Tree part = rank_trees::part(ranks, tree, meshes::seed());
-  auto filter = vtkSmartPointer<vtkFEMWarpMorph>::New();
-  filter->SetInputDataObject(part);
-  filter->SetBoundaryData(moved(part, turned));
-  const grids::Run listener(filter);
-
-  EXPECT_TRUE(listener.Errors.empty()) << listener.Errors[0];
-  EXPECT_TRUE(listener.Warnings.empty()) << listener.Warnings[0];
-  EXPECT_LT(distance(ranks, filter->GetOutputDataObject(0), expected), 1e-9);
-  EXPECT_EQ(filter->GetAttachedPoints(), 6);
+  for (const Tree& part : { rank_trees::part(ranks, tree, meshes::seed()),
+         rank_trees::wholeLeaves(ranks, tree), rank_trees::part(ranks, withIds(), meshes::seed()) })
+  {
+    auto filter = vtkSmartPointer<vtkFEMWarpMorph>::New();
+    filter->SetInputDataObject(part);
+    filter->SetBoundaryData(moved(part, turned));
+    const grids::Run listener(filter);
+    EXPECT_TRUE(listener.Errors.empty()) << listener.Errors[0];
+    EXPECT_TRUE(listener.Warnings.empty()) << listener.Warnings[0];
+    EXPECT_LT(distance(ranks, filter->GetOutputDataObject(0), expected), 1e-9);
+    EXPECT_EQ(filter->GetAttachedPoints(), 6);
+  }
 }
 
 TEST(RankComposite, SetsAreNamesAndFollowNodesOfOtherRanks)

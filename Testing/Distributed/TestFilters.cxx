@@ -107,6 +107,30 @@ TEST(DistributedFilters, ShellsFollowTheVolumeAcrossRanks)
     1e-9);
 }
 
+TEST(DistributedFilters, OfCellsThatTwoRanksHaveOneIsMeasured)
+{
+  const Ranks ranks = pieces::world();
+  const morph::Mesh once = meshes::hexes(6, 5, 4);
+  morph::Mesh whole = once;
+  for (morph::Index c = 0; c < once.numberOfCells(); ++c)
+  {
+    meshes::add(whole, morph::Hexahedron, { once.cell(c), once.cell(c) + 8 });
+  }
+  const auto grid = rank_grids::piece(ranks, whole);
+  auto filter = grids::of<vtkFEMWarpMorph>(grid);
+  filter->SetBoundaryData(grids::boundary(grid, grids::twist));
+  filter->CertifyOn();
+  const grids::Run listener(filter);
+  EXPECT_TRUE(listener.Errors.empty());
+  EXPECT_EQ(filter->GetCertifiedCells(), once.numberOfCells());
+  ASSERT_EQ(listener.Warnings.size(), ranks.rank() == 0 ? 1u : 0u);
+  for (const std::string& warning : listener.Warnings)
+  {
+    EXPECT_NE(warning.find("Cells are there twice: cell ids 0, 1, 2,"), std::string::npos)
+      << warning;
+  }
+}
+
 TEST(DistributedFilters, AnAbortOnOneRankEndsAllWithoutAMessage)
 {
   const Ranks ranks = pieces::world();

@@ -464,12 +464,11 @@ Finding checkOverlap(const Case& made, vtkUnstructuredGrid* output)
   std::vector<vtkIdType> cells[2]; // of the bodies
   for (vtkIdType c = 0; c < output->GetNumberOfCells() && isCompact; ++c)
   {
-    const bool isTwin =
-      std::binary_search(twin.begin(), twin.end(), output->GetCell(c)->GetPointId(0));
     if (output->GetCellType(c) == VTK_HEXAHEDRON &&
         output->GetCellData()->GetArray("ScaledJacobian")->GetComponent(c, 0) > 0.2)
     {
-      cells[isTwin].push_back(c);
+      const vtkIdType node = output->GetCell(c)->GetPointId(0);
+      cells[std::binary_search(twin.begin(), twin.end(), node)].push_back(c);
     }
   }
   for (const vtkIdType other : cells[1])

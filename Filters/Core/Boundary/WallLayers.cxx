@@ -3,6 +3,7 @@
 
 #include "Mesh/CellShape.h"
 #include "Mesh/Mesh.h"
+#include "Mesh/Polyhedra.h"
 #include "Mesh/Topology.h"
 #include "Support/Lists.h"
 
@@ -76,7 +77,8 @@ public:
     const CellShape& shape = *cellShape(this->mesh_, cell);
     const bool isHex = shape.shape == Shape::Hex && size == 4;
     const bool isWedge = shape.shape == Shape::Wedge && size == 3;
-    if ((!isHex && !isWedge) || (!this->isLayer_.empty() && !this->isLayer_[cell]))
+    if ((!isHex && !isWedge) || hasFaces(this->mesh_, cell) ||
+        (!this->isLayer_.empty() && !this->isLayer_[cell]))
     {
       return -1;
     }

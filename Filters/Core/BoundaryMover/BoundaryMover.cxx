@@ -173,20 +173,45 @@ bool TouchingNodes::addOtherSides(const BoundaryModel& model, const Surroundings
   return true;
 }
 
-void TouchingNodes::joinFollowing(Surroundings::Result& result) const
+void TouchingNodes::joinFollowing(const BoundaryModel& model, Surroundings::Result& result) const
 {
+  std::vector<std::uint8_t> isJoined(result.roles.size(), 0);
+  Points change; // of the nodes' positions
   for (std::size_t place = 0; place + 1 < this->sides_.offsets.size(); ++place)
   {
     const Index* begin = this->sides_.begin(static_cast<Index>(place));
     const Index* end = this->sides_.end(static_cast<Index>(place));
-    if (std::all_of(begin, end, [&](Index n) { return result.roles[n] == Surroundings::Follows; }))
+    if (std::any_of(begin, end, [&](Index n) { return result.roles[n] != Surroundings::Follows; }))
     {
-      const Eigen::RowVector3d first = result.moved.row(*begin); // equal places stay, bit by bit
-      Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
-      std::for_each(begin, end, [&](Index n) { sum += result.moved.row(n) - first; });
-      std::for_each(begin, end,
-        [&](Index n) { result.moved.row(n) = first + sum / static_cast<double>(end - begin); });
+      continue;
     }
+    change = change.rows() > 0 ? change : Points(Points::Zero(result.moved.rows(), 3));
+    const Eigen::RowVector3d first = result.moved.row(*begin); // equal places stay, bit by bit
+    Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
+    std::for_each(begin, end, [&](Index n) { sum += result.moved.row(n) - first; });
+    for (const Index* n = begin; n != end; ++n)
+    {
+      isJoined[*n] = 1;
+      change.row(*n) = first + sum / static_cast<double>(end - begin) - result.moved.row(*n);
+    }
+  }
+  if (change.rows() == 0)
+  {
+    return;
+  }
+  for (std::size_t i = 0; i < model.faces.nodes.size(); ++i)
+  {
+    const Index node = model.faces.nodes[i], k = static_cast<Index>(i);
+    const bool isBetween = model.faces.between.begin(k) != model.faces.between.end(k);
+    if (isBetween && isJoined[node] == 0 && result.roles[node] == Surroundings::Follows)
+    {
+      change.row(node) = meanBetween(
+        model.faces, k, model.points(), [&](Index corner) { return change.row(corner); });
+    }
+  }
+  for (const Index node : model.faces.nodes)
+  {
+    result.moved.row(node) += change.row(node);
   }
 }
 
@@ -280,7 +305,7 @@ const Surroundings::Result& BoundaryMover::move(const BoundaryModel& model, cons
             model, chosen, places, options.rest, spreading, std::move(result));
         }
       }
-      this->touching_.joinFollowing(result);
+      this->touching_.joinFollowing(model, result);
     });
   if (hasInner)
   {

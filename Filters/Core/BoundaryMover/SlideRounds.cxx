@@ -112,7 +112,8 @@ std::vector<Index> outerCenters(
   const CellPieces& pieces, std::vector<Index> nodes, Monitor& monitor)
 {
   Points isOuter = Points::Zero(pieces.mesh().numberOfNodes(), 3);
-  isOuter(facesOfOneCell(pieces.mesh(), monitor).nodes, 0).setOnes();
+  pieces.processes()->together(
+    [&] { isOuter(facesOfOneCell(pieces.mesh(), monitor).nodes, 0).setOnes(); });
   pieces.processes()->update(isOuter); // of the process that has all cells around a node
   nodes.erase(
     std::remove_if(nodes.begin(), nodes.end(), [&](Index node) { return isOuter(node, 0) == 0; }),
@@ -175,7 +176,8 @@ void SlideRounds::prepare(const Volume& volume, std::int64_t version,
     std::vector<Index> given, centers;
     std::set_union(prescribed.begin(), prescribed.end(), sliding.begin(), sliding.end(),
       std::back_inserter(given));
-    given = this->pieces_->extend(volume.partition(given)).prescribed;
+    all.together([&] { partition = volume.partition(given); });
+    given = this->pieces_->extend(partition).prescribed;
     std::set_difference(given.begin(), given.end(), ofPieces.prescribed.begin(),
       ofPieces.prescribed.end(), std::back_inserter(centers));
     this->centers_ = outerCenters(*this->pieces_, std::move(centers), silent);

@@ -2,6 +2,7 @@
 #include "Mesh/CollapsedCells.h"
 
 #include "Mesh/CellShape.h"
+#include "Mesh/FaceTable.h"
 #include "Mesh/Polyhedra.h"
 #include "Mesh/SharedCorners.h"
 
@@ -58,8 +59,7 @@ std::vector<NodeList> facesOf(const CellShape& shape, const NodeList& corners)
     {
       face.push_back(corners[shape.faces[f].corner[k]]);
     }
-    // A quadrilateral that goes to a corner and back, twice, covers itself.
-    const bool hasArea = face.size() < 4 || (face[0] != face[2] && face[1] != face[3]);
+    const bool hasArea = !coversItself(face.data(), shape.faces[f].size);
     face = different(face);
     if (!hasArea || face.size() < 3)
     {

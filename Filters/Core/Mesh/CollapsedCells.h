@@ -28,8 +28,8 @@ namespace morph
 /// Cost: a pass, and that of repeatedCells().
 void recognizeCells(Mesh& mesh, Monitor& monitor);
 
-/// Lets the one of lowest id count of volume cells with the same corners. `ids`: #cells, all
-/// different. `mesh`: after recognizeCells(), joined of the pieces of several processes.
+/// Lets the one of lowest id count of volume cells with the same corners that still count. `ids`:
+/// #cells, all different. `mesh`: joined of pieces after recognizeCells().
 void keepFirstCopies(Mesh& mesh, const std::vector<std::int64_t>& ids, Monitor& monitor);
 
 /// Returns those of `cells` that name a corner more than once and are no closed shape, as corners

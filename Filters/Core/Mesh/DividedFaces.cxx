@@ -110,6 +110,10 @@ Adjacency nodesOfFaces(const Mesh& mesh, const BoundaryFaces& faces)
           between.push_back(place);
         }
       }
+      if (isOn && between.size() == 2 && between[0] == between[1])
+      {
+        continue; // in the middle of an edge without length
+      }
       if (isOn && between.size() == 2)
       {
         std::sort(between.begin(), between.end());

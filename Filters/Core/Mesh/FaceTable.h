@@ -28,9 +28,14 @@ struct FaceTable
   }
 };
 
+/// Whether a quadrilateral goes to a corner and back, and so covers itself.
+inline bool coversItself(const Index* corners, Index size)
+{
+  return size == 4 && (corners[0] == corners[2] || corners[1] == corners[3]);
+}
+
 /// Calls visit(nodes, size) for each face of a volume cell, with its corners, of which collapsed
-/// cells repeat some. Of a quadrilateral that goes to a corner and back, and so covers itself, two
-/// are visited. Other cells have none.
+/// cells repeat some. Of one that covers itself two are visited. Other cells have none.
 template <typename Visit>
 void forEachSide(const Mesh& mesh, Index cell, Visit&& visit)
 {
@@ -46,8 +51,7 @@ void forEachSide(const Mesh& mesh, Index cell, Visit&& visit)
     const FaceShape& face = shape->faces[f];
     std::transform(face.corner, face.corner + face.size, nodes,
       [&](int k) { return mesh.cell(cell)[shape->cornerNode[k]]; });
-    const bool isCovered = face.size == 4 && (nodes[0] == nodes[2] || nodes[1] == nodes[3]);
-    visit(nodes, isCovered ? 2 : face.size);
+    visit(nodes, coversItself(nodes, face.size) ? 2 : face.size);
   }
 }
 

@@ -24,21 +24,22 @@ namespace
 {
 constexpr Index NoNode = std::numeric_limits<Index>::max();
 
-/// Collects the distinct corner nodes of a face in its order, and returns their number. Collapsed
-/// hexahedra repeat some.
+/// Collects the distinct corner nodes of a face in its order, and returns their number: collapsed
+/// hexahedra repeat some. 0 for a face that covers itself.
 int faceNodes(const Mesh& mesh, Index cell, const CellShape& shape, int face, Index nodes[4])
 {
   const FaceShape& f = shape.faces[face];
+  Index all[4];
   int size = 0;
   for (int k = 0; k < f.size; ++k)
   {
-    const Index node = mesh.cell(cell)[shape.cornerNode[f.corner[k]]];
-    if (std::find(nodes, nodes + size, node) == nodes + size)
+    all[k] = mesh.cell(cell)[shape.cornerNode[f.corner[k]]];
+    if (std::find(nodes, nodes + size, all[k]) == nodes + size)
     {
-      nodes[size++] = node;
+      nodes[size++] = all[k];
     }
   }
-  return size;
+  return coversItself(all, f.size) ? 0 : size;
 }
 
 /// The key that two cells sharing a face agree on: its corner nodes, ascending, padded with NoNode.

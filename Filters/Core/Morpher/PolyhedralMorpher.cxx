@@ -223,8 +223,8 @@ private:
     if (!missing.empty())
     {
       sortUnique(missing);
-      throw Error("Nodes hang on curved faces of quadratic cells, on middle nodes that follow "
-                  "corners which an MPI process does not have: point ids " +
+      throw Error("Nodes hang on middle nodes of quadratic faces, which follow corners that an MPI "
+                  "process does not have: ids of these middle nodes " +
                   listIds(missing) + ". Run on one process.");
     }
     return result;

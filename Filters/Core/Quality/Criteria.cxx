@@ -127,29 +127,40 @@ public:
   {
     const CellShape& shape = *this->shape(cell);
     std::vector<Face> result;
-    const auto add = [&](const std::vector<Index>& nodes)
+    const auto add = [&](const std::vector<Index>& nodes, Index side)
     {
       Face face{ this->at(nodes), {}, {} };
       face.isWall = this->isWall_.empty() || std::all_of(nodes.begin(), nodes.end(),
                                                [this](Index node) { return this->isWall_[node]; });
       if (shape.dimension == 3 && !this->neighbor_.empty())
       {
-        face.neighbor = this->neighbor_[this->start_[cell] + static_cast<Index>(result.size())];
+        face.neighbor = this->neighbor_[this->start_[cell] + side];
       }
       setCenterAndArea(face);
       face.area *= this->sign(cell);
       result.push_back(std::move(face));
     };
-    if (shape.shape == Shape::Polyhedron || (this->isCollapsed(cell) && this->neighbor_.empty()))
+    if (hasFaces(this->mesh_, cell))
     {
-      forEachFace(this->mesh_, cell,
-        [&](const Index* nodes, Index size) { add(std::vector<Index>(nodes, nodes + size)); });
+      Index side = 0;
+      forEachSide(this->mesh_, cell,
+        [&](const Index* begin, Index size)
+        {
+          std::vector<Index> nodes; // a collapsed cell repeats some
+          std::copy_if(begin, begin + size, std::back_inserter(nodes),
+            [&](Index n) { return std::find(nodes.begin(), nodes.end(), n) == nodes.end(); });
+          if (nodes.size() > 2)
+          {
+            add(nodes, side);
+          }
+          ++side;
+        });
       return result;
     }
     const std::vector<Index> corner = this->cornerNodes(cell);
     if (shape.dimension == 2)
     {
-      add(corner);
+      add(corner, 0);
     }
     for (int f = 0; f < shape.numberOfFaces; ++f)
     {
@@ -157,7 +168,7 @@ public:
       std::vector<Index> nodes;
       std::transform(face.corner, face.corner + face.size, std::back_inserter(nodes),
         [&corner](int k) { return corner[k]; });
-      add(nodes);
+      add(nodes, f);
     }
     return result;
   }
@@ -345,14 +356,16 @@ double firstHeight(const CellGeometry& geometry, Index cell)
   return -most(geometry, cell,
     [&](const Face& face)
     {
-      double sum = 0;
+      double sum = 0, others = 0;
       for (const Vector& corner : x)
       {
-        const bool isOn = std::find(face.x.begin(), face.x.end(), corner) != face.x.end();
-        sum += isOn ? 0 : direction(face.area).dot(corner - face.center);
+        if (std::find(face.x.begin(), face.x.end(), corner) == face.x.end())
+        {
+          sum += direction(face.area).dot(corner - face.center);
+          ++others;
+        }
       }
-      return face.neighbor < 0 && face.isWall ? sum / static_cast<double>(x.size() - face.x.size())
-                                              : NaN;
+      return face.neighbor < 0 && face.isWall ? sum / others : NaN;
     });
 }
 }

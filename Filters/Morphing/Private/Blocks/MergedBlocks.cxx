@@ -33,6 +33,7 @@
 #include <vtkUnstructuredGrid.h>
 
 #include <algorithm>
+#include <deque>
 #include <iterator>
 #include <limits>
 #include <map>
@@ -96,10 +97,12 @@ double sizeOf(const std::vector<Part>& parts)
   return (high - low).norm();
 }
 
+/// On ranks parts that hang on others have none: they get those of the nodes at their places.
 std::vector<Index> idsOf(const Part& part, const MergedBlocks::Options& options)
 {
-  return options.ByIds ? BlockCells::GlobalIds(part.Data->GetPointData(), part.Mesh.numberOfNodes())
-                       : std::vector<Index>();
+  return options.ByIds && !(options.AreOnRanks && part.IsAttached)
+           ? BlockCells::GlobalIds(part.Data->GetPointData(), part.Mesh.numberOfNodes())
+           : std::vector<Index>();
 }
 
 SharedNodes numberNodes(
@@ -114,26 +117,33 @@ SharedNodes numberNodes(
   return nodes;
 }
 
-/// Whether one of the points that are on no node is next to one, as in a set whose coordinates are
-/// rounded.
-bool areRounded(
-  const std::vector<Part>& parts, const morph::Points& points, const std::vector<Index>& found)
+/// Tells sets whose coordinates are rounded: one of their points that are on no node is next to one.
+class Neighbors
 {
-  const double reach = 1e-6 * sizeOf(parts);
-  return std::any_of(parts.begin(), parts.end(),
-    [&](const Part& part)
+public:
+  bool AreRounded(
+    const std::vector<Part>& parts, const morph::Points& points, const std::vector<Index>& found)
+  {
+    while (this->Near.size() < parts.size())
     {
-      const morph::NearestNodes near(part.Mesh.points);
-      for (std::size_t i = 0; i < found.size(); ++i)
+      this->Near.emplace_back(parts[this->Near.size()].Mesh.points);
+    }
+    const double reach = 1e-6 * sizeOf(parts);
+    for (std::size_t i = 0; i < found.size(); ++i)
+    {
+      const auto isNext = [&](const morph::NearestNodes& near)
+      { return near.distance(points.row(static_cast<Index>(i))) <= reach; };
+      if (found[i] < 0 && std::any_of(this->Near.begin(), this->Near.end(), isNext))
       {
-        if (found[i] < 0 && near.distance(points.row(static_cast<Index>(i))) <= reach)
-        {
-          return true;
-        }
+        return true;
       }
-      return false;
-    });
-}
+    }
+    return false;
+  }
+
+private:
+  std::deque<morph::NearestNodes> Near; ///< of each part
+};
 
 /// Blocks of lower dimension, such as shells and beams, become parts of the mesh where they hang on
 /// it by some of their points, and so on with those that hang on these. A block that is on it with
@@ -141,6 +151,7 @@ bool areRounded(
 void attachParts(const std::vector<Leaves::Leaf>& leaves, const MergedBlocks::Options& options,
   SharedNodes& nodes, std::vector<Part>& parts, MergedBlocks& merged)
 {
+  Neighbors neighbors;
   for (bool isAny = options.Merges; isAny;)
   {
     isAny = false;
@@ -156,10 +167,17 @@ void attachParts(const std::vector<Leaves::Leaf>& leaves, const MergedBlocks::Op
       const morph::Points points = BlockCells::ReadPoints(data);
       const std::vector<Index> found = nodes.Find({ points, {} });
       const auto missing = std::count(found.begin(), found.end(), -1);
-      block.MayHang = missing == 0 || !areRounded(parts, points, found);
-      const bool hangs = options.AreOnRanks ? options.Attached.count(leaves[i].Path) > 0
-                                            : missing > 0 && missing < points.rows();
-      if (!hangs || !block.MayHang)
+      bool hangs = missing > 0 && missing < points.rows();
+      if (options.AreOnRanks) // all have to choose alike
+      {
+        hangs = options.Attached.count(leaves[i].Path) > 0;
+        block.MayHang = missing == 0 || hangs || !neighbors.AreRounded(parts, points, found);
+      }
+      else
+      {
+        hangs = hangs && !neighbors.AreRounded(parts, points, found);
+      }
+      if (!hangs)
       {
         continue;
       }
@@ -538,13 +556,12 @@ MergedBlocks MergedBlocks::Make(vtkDataObjectTree* tree, const Options& options)
   merged.Grid->GetFieldData()->ShallowCopy(tree->GetFieldData());
   const std::vector<Leaves::Leaf> leaves = Leaves::Of(tree);
   std::vector<Part> parts = readParts(leaves, options, merged);
+  SharedNodes nodes = numberNodes(parts, options, merged);
+  attachParts(leaves, options, nodes, parts, merged);
   if (parts.empty())
   {
     return merged;
   }
-
-  SharedNodes nodes = numberNodes(parts, options, merged);
-  attachParts(leaves, options, nodes, parts, merged);
   Options chosen = options;
   merged.Contradiction = nodes.Contradiction(1e-6 * sizeOf(parts));
   if (merged.Contradiction)

@@ -31,7 +31,7 @@ struct MergedBlocks
     /// Of each cell, where the block is on the mesh but no part of it: the mesh's cells that have
     /// all of its points.
     std::vector<std::vector<morph::Index>> Behind;
-    /// On ranks: of lines or faces, none of whose points is next to a node, as rounded ones are.
+    /// On ranks, of lines or faces: none of their points that are on no node is next to one.
     bool MayHang = false;
   };
   struct Options

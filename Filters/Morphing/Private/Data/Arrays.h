@@ -20,8 +20,8 @@ vtkSmartPointer<Array> Make(const char* name, vtkIdType tuples = 0, int componen
   return array;
 }
 
-/// Adds an array in place of one of its name, which may have been active: as tensors, say. With
-/// other components than that it is not.
+/// Adds an array in place of one of its name, which may have been active: as tensors, say. An array
+/// with another number of components is not active then.
 inline void Add(vtkAbstractArray* array, vtkDataSetAttributes* to)
 {
   vtkAbstractArray* before = to->GetAbstractArray(array->GetName());

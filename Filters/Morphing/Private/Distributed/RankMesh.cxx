@@ -110,8 +110,9 @@ bool RankMesh::Take(
   }
   const morph::Index cells = whole->pieceCells();
   this->Skip.assign(whole->isGhost().begin(), whole->isGhost().begin() + cells);
-  const auto dimension = [this](morph::Index c)
-  { return GridMesh::Dimension(this->Copy.types[c]); };
+  // Of the whole mesh, in which one of several copies of a cell counts.
+  const auto dimension = [&whole](morph::Index c)
+  { return GridMesh::Dimension(whole->mesh().types[c]); };
   morph::Index highest = 0;
   for (morph::Index c = 0; c < cells; ++c)
   {

@@ -195,7 +195,7 @@ MergedBlocks Make(vtkDataObjectTree* tree, MergedBlocks::Options given)
 
   const RankSets sets{ ranks, leaves, numbers, static_cast<Index>(allPaths.size()), places };
   const std::vector<Index> hanging = sets.Follow(options.ByIds, merged, warnings);
-  if (given.Merges && !hanging.empty()) // others may hang on these
+  if (!hanging.empty()) // others may hang on these
   {
     for (const Index block : hanging)
     {
