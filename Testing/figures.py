@@ -113,6 +113,10 @@ class Figures(unittest.TestCase):
         self.assertIn(f"The packages are {data[0]['download_MB']} MB to download and "
                       f"{int(data[0]['disk_MB']) / 1000:.1f} GB on the disk of a bare Debian 12",
                       prose("README.md"))
+        minutes, = rows(RESULTS / "install-minutes.csv")
+        self.assertIn(f"take {float(minutes['install_minutes']):.0f} minutes. The build takes "
+                      f"{float(minutes['build_processor_minutes']):.0f} minutes of processor time",
+                      prose("README.md"))
 
     def test_minima_by_method(self):
         data = {(r["model"], r["kind"], r["method"]): r for r in rows(STUDY / "results.csv")
