@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Morph Adjoint on MPI ranks, against one process and finite differences.
+#include "MeshKinds.h"
 #include "Meshes.h"
 #include "Pieces.h"
 #include "RankGrids.h"
@@ -153,6 +154,11 @@ TEST(RankAdjoint, AgreesWithTheSerialOne)
     compare<vtkFEMWarpMorph>(ranks, mesh);
     compare<vtkLBWarpMorph>(ranks, mesh);
     compare<vtkRadialBasisMorph>(ranks, mesh);
+  }
+  for (const meshes::Kind& kind : meshes::kinds())
+  {
+    SCOPED_TRACE(kind.name);
+    compare<vtkFEMWarpMorph>(ranks, kind.mesh);
   }
 }
 

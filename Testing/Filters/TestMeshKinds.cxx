@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Kinds of cells and nodes of engineers' meshes in all that morphs or measures a mesh.
+#include "MeshKinds.h"
 #include "MorphFilters.h"
-#include "Octree.h"
-#include "PolyhedralMeshes.h"
 #include "TestGrids.h"
 
 #include "vtkCompareMorphMethods.h"
@@ -19,76 +18,15 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <ostream>
 #include <set>
 
 namespace
 {
 using grids::Row;
 using morph::Index;
-using morph::Mesh;
 using morph::Points;
 
-struct Kind
-{
-  std::string name;
-  Mesh mesh;
-  Index turned = 0; ///< nodes that turn about others, and do not move affinely; the last ones
-};
-
-std::ostream& operator<<(std::ostream& stream, const Kind& kind)
-{
-  return stream << kind.name;
-}
-
-/// Tetrahedra that are hexahedra I J K K M M M M.
-Mesh asHexahedra(const Mesh& tets)
-{
-  Mesh mesh;
-  mesh.points = tets.points;
-  for (Index c = 0; c < tets.numberOfCells(); ++c)
-  {
-    const Index* n = tets.cell(c);
-    mesh.add(morph::Hexahedron, { n[0], n[1], n[2], n[2], n[3], n[3], n[3], n[3] });
-  }
-  return mesh;
-}
-
-/// A box with a beam that stands on its top.
-Mesh withBeam()
-{
-  Mesh mesh = meshes::hexes(3, 3, 3);
-  const Index tip = mesh.numberOfNodes();
-  mesh.points.conservativeResize(tip + 1, 3);
-  mesh.points.row(tip) << 1, 1, 4;
-  mesh.add(morph::Line, { 53, tip }); // from (1, 1, 3)
-  return mesh;
-}
-
-std::vector<Kind> kinds()
-{
-  using morph::Hexahedron;
-  const Mesh tets = meshes::tets(3, 3, 3), hexes = meshes::hexes(3, 3, 3),
-             wedges = meshes::wedges(3, 3, 3);
-  const auto between = [](const Mesh& mesh, std::uint8_t type, Index nodes) {
-    return meshes::withNodesBetween(mesh, { { mesh.types[0], { type, nodes } } });
-  };
-  return { { "TetrahedraAsHexahedra", asHexahedra(tets) },
-    { "SevenCorners", meshes::collapsed({ Hexahedron, 8 }) },
-    { "SevenCornersOf20", meshes::collapsed({ morph::QuadraticHexahedron, 20 }) },
-    { "SevenCornersOf27", meshes::collapsed({ morph::TriquadraticHexahedron, 27 }) },
-    { "AttachedBeam", withBeam(), 1 }, { "OneLayer", meshes::hexes(3, 3, 1) },
-    { "Octree", meshes::Octree(5, 1).mesh }, { "QuadraticOctree", meshes::Octree(5, 2).mesh },
-    { "Hexahedra20", between(hexes, morph::QuadraticHexahedron, 20) },
-    { "Hexahedra27", between(hexes, morph::TriquadraticHexahedron, 27) },
-    { "Wedges18", between(wedges, morph::BiquadraticQuadraticWedge, 18) },
-    { "Tetrahedra10", between(tets, morph::QuadraticTetra, 10) },
-    { "Tetrahedra15", between(tets, morph::LagrangeTetrahedron, 15) },
-    { "Lagrange", between(hexes, morph::LagrangeHexahedron, 64) },
-    { "Bezier", between(wedges, morph::BezierWedge, 18) } };
-}
-
-class MeshKinds : public testing::TestWithParam<Kind>
+class MeshKinds : public testing::TestWithParam<meshes::Kind>
 {
 protected:
   const vtkSmartPointer<vtkUnstructuredGrid> Grid = grids::make(GetParam().mesh);
@@ -208,5 +146,5 @@ TEST_P(MeshKinds, AreMeasuredAndCertified)
   EXPECT_EQ(isSaid, morph->GetUndecidedCells() > 0);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, MeshKinds, testing::ValuesIn(kinds()),
-  [](const testing::TestParamInfo<Kind>& kind) { return kind.param.name; });
+INSTANTIATE_TEST_SUITE_P(All, MeshKinds, testing::ValuesIn(meshes::kinds()),
+  [](const testing::TestParamInfo<meshes::Kind>& kind) { return kind.param.name; });
