@@ -14,6 +14,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 
 namespace
@@ -119,6 +120,40 @@ TEST(BoundaryMover, AllSidesAtAPlaceMoveWhateverTheirNumbersAre)
     const Points moved = mover.move(model, choice, targets, {}, nullptr, monitor).moved;
     EXPECT_EQ(moved.row(old + 2 - held), targets.row(0)) << held;
     EXPECT_EQ(moved.row(old + held - 1), model.points().row(edge)) << held;
+  }
+}
+
+TEST(BoundaryMover, NodesOfACracksFrontFollowTogether)
+{
+  // Six wedges around the z axis as hexahedra, each of which has nodes of its own there.
+  morph::Monitor monitor;
+  morph::Mesh mesh;
+  mesh.points.resize(48, 3);
+  for (Index i = 0; i < 6; ++i)
+  {
+    for (Index k = 0; k < 4; ++k)
+    {
+      const double phi = M_PI / 3 * static_cast<double>(i), z = static_cast<double>(k);
+      mesh.points.row(8 * i + 2 * k) << 0, 0, z;
+      mesh.points.row(8 * i + 2 * k + 1) << std::cos(phi), std::sin(phi), z;
+    }
+    for (Index k = 0; k < 3; ++k)
+    {
+      const Index a = 8 * i + 2 * k, b = 8 * ((i + 1) % 6) + 2 * k;
+      mesh.add(morph::Hexahedron, { a, a + 1, b + 1, b, a + 2, a + 3, b + 3, b + 2 });
+    }
+  }
+  const BoundaryModel model = modelOf(mesh);
+  Choice choice;
+  choice.moving = { 7 }; // on the rim of the top
+  choice.isMovingFace.resize(model.faces.cells.size(), 0);
+  const Points targets = model.points().row(7) + Row(0.1, 0.2, 0.1);
+  BoundaryMover mover;
+  const Points moved = mover.move(model, choice, targets, {}, nullptr, monitor).moved;
+  EXPECT_GT((moved.row(6) - model.points().row(6)).norm(), 1e-3);
+  for (Index i = 1; i < 6; ++i)
+  {
+    EXPECT_LT((moved.row(8 * i + 6) - moved.row(6)).norm(), 1e-12) << i;
   }
 }
 

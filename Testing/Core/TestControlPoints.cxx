@@ -44,7 +44,7 @@ Row wave(const Row& x)
   return { std::sin(2 * x[0]), std::cos(3 * x[1] + x[2]), x[0] * x[1] };
 }
 
-Row affineDisplacement(const Row& x)
+Row affineStep(const Row& x)
 {
   return motions::affine(x) - x;
 }
@@ -140,8 +140,8 @@ TEST(HandleMotion, OfAnAffineMotionIsAffine)
   {
     Points handles(4 + count, 3);
     handles << four + randomPoints(4, -0.3, 0.3), randomPoints(count, -1, 1);
-    const HandleMotion motion(handlesAt(handles, affineDisplacement));
-    EXPECT_LT(motions::difference(at(motion, places), valuesAt(places, affineDisplacement)), 1e-10);
+    const HandleMotion motion(handlesAt(handles, affineStep));
+    EXPECT_LT(motions::difference(at(motion, places), valuesAt(places, affineStep)), 1e-10);
   }
 }
 
@@ -212,14 +212,13 @@ TEST(LatticeMotion, OfAnAffineMotionIsAffineInside)
       { std::array<int, 3>{ 2, 3, 4 }, { 5, 2, 9 }, { 3, 3, 3 }, { 2, 2, 30 } })
     {
       LatticeMotion lattice = latticeOf(basis, size);
-      lattice.controlDisplacements = valuesAt(lattice.controlPoints(), affineDisplacement);
+      lattice.controlDisplacements = valuesAt(lattice.controlPoints(), affineStep);
       Points places =
         (units.array().rowwise() * (lattice.high - lattice.low).array()).matrix().rowwise() +
         lattice.low;
       places.row(0) = lattice.low;
       places.row(1) = lattice.high;
-      EXPECT_LT(
-        motions::difference(at(lattice, places), valuesAt(places, affineDisplacement)), 1e-10 * 7);
+      EXPECT_LT(motions::difference(at(lattice, places), valuesAt(places, affineStep)), 1e-10 * 7);
     }
   }
 }
@@ -279,10 +278,10 @@ TEST(LatticeMotion, OfAFlatBoxMovesItsPlane)
 {
   LatticeMotion lattice = latticeOf(Bernstein, { 3, 3, 2 });
   lattice.high[2] = lattice.low[2] = 4;
-  lattice.controlDisplacements = valuesAt(lattice.controlPoints(), affineDisplacement);
+  lattice.controlDisplacements = valuesAt(lattice.controlPoints(), affineStep);
   Points places(2, 3);
   places << 0, 2.25, 4, 0, 2.25, 4.1;
   const Points values = at(lattice, places);
-  EXPECT_LT((values.row(0) - affineDisplacement(places.row(0))).norm(), 1e-13);
+  EXPECT_LT((values.row(0) - affineStep(places.row(0))).norm(), 1e-13);
   EXPECT_EQ(values.row(1), Row(0, 0, 0));
 }

@@ -87,7 +87,7 @@ motions::Map inPlane(const motions::Map& map)
   };
 }
 
-Row bent(const Row& x)
+Row curled(const Row& x)
 {
   return Row(x[0] + 0.3 * x[1] * x[1], x[1] - 0.2 * x[0] * x[1], 0);
 }
@@ -202,28 +202,28 @@ void expectTranspose(
     << method.name;
 }
 
-class ShellLayer : public testing::TestWithParam<const char*>
+class ShellLayers : public testing::TestWithParam<const char*>
 {
 protected:
   Shell layer{ mappedSquare(GetParam(), turned) };
 };
-INSTANTIATE_TEST_SUITE_P(Cells, ShellLayer, testing::Values("quads", "triangles", "mixed"),
+INSTANTIATE_TEST_SUITE_P(Cells, ShellLayers, testing::Values("quads", "triangles", "mixed"),
   [](const auto& info) { return std::string(info.param); });
 }
 
-TEST_P(ShellLayer, OnlyItsSidesAreBoundary)
+TEST_P(ShellLayers, OnlyItsSidesAreBoundary)
 {
   const morph::BoundaryFaces faces = morph::boundaryFaces(layer.mesh, layer.monitor);
   EXPECT_EQ(faces.cells.size(), 4u * Boxes);
   EXPECT_EQ(faces.nodes.size(), 8u * Boxes);
 }
 
-TEST_P(ShellLayer, CellsHaveTheQualityOfTheirFaces)
+TEST_P(ShellLayers, CellsHaveTheQualityOfTheirFaces)
 {
   expectQualityOfFaces(layer);
 }
 
-TEST_P(ShellLayer, LinearMethodsAreExactForAffineMotionsAndKeepThePlane)
+TEST_P(ShellLayers, LinearMethodsAreExactForAffineMotionsAndKeepThePlane)
 {
   const auto affine =
     inPlane([](const Row& x) { return Row(1.3 * x[0] + 0.4 * x[1] + 1, 0.8 * x[1] - 2, 0); });
@@ -235,14 +235,14 @@ TEST_P(ShellLayer, LinearMethodsAreExactForAffineMotionsAndKeepThePlane)
     EXPECT_LT(
       motions::difference(layer.moved(*made, affine), motions::mapped(layer.mesh.points, affine)),
       1e-12);
-    const Points moved = layer.moved(*made, inPlane(bent));
+    const Points moved = layer.moved(*made, inPlane(curled));
     EXPECT_LT(offPlane(layer.front(moved)), 1e-14);
     const Points motion = moved - layer.mesh.points;
     EXPECT_LT(motions::difference(motion.topRows(nodes), motion.middleRows(nodes, nodes)), 1e-14);
   }
 }
 
-TEST_P(ShellLayer, TransposesBelongToTheMethods)
+TEST_P(ShellLayers, TransposesBelongToTheMethods)
 {
   std::mt19937 random(meshes::seed());
   std::normal_distribution<double> normal;
@@ -256,7 +256,7 @@ TEST_P(ShellLayer, TransposesBelongToTheMethods)
   }
 }
 
-TEST_P(ShellLayer, TangledMeshesAreUntangledInThePlane)
+TEST_P(ShellLayers, TangledMeshesAreUntangledInThePlane)
 {
   morph::FemWarp warp;
   morph::InversionFree free;
@@ -266,12 +266,12 @@ TEST_P(ShellLayer, TangledMeshesAreUntangledInThePlane)
   EXPECT_LT(offPlane(layer.front(moved)), 1e-14);
 }
 
-TEST(ShellLayer, FemWarpIsTheMembraneOfCotangents)
+TEST(ShellLayers, FemWarpIsTheMembraneOfCotangents)
 {
   Shell layer(mappedSquare("triangles", turned));
   morph::FemWarp warp;
   warp.setTolerance(1e-14);
-  const Points moved = layer.moved(warp, inPlane(bent));
+  const Points moved = layer.moved(warp, inPlane(curled));
   // Each free node is the mean of its neighbors by the cotangents of the angles that face the edge.
   const Points motion = moved - layer.mesh.points;
   const Points force = cotangentForces(layer.faces, motion);
@@ -282,7 +282,7 @@ TEST(ShellLayer, FemWarpIsTheMembraneOfCotangents)
 }
 
 // The simplex methods refuse curved shells.
-TEST(ShellLayer, NodesOffThePlaneOfTheFacesBendNothing)
+TEST(ShellLayers, NodesOffThePlaneOfTheFacesBendNothing)
 {
   Mesh plane = square("quads");
   const Index end = plane.numberOfNodes();
@@ -307,7 +307,7 @@ TEST(ShellLayer, NodesOffThePlaneOfTheFacesBendNothing)
   }
 }
 
-TEST(ShellLayer, OtherCellsAndCellsWithoutAreaAreRefused)
+TEST(ShellLayers, OtherCellsAndCellsWithoutAreaAreRefused)
 {
   Mesh other = square("quads");
   meshes::add(other, morph::Polygon, { 0, 1, 2, 9, 8 });
@@ -603,7 +603,7 @@ TEST(CurvedShell, FemWarpIsTheMembraneOfCotangentsBesideTheAffinePart)
   Shell shell = openShell("triangles");
   morph::FemWarp warp;
   warp.setTolerance(1e-14);
-  const Points moved = shell.front(shell.moved(warp, bent));
+  const Points moved = shell.front(shell.moved(warp, curled));
   const Points& x = shell.faces.points;
   std::vector<Index> edge;
   for (const Index node : shell.partition.prescribed)

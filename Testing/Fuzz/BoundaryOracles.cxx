@@ -317,7 +317,7 @@ Finding checkSlit(const Case& made, vtkPointSet* output, vtkDataArray* roles, vt
     output->GetPoint(pointOf.at(node), x.data());
     output->GetPoint(pointOf.at(copy), y.data());
     const auto isMoved = [](double r) { return r == 1 || r == 3; };
-    if ((role == 1 || other == 1) && isMoved(role) && isMoved(other) &&
+    if (isMoved(role) && isMoved(other) &&
         (x - y).cwiseAbs().maxCoeff() > 10 * roundingOf(output, x))
     {
       return { "slit", nodeText(node) + " parts from node " + std::to_string(copy) };

@@ -173,6 +173,23 @@ bool TouchingNodes::addOtherSides(const BoundaryModel& model, const Surroundings
   return true;
 }
 
+void TouchingNodes::joinFollowing(Surroundings::Result& result) const
+{
+  for (std::size_t place = 0; place + 1 < this->sides_.offsets.size(); ++place)
+  {
+    const Index* begin = this->sides_.begin(static_cast<Index>(place));
+    const Index* end = this->sides_.end(static_cast<Index>(place));
+    if (std::all_of(begin, end, [&](Index n) { return result.roles[n] == Surroundings::Follows; }))
+    {
+      const Eigen::RowVector3d first = result.moved.row(*begin); // equal places stay, bit by bit
+      Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
+      std::for_each(begin, end, [&](Index n) { sum += result.moved.row(n) - first; });
+      std::for_each(begin, end,
+        [&](Index n) { result.moved.row(n) = first + sum / static_cast<double>(end - begin); });
+    }
+  }
+}
+
 void TouchingNodes::warnOfParted(
   const BoundaryModel& model, const Surroundings::Result& result, Monitor& monitor) const
 {
@@ -263,6 +280,7 @@ const Surroundings::Result& BoundaryMover::move(const BoundaryModel& model, cons
             model, chosen, places, options.rest, spreading, std::move(result));
         }
       }
+      this->touching_.joinFollowing(result);
     });
   if (hasInner)
   {

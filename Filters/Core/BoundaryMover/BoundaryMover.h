@@ -34,6 +34,9 @@ public:
   /// that slides or is free. Returns whether there are some.
   bool addOtherSides(const BoundaryModel& model, const Surroundings::Options& rest, Choice& choice,
     Points& targets) const;
+  /// Takes the sides of a place to the mean of theirs if all of them follow what moves: those of a
+  /// crack's front, or of a baffle, would part if each followed its own surface.
+  void joinFollowing(Surroundings::Result& result) const;
   /// Warns of nodes that the motion parts from those of other bodies, by more than rounding: their
   /// number, the surfaces of both and the largest distance.
   void warnOfParted(

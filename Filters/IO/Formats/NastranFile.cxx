@@ -6,6 +6,8 @@
 #include "Formats/NastranCard.h"
 #include "Formats/Numbering.h"
 #include "Formats/TextFile.h"
+#include "Support/Error.h"
+#include "Text/NumberText.h"
 
 #include <algorithm>
 #include <array>
