@@ -113,6 +113,10 @@ class Figures(unittest.TestCase):
         self.assertIn(f"The packages are {data[0]['download_MB']} MB to download and "
                       f"{int(data[0]['disk_MB']) / 1000:.1f} GB on the disk of a bare Debian 12",
                       prose("README.md"))
+        minutes, = rows(RESULTS / "install-minutes.csv")
+        self.assertIn(f"take {float(minutes['install_minutes']):.0f} minutes. The build takes "
+                      f"{float(minutes['build_processor_minutes']):.0f} minutes of processor time",
+                      prose("README.md"))
 
     def test_minima_by_method(self):
         data = {(r["model"], r["kind"], r["method"]): r for r in rows(STUDY / "results.csv")
@@ -126,6 +130,23 @@ class Figures(unittest.TestCase):
                         row = data[model, kind, method]
                         self.assertEqual(shown[0] == "(", int(row["inverted"]) > 0)
                         self.check(shown, row["inverted" if shown[0] == "(" else "minimum"])
+
+    def test_the_papers_variants(self):
+        data = {(r["model"], r["kind"]): r for r in rows(STUDY / "variants.csv")}
+        found = table("Study.md", "| model | hexahedra, ours")
+        self.assertEqual([cells[0] for cells in found], list(MODELS))
+        columns = [(kind, start) for kind in ("hex", "tet")
+                   for start in ("smoothing", "undeformed")]
+        for model, *cells in found:
+            for (kind, start), shown in zip(columns, cells, strict=True):
+                with self.subTest(model=model, kind=kind, start=start):
+                    row = data[model, kind]
+                    self.assertEqual(shown[0] == "(", row[start + "_inverted"] != "0")
+                    self.check(shown, row[start + ("_inverted" if shown[0] == "(" else "_minimum")])
+        self.assertIn("ties give the same minima on all small meshes", prose("Study.md"))
+        for key, row in data.items():
+            with self.subTest(mesh=key):
+                self.assertEqual({row["ties_lowest"], row["ties_highest"]}, {row["linear_minimum"]})
 
     def test_seconds_by_method(self):
         data = {(r["model"], r["kind"], r["method"]): r for r in rows(STUDY / "timing.csv")
