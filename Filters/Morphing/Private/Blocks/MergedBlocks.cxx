@@ -117,7 +117,7 @@ SharedNodes numberNodes(
   return nodes;
 }
 
-/// Tells sets whose coordinates are rounded: one of their points that are on no node is next to one.
+/// Tells sets whose coordinates are rounded: a point of theirs is next to a node, but not on it.
 class Neighbors
 {
 public:
