@@ -178,7 +178,7 @@ void SiteMethod::doPrepare(const Mesh& rest, Monitor& monitor)
   points.points << sites, rest.points(free, allColumns);
   NodePartition partition;
   partition.prescribed = consecutive(sites.rows());
-  partition.free = consecutive(own, sites.rows());
+  partition.free = consecutive<Index>(own, sites.rows());
   this->serial_ = this->method_->copyWithoutCells();
   if (bodies.count > 1)
   {
