@@ -121,10 +121,11 @@ void freeFields(
     fields.push_back(field);
     begin = comma + 1;
   }
+  const std::size_t end = fields.back().span.end;
   NumberField beyond;
-  beyond.place.begin = fields.back().span.end;
+  beyond.span = { end, end };
+  beyond.place.begin = end;
   beyond.place.missing = 1;
-  beyond.span = { beyond.place.begin, beyond.place.begin };
   fields.resize(std::max(least, fields.size()), beyond);
 }
 
