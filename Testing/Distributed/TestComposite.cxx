@@ -205,7 +205,7 @@ TEST(RankComposite, AllMethodsMoveBlocksAsOnOneRank)
         {
           most = std::max(most, (x - grids::affine(rest.at(number))).norm());
         }
-        EXPECT_LT(ranks.maximum(most), 1e-10);
+        EXPECT_LT(ranks.maximum(most), 1e-12);
       }
     }
   }

@@ -58,7 +58,7 @@ TEST(DistributedFilters, PrepareOnceAndTellAllRanksTheSame)
   EXPECT_LT((grids::points(filter->GetOutput()) - grids::mapped(grids::points(grid), grids::affine))
               .cwiseAbs()
               .maxCoeff(),
-    1e-9);
+    1e-12);
 }
 
 TEST(DistributedFilters, AMirroredBodyIsNamedByItsFirstCellOfAllRanks)
@@ -104,7 +104,7 @@ TEST(DistributedFilters, ShellsFollowTheVolumeAcrossRanks)
   EXPECT_LT((grids::points(filter->GetOutput()) - grids::mapped(grids::points(grid), rigid))
               .cwiseAbs()
               .maxCoeff(),
-    1e-9);
+    1e-12);
 }
 
 TEST(DistributedFilters, OfCellsThatTwoRanksHaveOneIsMeasured)

@@ -247,7 +247,7 @@ TEST(DistributedMethods, ReproduceAffineMotions)
   {
     for (auto& [method, serial] : methods())
     {
-      EXPECT_LT(difference(ranks, whole, std::move(serial), affine, true), 1e-10)
+      EXPECT_LT(difference(ranks, whole, std::move(serial), affine, true), 1e-12)
         << method << ", " << name;
     }
   }
