@@ -297,7 +297,8 @@ Finding checkBodies(const Case& made, vtkPointSet* output, vtkDataArray* roles, 
   return {};
 }
 
-/// The sides of a slit part only if one of them is held, free, in a zone or a layer.
+/// The sides of a slit part only if one of them is held, free, in a zone or a layer, or slides,
+/// which wins over what it is to do.
 Finding checkSlit(const Case& made, vtkPointSet* output, vtkDataArray* roles, vtkDataArray* ids)
 {
   std::map<Index, vtkIdType> pointOf;
@@ -317,7 +318,9 @@ Finding checkSlit(const Case& made, vtkPointSet* output, vtkDataArray* roles, vt
     output->GetPoint(pointOf.at(node), x.data());
     output->GetPoint(pointOf.at(copy), y.data());
     const auto isMoved = [](double r) { return r == 1 || r == 3; };
-    if (isMoved(role) && isMoved(other) &&
+    const bool maySlide = made.choices.value("property.SlideRounds") != 0 ||
+                          (made.choices.value("with.surfaces") != 0 && role + other != 6);
+    if (isMoved(role) && isMoved(other) && !maySlide &&
         (x - y).cwiseAbs().maxCoeff() > 10 * roundingOf(output, x))
     {
       return { "slit", nodeText(node) + " parts from node " + std::to_string(copy) };

@@ -414,7 +414,8 @@ Finding checkKnown(const Case& made, vtkPointSet* output, vtkDataArray* ids, con
   const Known& known = made.grid.known;
   const morph::Points& rest = made.grid.mesh.points;
   if (!known.isAny() || made.grid.isShell() || !made.grid.isAsMesh || isFloat(output) ||
-      !run.errors.empty() || made.choices.value("hostile.grid") != 0)
+      !run.errors.empty() || made.choices.value("hostile.grid") != 0 ||
+      made.choices.value("grid.points") == 2) // whole numbers
   {
     return {};
   }
