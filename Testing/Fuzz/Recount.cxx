@@ -295,8 +295,9 @@ Recount recount(const Mesh& mesh, const Points& reference, const Points& points,
       found.most *= -1;
     }
     const morph::CellShape& shape = *morph::cellShape(mesh.types[c]);
-    const bool isQuadratic = shape.numberOfNodes > shape.numberOfCorners;
-    if (isQuadratic)
+    const bool isMore =
+      shape.numberOfNodes > shape.numberOfCorners || morph::hasFaces(mesh, c); // than its corners
+    if (isMore)
     {
       // Between its corners it is another cell: valid where they are not, and the other way round.
       result.bad[c] = -1;
