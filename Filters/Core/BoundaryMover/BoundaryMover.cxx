@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <map>
 #include <sstream>
 #include <string>
 #include <tuple>
@@ -175,43 +176,35 @@ bool TouchingNodes::addOtherSides(const BoundaryModel& model, const Surroundings
 
 void TouchingNodes::joinFollowing(const BoundaryModel& model, Surroundings::Result& result) const
 {
-  std::vector<std::uint8_t> isJoined(result.roles.size(), 0);
-  Points change; // of the nodes' positions
+  const auto follows = [&](Index n) { return result.roles[n] == Surroundings::Follows; };
+  std::map<Index, Eigen::RowVector3d> change; // of joined nodes
   for (std::size_t place = 0; place + 1 < this->sides_.offsets.size(); ++place)
   {
     const Index* begin = this->sides_.begin(static_cast<Index>(place));
     const Index* end = this->sides_.end(static_cast<Index>(place));
-    if (std::any_of(begin, end, [&](Index n) { return result.roles[n] != Surroundings::Follows; }))
+    if (!std::all_of(begin, end, follows))
     {
       continue;
     }
-    change = change.rows() > 0 ? change : Points(Points::Zero(result.moved.rows(), 3));
     const Eigen::RowVector3d first = result.moved.row(*begin); // equal places stay, bit by bit
     Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
     std::for_each(begin, end, [&](Index n) { sum += result.moved.row(n) - first; });
+    const Eigen::RowVector3d mean = first + sum / static_cast<double>(end - begin);
     for (const Index* n = begin; n != end; ++n)
     {
-      isJoined[*n] = 1;
-      change.row(*n) = first + sum / static_cast<double>(end - begin) - result.moved.row(*n);
+      change[*n] = mean - result.moved.row(*n);
+      result.moved.row(*n) = mean;
     }
   }
-  if (change.rows() == 0)
+  for (std::size_t i = 0; i < model.faces.nodes.size() && !change.empty(); ++i)
   {
-    return;
-  }
-  for (std::size_t i = 0; i < model.faces.nodes.size(); ++i)
-  {
-    const Index node = model.faces.nodes[i], k = static_cast<Index>(i);
-    const bool isBetween = model.faces.between.begin(k) != model.faces.between.end(k);
-    if (isBetween && isJoined[node] == 0 && result.roles[node] == Surroundings::Follows)
+    const Index node = model.faces.nodes[i];
+    if (follows(node) && change.count(node) == 0)
     {
-      change.row(node) = meanBetween(
-        model.faces, k, model.points(), [&](Index corner) { return change.row(corner); });
+      result.moved.row(node) += meanBetween(model.faces, static_cast<Index>(i), model.points(),
+        [&](Index corner)
+        { return change.count(corner) > 0 ? change[corner] : Eigen::RowVector3d::Zero(); });
     }
-  }
-  for (const Index node : model.faces.nodes)
-  {
-    result.moved.row(node) += change.row(node);
   }
 }
 
